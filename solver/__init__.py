@@ -1,0 +1,23 @@
+"""Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi."""
+
+from .backends import DEVICES
+from .errors import CubicCraftError
+from .rest_mesh import RestMesh, rest_mesh
+from .setup import Setup
+from .stop_rule import StopRule
+from .stylization import Energy, Stylization
+from .stylize import Result, run, stylize
+
+__all__ = [
+    "DEVICES",
+    "CubicCraftError",
+    "Energy",
+    "RestMesh",
+    "Result",
+    "Setup",
+    "StopRule",
+    "Stylization",
+    "rest_mesh",
+    "run",
+    "stylize",
+]

@@ -1,0 +1,116 @@
+"""The local step in NumPy: runs everywhere, and is what the tests compare Taichi with."""
+
+import numpy as np
+
+from ..rotation_fit import fit_rotations, orthonormalize
+
+
+class NumpyLocalStep:
+    """Rotations from positions, and the right-hand side of the global step from rotations.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    lam : (n,) float64 array
+        Cubeness per vertex.
+    Q : (n,3,3) or (1,3,3) float64 array
+        Orientation of the cube: maps a vector into the cube's frame.
+    options : AdmmOptions
+
+    Attributes
+    ----------
+    R : (n,3,3) array
+        Rotations, the identity at first.
+    """
+
+    device = "numpy"
+    compile_seconds = 0.0
+
+    def __init__(self, rest, lam, Q, options):
+        self._rest = rest
+        self._lam = lam
+        self._Q = np.broadcast_to(Q, (len(lam), 3, 3))
+        self._options = options
+        matrices = rest.matrices
+        self._laplacian = matrices.matrix(matrices.laplacian)
+        self._gather = [matrices.matrix(matrices.gather[:, c]) for c in range(3)]
+        self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
+        self._area_scale = area_scale(rest.areas)
+        self._rest_quadratic = 1.5 * float((rest.V * (self._laplacian @ rest.V)).sum())
+        n = len(rest.V)
+        self.R = np.tile(np.eye(3), (n, 1, 1))
+        self._z = np.einsum("nij,nj->ni", self._Q, rest.normals)
+        self._u = np.zeros((n, 3))
+        self._rho = np.full(n, options.rho_start)
+
+    def update(self, U):
+        """Fit all rotations to the positions U (n,3); return the (ARAP, cubic) energies of both."""
+        S = np.stack([H @ U for H in self._gather], axis=1)
+        S_scaled = S / self._area_scale[:, None, None]
+        last = orthonormalize(self.R)
+        self.R = self._fit(S_scaled, last)
+        worse = self._objective(self.R, S_scaled) > self._objective(last, S_scaled)
+        self.R[worse] = last[worse]  # so that no iteration raises the energy
+        quadratic = 1.5 * float((U * (self._laplacian @ U)).sum())
+        trace = float(np.einsum("nij,nji->", self.R, S))
+        arap = self._rest_quadratic + quadratic - trace
+        cubic = float((self._lam * self._rest.areas * self._l1(self.R)).sum())
+        return arap, cubic
+
+    def right_hand_side(self):
+        """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
+        return sum(H @ self.R[:, :, c] for c, H in enumerate(self._scatter)) / 3.0
+
+    def _cube_normals(self, R, active=slice(None)):
+        rotated = np.einsum("nij,nj->ni", R, self._rest.normals[active])
+        return np.einsum("nij,nj->ni", self._Q[active], rotated)
+
+    def _l1(self, R):
+        return np.abs(self._cube_normals(R)).sum(axis=1)
+
+    def _objective(self, R, S):
+        return self._lam * self._l1(R) - np.einsum("nij,nji->n", R, S)
+
+    def _fit(self, S, R):
+        """Run the ADMM; each vertex is left alone once it has converged."""
+        R = R.copy()
+        plain = self._lam == 0.0
+        R[plain] = fit_rotations(S[plain], R[plain])
+        active = np.flatnonzero(~plain)
+        for _ in range(self._options.max_iterations):
+            if not len(active):
+                break
+            R[active], is_done = self._admm_iteration(S[active], R[active], active)
+            active = active[~is_done]
+        return R
+
+    def _admm_iteration(self, S, R, active):
+        o = self._options
+        n, Q = self._rest.normals[active], self._Q[active]
+        z, u, rho = self._z[active], self._u[active], self._rho[active]
+        pull = np.einsum("nji,nj->ni", Q, z - u) * rho[:, None]
+        R = fit_rotations(S + n[:, :, None] * pull[:, None, :], R)
+        x = self._cube_normals(R, active)
+        threshold = (self._lam[active] / rho)[:, None]
+        z_new = np.sign(x + u) * np.maximum(np.abs(x + u) - threshold, 0.0)
+        u = u + x - z_new
+        primal = np.linalg.norm(z_new - x, axis=1)
+        dual = rho * np.linalg.norm(z_new - z, axis=1)
+        size = np.maximum(np.linalg.norm(x, axis=1), np.linalg.norm(z_new, axis=1))
+        force = rho * np.linalg.norm(u, axis=1)
+        is_done = (primal <= o.absolute + o.relative * size) & (
+            dual <= o.absolute + o.relative * force
+        )
+        change = np.ones(len(rho))
+        change[primal > o.balance * dual] = o.factor
+        change[dual > o.balance * primal] = 1.0 / o.factor
+        rho_new = np.where(is_done, rho, np.clip(rho * change, o.rho_min, o.rho_max))
+        self._z[active] = z_new
+        self._u[active] = u * (rho / rho_new)[:, None]
+        self._rho[active] = rho_new
+        return R, is_done
+
+
+def area_scale(areas):
+    """Return the areas (n,), bounded below so that dividing by them is safe."""
+    return np.maximum(areas, 1e-6 * areas.mean() + 1e-300)

@@ -1,0 +1,48 @@
+"""Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
+
+import contextlib
+from typing import Any
+
+import numpy as np
+from scipy.sparse.linalg import splu
+
+cholespy: Any = None  # optional: about twice as fast as SciPy's LU at solving
+with contextlib.suppress(ImportError):
+    import cholespy
+
+
+def factorize(A):
+    """Return a function that maps B (n,3) float64 to X (n,3) with A X = B.
+
+    Parameters
+    ----------
+    A : (n,n) csr_matrix
+        Symmetric positive definite.
+    """
+    if cholespy is not None:
+        return _cholesky(A)
+    lu = splu(
+        A.tocsc(),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
+    return lu.solve
+
+
+def _cholesky(A):
+    n = A.shape[0]
+    solver = cholespy.CholeskySolverD(
+        n,
+        A.indptr.astype(np.int32),
+        A.indices.astype(np.int32),
+        A.data,
+        cholespy.MatrixType.CSR,
+    )
+
+    def solve(B):
+        X = np.empty_like(B, order="C")
+        solver.solve(np.ascontiguousarray(B), X)
+        return X
+
+    return solve

@@ -1,0 +1,60 @@
+"""All that is computed once per mesh, whatever the cubeness, orientation or pins."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .components import components
+from .cotangents import cotangents
+from .mesh_checks import check_mesh
+from .rest_measures import areas_and_normals
+from .spokes_and_rims import SpokesAndRims, spokes_and_rims
+from .unit_box import UnitBox, unit_box
+
+
+@dataclass(frozen=True)
+class RestMesh:
+    """The rest shape in the unit box, without its loose vertices.
+
+    The arrays are indexed by the `n` vertices that lie in a triangle; `used` maps them to the
+    vertices of the input.
+    """
+
+    input_positions: np.ndarray
+    """(N,3) float64 rest positions as given, loose vertices included"""
+    used: np.ndarray
+    """(n,) int vertices of the input that lie in a triangle, ascending"""
+    box: UnitBox
+    V: np.ndarray
+    """(n,3) float64 rest positions in the unit box"""
+    F: np.ndarray
+    """(m,3) int32 triangles"""
+    areas: np.ndarray
+    """(n,) barycentric areas a_i"""
+    normals: np.ndarray
+    """(n,3) unit normals n_i, zero where undefined"""
+    matrices: SpokesAndRims
+    component_count: int
+    component: np.ndarray
+    """(n,) int component of each vertex"""
+
+
+def rest_mesh(V, F):
+    """Build the RestMesh of positions V (N,3), any unit, and triangles F (m,3).
+
+    Raises
+    ------
+    CubicCraftError
+        See `check_mesh`.
+    """
+    input_positions, F = check_mesh(V, F)
+    used, F = np.unique(F, return_inverse=True)
+    F = F.reshape(-1, 3).astype(np.int32)
+    box = unit_box(input_positions[used])
+    V = box.to_unit(input_positions[used])
+    areas, normals = areas_and_normals(V, F)
+    matrices = spokes_and_rims(V, F, cotangents(V, F))
+    component_count, component = components(F, len(V))
+    return RestMesh(
+        input_positions, used, box, V, F, areas, normals, matrices, component_count, component
+    )

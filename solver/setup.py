@@ -1,0 +1,31 @@
+"""What is done once per mesh and set of pins."""
+
+import numpy as np
+
+from .errors import CubicCraftError
+from .global_step import GlobalStep
+
+
+class Setup:
+    """The rest mesh, its pinned vertices and the factorisation that belongs to both.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    pinned : (k,) array_like of int, optional
+        Vertices of the input that are held exactly.
+
+    Raises
+    ------
+    CubicCraftError
+        An index out of range, or no vertex left free.
+    """
+
+    def __init__(self, rest, pinned=()):
+        pinned = np.unique(np.asarray(pinned, dtype=np.int64))
+        count = len(rest.input_positions)
+        if len(pinned) and (pinned[0] < 0 or pinned[-1] >= count):
+            raise CubicCraftError(f"pinned vertices must lie between 0 and {count - 1}")
+        self.rest = rest
+        self.pinned = np.flatnonzero(np.isin(rest.used, pinned))
+        self.global_step = GlobalStep(rest, self.pinned)

@@ -1,0 +1,45 @@
+"""When the iteration has converged."""
+
+ENERGY_WINDOW = 10
+"""iterations over which the fall of the energy is judged"""
+ENERGY_SHARE = 0.1
+"""the fall per iteration, as part of the whole fall, may be this share of the tolerance"""
+
+
+class StopRule:
+    """Converged when the shape no longer moves and the energy no longer falls.
+
+    Either alone is no certificate: the displacement stalls before late snaps, when the energy still
+    falls; and the energy hardly changes while flat regions still slide.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest displacement in one iteration, relative to the largest distance from the rest shape.
+    """
+
+    def __init__(self, tolerance):
+        self._tolerance = tolerance
+        self._energies = []
+
+    def is_converged(self, energy, displacement, distance):
+        """Take in one iteration and tell whether it was the last.
+
+        Parameters
+        ----------
+        energy : float
+        displacement : float
+            Largest displacement of a vertex in this iteration.
+        distance : float
+            Largest distance of a vertex from its rest position.
+        """
+        self._energies.append(energy)
+        if displacement > self._tolerance * distance + 1e-12:
+            return False
+        if distance <= 1e-9:
+            # The first iterations of the ADMM may leave all rotations at the identity.
+            return len(self._energies) > 2
+        window = self._energies[-ENERGY_WINDOW - 1 :]
+        fall = (window[0] - energy) / max(len(window) - 1, 1)
+        whole = self._energies[0] - energy
+        return len(window) > 1 and fall <= ENERGY_SHARE * self._tolerance * max(whole, 0.0)

@@ -1,0 +1,140 @@
+"""The local-global iteration on one mesh, one step at a time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .admm import AdmmOptions
+from .backends import local_step_class
+from .errors import CubicCraftError
+from .mesh_checks import per_vertex
+from .placement import keep_rotation
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energies in the unit box (divide lengths by the largest extent of the mesh)."""
+
+    arap: float
+    cubic: float
+
+    @property
+    def total(self):
+        """The energy that is minimised."""
+        return self.arap + self.cubic
+
+
+class Stylization:
+    """The state of one run. Create, call `step` as often as you like, read `positions`.
+
+    Parameters
+    ----------
+    setup : Setup
+    cubeness : float or (N,) array_like
+        Weight lambda of the cubic term, per vertex of the input; 0 keeps the shape.
+    orientation : (3,3) or (N,3,3) array_like, optional
+        Rotation Q that maps a vector into the frame of the cube; its rows are the cube's axes.
+    targets : (N,3) array_like, optional
+        Positions of the pinned vertices in the user's unit; by default where they are at rest. The
+        rows of all other vertices are ignored.
+    device : {"auto", "cpu", "gpu", "numpy"}
+    precision : {"f64", "f32"}, optional
+        Of the local step in Taichi; by default the best that the device has.
+    admm : AdmmOptions, optional
+
+    Attributes
+    ----------
+    iteration : int
+        Number of steps done.
+    energy : Energy or None
+        Of the positions that the last step started from.
+    displacement, distance : float
+        Largest displacement in the last step and largest distance from rest, in the unit box.
+    """
+
+    def __init__(
+        self,
+        setup,
+        cubeness,
+        orientation=None,
+        targets=None,
+        device="auto",
+        precision=None,
+        admm=None,
+    ):
+        self._setup = setup
+        rest = self.rest = setup.rest
+        lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))[rest.used].copy()
+        lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
+        make_local_step = local_step_class(device, precision)
+        self._local = make_local_step(
+            rest, lam, _orientation(orientation, rest), admm or AdmmOptions()
+        )
+        at_rest = rest.input_positions
+        pinned_rows = rest.used[setup.pinned]
+        self._targets = np.asarray(at_rest if targets is None else targets, float)[pinned_rows]
+        if not np.isfinite(self._targets).all():
+            raise CubicCraftError("the targets of pinned vertices must be finite")
+        self._U = rest.V.copy()
+        self._U[setup.pinned] = rest.box.to_unit(self._targets)
+        self.iteration = 0
+        self.energy = None
+        self.displacement = self.distance = 0.0
+
+    @property
+    def device(self):
+        """Name of the device that runs the local step, such as "taichi-cpu"."""
+        return self._local.device
+
+    @property
+    def compile_seconds(self):
+        """Seconds spent compiling kernels or loading them from a cache."""
+        return self._local.compile_seconds
+
+    def step(self):
+        """Do one local and one global step."""
+        self.energy = Energy(*self._local.update(self._U))
+        U = self._setup.global_step.positions(self._local.right_hand_side(), self._U)
+        self.displacement = float(np.abs(U - self._U).max())
+        self.distance = float(np.abs(U - self.rest.V).max())
+        self._U = U
+        self.iteration += 1
+
+    def finish(self):
+        """Fit the rotations to the last positions and return the Energy of both."""
+        self.energy = Energy(*self._local.update(self._U))
+        return self.energy
+
+    def placed(self, with_rotation_kept=False):
+        """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
+
+        Loose and pinned vertices have exactly their given positions.
+        """
+        rest, pinned = self.rest, self._setup.pinned
+        U, R = self._U, self._local.R.astype(np.float64, copy=False)
+        if with_rotation_kept:
+            has_pin = np.zeros(rest.component_count, dtype=bool)
+            has_pin[rest.component[pinned]] = True
+            U, R = keep_rotation(rest, U, R, has_pin)
+        positions = rest.input_positions.copy()
+        positions[rest.used] = rest.box.from_unit(U)
+        positions[rest.used[pinned]] = self._targets
+        rotations = np.tile(np.eye(3), (len(positions), 1, 1))
+        rotations[rest.used] = R
+        return positions, rotations
+
+
+def _orientation(Q, rest):
+    """Return the orientation as (1,3,3) or (n,3,3) rotations of the used vertices."""
+    if Q is None:
+        return np.eye(3)[None]
+    Q = np.asarray(Q, dtype=np.float64)
+    if Q.shape == (3, 3):
+        Q = Q[None]
+    elif Q.shape == (len(rest.input_positions), 3, 3):
+        Q = Q[rest.used]
+    else:
+        raise CubicCraftError(f"the orientation must have the shape (3, 3), not {Q.shape}")
+    if not np.abs(Q @ Q.swapaxes(1, 2) - np.eye(3)).max() < 1e-6:
+        raise CubicCraftError("the orientation must be a rotation matrix")
+    return Q

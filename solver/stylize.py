@@ -1,0 +1,129 @@
+"""The whole run in one call: mesh in, cubic mesh out."""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from .rest_mesh import rest_mesh
+from .setup import Setup
+from .stop_rule import StopRule
+from .stylization import Energy, Stylization
+
+
+@dataclass(frozen=True)
+class Result:
+    """A finished run."""
+
+    positions: np.ndarray
+    """(n,3) float64, in the unit of the input"""
+    rotations: np.ndarray
+    """(n,3,3) float64 rotation of each vertex; the identity for loose vertices"""
+    energy: Energy
+    """of the result, in the unit box"""
+    iterations: int
+    reason: str
+    """"converged", "max_iterations" or "cancelled" """
+    device: str
+    compile_seconds: float
+    solve_seconds: float
+
+    @property
+    def converged(self):
+        """Whether the stop rule ended the run."""
+        return self.reason == "converged"
+
+
+def stylize(
+    V,
+    F,
+    cubeness=0.4,
+    pinned=(),
+    *,
+    max_iterations=1000,
+    tolerance=1e-3,
+    keep_rotation=False,
+    on_iteration=None,
+    **options,
+):
+    """Return the cubic version of a mesh (Liu and Jacobson, "Cubic Stylization", 2019).
+
+    Parameters
+    ----------
+    V : (n,3) array_like of float
+        Rest positions, in any unit. Vertices in no triangle stay where they are.
+    F : (m,3) array_like of int
+        Triangles.
+    cubeness : float or (n,) array_like
+        0 keeps the shape; 0.1 to 1 are common.
+    pinned : (k,) array_like of int
+        Vertices held exactly in place.
+    max_iterations, tolerance, keep_rotation, on_iteration
+        See `run`.
+    **options
+        See `Stylization`: orientation, targets, device, precision, admm.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh or an option cannot be used; the message says why.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import stylize
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> stylize(V, F, 0.4, device="numpy").converged
+    True
+    """
+    stylization = Stylization(Setup(rest_mesh(V, F), pinned), cubeness, **options)
+    return run(stylization, max_iterations, tolerance, keep_rotation, on_iteration)
+
+
+def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, on_iteration=None):
+    """Iterate a fresh Stylization to its end.
+
+    Parameters
+    ----------
+    stylization : Stylization
+    max_iterations : int
+    tolerance : float
+        See `StopRule`.
+    keep_rotation : bool
+        Turn each free component back as a whole at the end. The energy of the result is that of
+        the cube turned by the same rotation.
+    on_iteration : callable, optional
+        Called with the Stylization after each iteration; a true value cancels the run.
+
+    Returns
+    -------
+    Result
+    """
+    begin = time.perf_counter()
+    rule = StopRule(tolerance)
+    reason = "max_iterations"
+    while stylization.iteration < max_iterations and reason == "max_iterations":
+        stylization.step()
+        if on_iteration is not None and on_iteration(stylization):
+            reason = "cancelled"
+        elif rule.is_converged(
+            stylization.energy.total, stylization.displacement, stylization.distance
+        ):
+            reason = "converged"
+    energy = stylization.finish()
+    positions, rotations = stylization.placed(keep_rotation)
+    return Result(
+        positions,
+        rotations,
+        energy,
+        stylization.iteration,
+        reason,
+        stylization.device,
+        stylization.compile_seconds,
+        time.perf_counter() - begin,
+    )
