@@ -1,7 +1,8 @@
 """Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi."""
 
-from .backends import DEVICES
+from .backends import DEVICES, set_cache_folder
 from .errors import CubicCraftError
+from .progress import Progress
 from .rest_mesh import RestMesh, rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
@@ -12,6 +13,7 @@ __all__ = [
     "DEVICES",
     "CubicCraftError",
     "Energy",
+    "Progress",
     "RestMesh",
     "Result",
     "Setup",
@@ -19,5 +21,6 @@ __all__ = [
     "Stylization",
     "rest_mesh",
     "run",
+    "set_cache_folder",
     "stylize",
 ]

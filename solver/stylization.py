@@ -135,6 +135,7 @@ def _orientation(Q, rest):
         Q = Q[rest.used]
     else:
         raise CubicCraftError(f"the orientation must have the shape (3, 3), not {Q.shape}")
-    if not np.abs(Q @ Q.swapaxes(1, 2) - np.eye(3)).max() < 1e-6:
+    is_orthogonal = np.abs(Q @ Q.swapaxes(1, 2) - np.eye(3)).max() < 1e-6
+    if not (is_orthogonal and (np.linalg.det(Q) > 0.0).all()):
         raise CubicCraftError("the orientation must be a rotation matrix")
     return Q

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .errors import CubicCraftError
 from .rest_mesh import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
@@ -103,7 +104,16 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
     Returns
     -------
     Result
+
+    Raises
+    ------
+    CubicCraftError
+        The tolerance is not positive, or there is no iteration to do.
     """
+    if not (np.isfinite(tolerance) and tolerance > 0.0):
+        raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
+    if max_iterations < 1:
+        raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
     begin = time.perf_counter()
     rule = StopRule(tolerance)
     reason = "max_iterations"

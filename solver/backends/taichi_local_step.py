@@ -30,7 +30,7 @@ class TaichiLocalStep:
 
     def __init__(self, rest, lam, Q, options, device="cpu", precision=None):
         runtime = taichi_runtime.start(device)
-        self.device = runtime.device
+        self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
         real = np.float64 if precision == "f64" else np.float32
         self._kernels = _kernels(precision)
@@ -81,6 +81,7 @@ class TaichiLocalStep:
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return the (ARAP, cubic) energies of both."""
+        taichi_runtime.start(self._wanted)  # another add-on may have reset it since
         U = np.ascontiguousarray(U, dtype=self._real)
         self._kernels.local_step(U, *self._arguments)
         quadratic, trace, l1 = self._energies.T.astype(np.float64)
@@ -89,6 +90,7 @@ class TaichiLocalStep:
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
+        taichi_runtime.start(self._wanted)
         self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self.R, self._rhs)
         return self._rhs.astype(np.float64, copy=False)
 

@@ -1,0 +1,17 @@
+"""The Blender side that is not an operator."""
+
+from . import panel, preferences, properties
+
+_modules = (properties, preferences, panel)
+
+
+def register():
+    """Register all modules."""
+    for module in _modules:
+        module.register()
+
+
+def unregister():
+    """Unregister all modules, in reverse order."""
+    for module in reversed(_modules):
+        module.unregister()

@@ -1,0 +1,53 @@
+"""From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
+
+import bpy
+import numpy as np
+from mathutils import Euler
+
+from ..solver import CubicCraftError
+from .settings import Settings
+
+_SMALLEST_STRETCH = 1e-6  # relative; an object flatter than this is solved as if it were not scaled
+
+
+def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
+    """Return the object's stretch and the orientation of the cube.
+
+    The world matrix of the object, W = T S, is split (polar decomposition) into a rotation or
+    mirroring T and a symmetric stretch S. The mesh is solved as it is seen, that is with positions
+    S v, and the cube's frame is given in the same coordinates. So an object scaled flat becomes as
+    cubic as the same mesh modelled flat.
+
+    Returns
+    -------
+    stretch : (3,3) array
+        S, invertible.
+    orientation : (3,3) array
+        The rotation Q that maps stretched object coordinates into the cube's frame.
+
+    Raises
+    ------
+    CubicCraftError
+        The space is FRAME and no frame object is set.
+    """
+    world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    U, sizes, Vt = np.linalg.svd(world)
+    if sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30):
+        turn = U @ Vt
+        stretch = Vt.T @ np.diag(sizes) @ Vt
+    else:
+        turn = np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64)
+        stretch = np.eye(3)
+    axes = np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
+    if settings.space == "OBJECT":
+        return stretch, axes.T
+    if settings.space == "FRAME":
+        if settings.frame is None:
+            raise CubicCraftError(
+                f'"{obj.name}" takes its orientation from a frame object, but none is set;'
+                " pick one or choose another space"
+            )
+        frame = settings.frame.matrix_world.to_quaternion().to_matrix()
+        axes = np.array(frame, dtype=np.float64) @ axes
+    Q = axes.T @ turn
+    return stretch, Q if np.linalg.det(Q) > 0.0 else -Q  # the cube is the same seen in a mirror

@@ -1,0 +1,3 @@
+"""The name under which Blender has loaded the extension."""
+
+ROOT_PACKAGE = __name__.rsplit(".", 2)[0]

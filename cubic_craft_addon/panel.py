@@ -1,0 +1,127 @@
+"""The panel in the sidebar of the 3D viewport."""
+
+import bpy
+
+from ..solver import CubicCraftError
+from . import mesh_bridge
+from .properties import object_properties
+
+DEFAULT_TAB = "Cubic Craft"
+
+
+class CUBIC_PT_main(bpy.types.Panel):
+    """All of CubicCraft."""
+
+    bl_label = "CubicCraft"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = DEFAULT_TAB
+
+    def draw(self, context):
+        """Draw all sections for the active object."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        obj = context.active_object
+        if obj is None or obj.type != "MESH":
+            layout.label(text="Select a mesh to make cubic", icon="INFO")
+            return
+        _draw_cubify(layout, obj)
+        for identifier, title, draw, is_closed in _SECTIONS:
+            header, body = layout.panel(identifier, default_closed=is_closed)
+            header.label(text=title)
+            if body is not None:
+                draw(body, obj)
+
+
+def _draw_cubify(layout, obj):
+    properties = object_properties(obj)
+    problem = _problem(obj, properties)
+    if problem:
+        _draw_text(layout.box(), problem, "ERROR")
+    layout.prop(properties, "cubeness", slider=True)
+    row = layout.row()
+    row.scale_y = 1.5
+    row.operator("cubic_craft.cubify", icon="MESH_CUBE")
+    row = layout.row(align=True)
+    row.operator("cubic_craft.restore", icon="LOOP_BACK")
+    row.operator("cubic_craft.apply", icon="CHECKMARK")
+    if properties.status:
+        _draw_text(layout, properties.status, "INFO")
+
+
+def _draw_orientation(layout, obj):
+    properties = object_properties(obj)
+    layout.prop(properties, "space")
+    if properties.space == "FRAME":
+        layout.prop(properties, "frame")
+    layout.prop(properties, "orientation")
+    layout.prop(properties, "keep_rotation")
+
+
+def _draw_pins(layout, obj):
+    layout.prop_search(object_properties(obj), "pin_group", obj, "vertex_groups")
+
+
+def _draw_map(layout, obj):
+    properties = object_properties(obj)
+    layout.prop_search(properties, "map_group", obj, "vertex_groups")
+    row = layout.row()
+    row.active = bool(properties.map_group)
+    row.prop(properties, "map_invert")
+
+
+def _draw_result(layout, obj):
+    layout.prop(object_properties(obj), "result")
+
+
+def _draw_solver(layout, obj):
+    properties = object_properties(obj)
+    layout.prop(properties, "device")
+    layout.prop(properties, "max_iterations")
+    layout.prop(properties, "tolerance")
+
+
+_SECTIONS = (
+    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
+    ("CUBIC_PT_pins", "Pins", _draw_pins, False),
+    ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
+    ("CUBIC_PT_result", "Result", _draw_result, False),
+    ("CUBIC_PT_solver", "Solver", _draw_solver, True),
+)
+
+
+def _problem(obj, properties):
+    """Return what would make Cubify refuse the object, or an empty text."""
+    try:
+        mesh_bridge.check_editable(obj)
+    except CubicCraftError as error:
+        return str(error)
+    for group in (properties.pin_group, properties.map_group):
+        if group and group not in obj.vertex_groups:
+            return f'"{obj.name}" has no vertex group "{group}"; pick another one'
+    if properties.space == "FRAME" and properties.frame is None:
+        return "No frame object is set; pick one or choose another space"
+    return ""
+
+
+def _draw_text(layout, text, icon):
+    """Draw a text on as many lines as the sidebar's usual width needs."""
+    column = layout.column(align=True)
+    line = ""
+    for word in [*text.split(), ""]:
+        if line and (not word or len(line) + len(word) > 38):
+            column.label(text=line, icon=icon)
+            icon = "BLANK1"
+            line = ""
+        line = f"{line} {word}".strip()
+
+
+def move_to_tab(tab):
+    """Show the panel in another tab of the sidebar."""
+    bpy.utils.unregister_class(CUBIC_PT_main)
+    CUBIC_PT_main.bl_category = tab or DEFAULT_TAB
+    bpy.utils.register_class(CUBIC_PT_main)
+
+
+register, unregister = bpy.utils.register_classes_factory((CUBIC_PT_main,))

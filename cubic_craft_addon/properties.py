@@ -1,0 +1,176 @@
+"""The settings as Blender properties: on every object, and on the operator."""
+
+import math
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from .settings import Settings
+
+_SPACES = (
+    ("OBJECT", "Object", "The angles are relative to the object's own axes"),
+    ("WORLD", "World", "The angles are relative to the axes of the world"),
+    ("FRAME", "Frame", "The angles are relative to the axes of another object"),
+)
+_RESULTS = (
+    ("MESH", "Mesh", "Move the vertices of the mesh; Restore brings the original back"),
+    ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be dialled and keyed'),
+    ("NEW_OBJECT", "New Object", "Leave the object as it is and make a cubic copy of it"),
+)
+_DEVICES = (
+    ("AUTO", "Auto", "The fastest that is installed"),
+    ("CPU", "CPU", "Taichi on the processor"),
+    ("GPU", "GPU", "Taichi on the graphics card"),
+    ("NUMPY", "NumPy", "Without Taichi: slower, runs everywhere"),
+)
+
+
+_NAME = "cubic_craft"  # of the property of objects
+
+
+class RunProperties:
+    """Mixin of all settings that the operator and the object share.
+
+    SKIP_SAVE concerns the operator only: its values come from the object, not from its last run.
+    """
+
+    cubeness: FloatProperty(
+        name="Cubeness",
+        description="How strongly the surface turns toward the sides of the cube; 0 keeps it",
+        default=Settings.cubeness,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+        options={"SKIP_SAVE", "ANIMATABLE"},
+    )
+    orientation: FloatVectorProperty(
+        name="Orientation",
+        description="Rotation of the cube",
+        subtype="EULER",
+        default=Settings.orientation,
+        soft_min=-math.pi / 4,
+        soft_max=math.pi / 4,
+        options={"SKIP_SAVE", "ANIMATABLE"},
+    )
+    space: EnumProperty(
+        name="Relative To",
+        description="What the rotation of the cube is relative to",
+        items=_SPACES,
+        default=Settings.space,
+        options={"SKIP_SAVE"},
+    )
+    pin_group: StringProperty(
+        name="Pinned",
+        description="Vertex group that stays exactly in place (weights of 0.5 and more)",
+        options={"SKIP_SAVE"},
+    )
+    map_group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group whose weights scale the cubeness",
+        options={"SKIP_SAVE"},
+    )
+    map_invert: BoolProperty(
+        name="Invert",
+        description="Cubic where the vertex group is not",
+        default=Settings.map_invert,
+        options={"SKIP_SAVE"},
+    )
+    result: EnumProperty(
+        name="Write To",
+        description="Where the cubic shape goes",
+        items=_RESULTS,
+        default=Settings.result,
+        options={"SKIP_SAVE"},
+    )
+    keep_rotation: BoolProperty(
+        name="Keep Rotation",
+        description="A shape may turn a little to fit the cube. Turn it back at the end, so that it"
+        " stands as before and the sides of the cube lean instead. Parts with pins never turn",
+        default=Settings.keep_rotation,
+        options={"SKIP_SAVE"},
+    )
+    device: EnumProperty(
+        name="Device",
+        description="What computes",
+        items=_DEVICES,
+        default=Settings.device,
+        options={"SKIP_SAVE"},
+    )
+    max_iterations: IntProperty(
+        name="Max Iterations",
+        description="Stop after this many iterations, converged or not",
+        default=Settings.max_iterations,
+        min=1,
+        soft_max=5000,
+        options={"SKIP_SAVE"},
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Stop when an iteration moves no vertex by more than this part of the largest"
+        " distance from the original, and the energy no longer falls",
+        default=Settings.tolerance,
+        min=1e-9,
+        max=1.0,
+        precision=6,
+        options={"SKIP_SAVE"},
+    )
+
+
+class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
+    """The settings of an object, saved with it."""
+
+    frame: PointerProperty(
+        name="Frame",
+        description="Object whose axes are those of the cube",
+        type=bpy.types.Object,
+    )
+    status: StringProperty(
+        name="Last Run",
+        description="What the last run did",
+    )
+
+
+def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
+    """Return the settings of the object."""
+    return getattr(obj, _NAME)
+
+
+def settings_of(obj: bpy.types.Object) -> Settings:
+    """Return the object's settings as plain values."""
+    p = object_properties(obj)
+    return Settings(
+        cubeness=p.cubeness,
+        orientation=tuple(p.orientation),
+        space=p.space,
+        frame=p.frame,
+        pin_groups=(p.pin_group,) if p.pin_group else (),
+        map_group=p.map_group,
+        map_invert=p.map_invert,
+        result=p.result,
+        keep_rotation=p.keep_rotation,
+        device=p.device,
+        max_iterations=p.max_iterations,
+        tolerance=p.tolerance,
+    )
+
+
+def register():
+    """Add `Object.cubic_craft`."""
+    bpy.utils.register_class(CubicCraftProperties)
+    setattr(bpy.types.Object, _NAME, PointerProperty(type=CubicCraftProperties))
+
+
+def unregister():
+    """Remove `Object.cubic_craft`; the values stay in the file."""
+    delattr(bpy.types.Object, _NAME)
+    bpy.utils.unregister_class(CubicCraftProperties)

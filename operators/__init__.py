@@ -1,0 +1,11 @@
+"""The operators, one file each, named by its verb."""
+
+import bpy
+
+from .apply import CUBIC_CRAFT_OT_apply
+from .cubify import CUBIC_CRAFT_OT_cubify
+from .restore import CUBIC_CRAFT_OT_restore
+
+register, unregister = bpy.utils.register_classes_factory(
+    (CUBIC_CRAFT_OT_cubify, CUBIC_CRAFT_OT_restore, CUBIC_CRAFT_OT_apply)
+)

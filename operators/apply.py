@@ -1,0 +1,25 @@
+"""Apply: the cubic shape becomes the mesh's own, and the original is forgotten."""
+
+import bpy
+
+from ..cubic_craft_addon import mesh_bridge
+from .originals import for_each_original, poll_originals
+from .selection import poll_meshes
+
+
+class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
+    """Keep the cubic shape for good and forget the original."""
+
+    bl_idname = "cubic_craft.apply"
+    bl_label = "Apply"
+    bl_description = "Keep the cubic shape for good and forget the original one"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh with an original."""
+        return poll_meshes(cls, context) and poll_originals(cls, context)
+
+    def execute(self, context):
+        """Forget each mesh's original once."""
+        return for_each_original(self, context, lambda obj: mesh_bridge.forget(obj.data), "Applied")

@@ -1,0 +1,25 @@
+"""Restore: the selected meshes get their original shape back, to the bit."""
+
+import bpy
+
+from ..cubic_craft_addon import mesh_bridge
+from .originals import for_each_original, poll_originals
+from .selection import poll_meshes
+
+
+class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
+    """Give the selected meshes their original shape back."""
+
+    bl_idname = "cubic_craft.restore"
+    bl_label = "Restore"
+    bl_description = "Give the selected meshes back the shape that they had before Cubify"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh with an original."""
+        return poll_meshes(cls, context) and poll_originals(cls, context)
+
+    def execute(self, context):
+        """Restore each mesh once."""
+        return for_each_original(self, context, mesh_bridge.restore, "Restored")

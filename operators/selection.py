@@ -1,0 +1,37 @@
+"""Which objects an operator works on."""
+
+_MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
+
+
+def selected_meshes(context):
+    """Return the selected mesh objects, the active one first."""
+    objects = [obj for obj in context.selected_objects if obj.type == "MESH"]
+    active = context.active_object
+    if active is not None and active.type == "MESH":
+        objects = [active, *(obj for obj in objects if obj != active)]
+    return objects
+
+
+def poll_meshes(operator_class, context):
+    """Tell whether there is a mesh to work on, and say what is missing."""
+    if context.mode not in _MODES:
+        operator_class.poll_message_set("Switch to Object Mode first")
+        return False
+    if not selected_meshes(context):
+        operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
+
+
+def report_all(operator, done, problems):
+    """Report what was done (a text, empty for nothing) and the problems, and return the status.
+
+    ERROR means that nothing was done, WARNING that a part was.
+    """
+    if not done:
+        operator.report({"ERROR"}, "; ".join(problems))
+        return {"CANCELLED"}
+    for problem in problems:
+        operator.report({"WARNING"}, problem)
+    operator.report({"INFO"}, done)
+    return {"FINISHED"}

@@ -1,0 +1,13 @@
+import importlib.util
+
+import pytest
+
+HAS_TAICHI = importlib.util.find_spec("taichi") is not None
+
+needs_taichi = pytest.mark.skipif(not HAS_TAICHI, reason="no Taichi wheel for this Python")
+
+
+@pytest.fixture(params=["numpy", pytest.param("cpu", marks=needs_taichi)])
+def device(request):
+    """Run a test with either backend."""
+    return request.param

@@ -1,0 +1,31 @@
+"""Both factorisations against a dense solve."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+import shapes
+
+from solver import factorization
+from solver.cotangents import cotangents
+from solver.spokes_and_rims import spokes_and_rims
+
+
+def has_cholespy():
+    return factorization.cholespy is not None
+
+
+@pytest.mark.parametrize(
+    "use_cholespy",
+    [False, pytest.param(True, marks=pytest.mark.skipif(not has_cholespy(), reason="no cholespy"))],
+)
+def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
+    if not use_cholespy:
+        monkeypatch.setattr(factorization, "cholespy", None)
+    V, F = shapes.skewed_blob()
+    m = spokes_and_rims(V, F, cotangents(V, F))
+    A = sp.csr_matrix(m.matrix(m.laplacian)[1:, 1:])
+    B = np.random.default_rng(2).normal(size=(len(V) - 1, 3))
+    solve = factorization.factorize(A)
+    X = solve(B)
+    np.testing.assert_allclose(X, np.linalg.solve(A.toarray(), B), rtol=1e-7, atol=1e-8)
+    np.testing.assert_array_equal(X, solve(B))

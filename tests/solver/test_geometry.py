@@ -1,0 +1,87 @@
+"""Weights, measures, components and the unit box, by hand and by identities."""
+
+import numpy as np
+import pytest
+import shapes
+
+from solver.components import components
+from solver.cotangents import MAX_COTANGENT, cotangents
+from solver.rest_measures import areas_and_normals
+from solver.unit_box import unit_box
+
+RIGHT = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
+ONE = np.array([[0, 1, 2]])
+
+
+def test_cotangents_of_a_right_triangle():
+    # right angle at corner 0; tan at corner 1 is 1/2, at corner 2 it is 2
+    np.testing.assert_allclose(cotangents(RIGHT, ONE), [[0.0, 2.0, 0.5]], atol=1e-15)
+
+
+def test_cotangents_do_not_depend_on_scale_and_place():
+    V, F = shapes.blob()
+    moved = 1e-4 * V @ shapes.rotation(20, 30, 40).T + 3.0
+    np.testing.assert_allclose(cotangents(moved, F), cotangents(V, F), rtol=1e-7, atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [1, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [0.3, 1e-9, 0]],
+        [[0, 0, 0], [1e-9, 0, 0], [0, 1, 0]],
+    ],
+)
+def test_degenerate_triangles_are_bounded_and_tie_their_corners_together(corners):
+    C = cotangents(np.array(corners, float), ONE)[0]
+    assert np.isfinite(C).all()
+    assert np.abs(C).max() <= 1.01 * MAX_COTANGENT
+    a, b, c = C
+    L = np.array([[b + c, -c, -b], [-c, a + c, -a], [-b, -a, a + b]])
+    zero, *others = np.linalg.eigvalsh(L)
+    assert abs(zero) < 1e-9 * MAX_COTANGENT
+    assert min(others) > 1e-4  # positive definite but for translations
+
+
+def test_areas_and_normals_of_a_tetrahedron_corner():
+    V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    F = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
+    areas, normals = areas_and_normals(V, F)
+    np.testing.assert_allclose(areas, [0.5, 1 / 3, 1 / 3, 1 / 3])
+    np.testing.assert_allclose(normals[0], -np.ones(3) / 3**0.5)
+    np.testing.assert_allclose(normals[1], -np.array([0, 1, 1]) / 2**0.5)
+
+
+def test_areas_sum_to_the_surface():
+    areas, normals = areas_and_normals(*shapes.sphere(4))
+    assert areas.sum() == pytest.approx(4 * np.pi, rel=5e-3)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
+
+
+def test_a_normal_that_cancels_out_is_zero():
+    _, normals = areas_and_normals(RIGHT, np.array([[0, 1, 2], [0, 2, 1]]))
+    assert (normals == 0.0).all()
+
+
+def test_components_count_parts_and_loose_vertices():
+    V, F = shapes.two_blobs()
+    count, labels = components(F, len(V))
+    assert count == 3
+    loose = len(shapes.blob(2)[0])
+    assert (labels == labels[loose]).sum() == 1
+    assert len(np.unique(labels[:loose])) == 1
+
+
+def test_unit_box_there_and_back():
+    V, _ = shapes.blob()
+    box = unit_box(V)
+    unit = box.to_unit(V)
+    assert shapes.extent(unit) == pytest.approx(1.0)
+    np.testing.assert_array_equal(unit.min(axis=0), 0.0)
+    np.testing.assert_allclose(box.from_unit(unit), V, atol=1e-15)
+
+
+def test_unit_box_of_a_point():
+    assert unit_box(np.ones((3, 3))).size == 1.0

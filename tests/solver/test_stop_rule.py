@@ -1,0 +1,59 @@
+"""The stop rule needs both a shape at rest and an energy at rest."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from solver import Progress, StopRule
+
+
+def iterations(rule, sequence, limit=10000):
+    for count, (energy, displacement) in enumerate(sequence, 1):
+        if rule.is_converged(energy, displacement, 1.0):
+            return count
+        if count == limit:
+            break
+    return None
+
+
+def geometric(energy_rate, displacement_rate):
+    energy, displacement = 1.0, 1.0
+    while True:
+        yield 1.0 + energy, displacement
+        energy *= energy_rate
+        displacement *= displacement_rate
+
+
+def test_both_at_rest_converge():
+    assert iterations(StopRule(1e-3), geometric(0.9, 0.9)) == pytest.approx(80, abs=30)
+
+
+def test_a_moving_shape_does_not_converge():
+    assert iterations(StopRule(1e-3), geometric(0.5, 1.0)) is None
+
+
+def test_a_falling_energy_does_not_converge():
+    steady = ((10.0 - 1e-3 * k, 1e-6) for k in range(5000))
+    assert iterations(StopRule(1e-3), steady) is None
+
+
+def test_a_smaller_tolerance_takes_longer():
+    loose, tight = (iterations(StopRule(t), geometric(0.9, 0.9)) for t in (1e-2, 1e-5))
+    assert tight > loose + 30
+
+
+def test_a_shape_that_never_moves_converges_after_a_few_iterations():
+    rule = StopRule(1e-3)
+    ends = [rule.is_converged(0.0, 0.0, 0.0) for _ in range(4)]
+    assert ends == [False, False, True, True]
+
+
+def test_progress_rises_to_one():
+    progress = Progress(100, 1e-3)
+    values = []
+    for k in range(1, 101):
+        state = SimpleNamespace(iteration=k, displacement=0.5**k, distance=1.0)
+        values.append(progress.update(state))
+    assert values == sorted(values)
+    assert 0.0 < values[0] < 0.2
+    assert values[-1] == 1.0

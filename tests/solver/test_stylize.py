@@ -1,0 +1,189 @@
+"""What must hold for the method as a whole, on every shape and with both backends."""
+
+import numpy as np
+import pytest
+import shapes
+
+from solver import CubicCraftError, Setup, Stylization, rest_mesh, run, stylize
+
+FIXED = {"max_iterations": 40, "tolerance": 1e-12}
+Q = shapes.rotation(30, 20, 40)
+
+
+def face_alignment(V, F):
+    """Return the area-weighted mean of the largest component of the unit face normals."""
+    normals = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    return np.abs(normals).max(axis=1).sum() / np.linalg.norm(normals, axis=1).sum()
+
+
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_cubeness_0_leaves_the_mesh_where_it_is(name, device):
+    V, F = shapes.ALL[name]()
+    result = stylize(V, F, 0.0, device=device, max_iterations=30, tolerance=1e-15)
+    assert np.abs(result.positions - V).max() < 1e-9 * shapes.extent(V)
+
+
+@pytest.mark.parametrize("name", shapes.ALL)
+@pytest.mark.parametrize("cubeness", [0.0, 0.2, 1.0])
+def test_the_energy_never_rises(name, cubeness, device):
+    V, F = shapes.ALL[name]()
+    energies = []
+    stylize(
+        V,
+        F,
+        cubeness,
+        device=device,
+        on_iteration=lambda s: energies.append(s.energy.total),
+        **FIXED,
+    )
+    assert len(energies) == FIXED["max_iterations"] or energies[-1] < 1e-12
+    assert np.diff(energies).max() < 1e-11
+
+
+def test_a_sphere_becomes_a_cube(device):
+    V, F = shapes.sphere(3)
+    result = stylize(V, F, 0.8, device=device)
+    assert result.converged
+    assert face_alignment(V, F) < 0.85
+    assert face_alignment(result.positions, F) > 0.94
+
+
+def test_the_orientation_turns_the_cube(device):
+    V, F = shapes.sphere(3)
+    result = stylize(V, F, 0.8, orientation=Q, device=device)
+    assert face_alignment(result.positions @ Q.T, F) > 0.94
+    assert face_alignment(result.positions, F) < 0.9
+
+
+def test_turning_the_mesh_equals_turning_the_cube(device):
+    V, F = shapes.blob()
+    a = stylize(V @ Q.T, F, 0.4, device=device, **FIXED).positions @ Q
+    b = stylize(V, F, 0.4, orientation=Q, device=device, **FIXED).positions
+    assert np.abs(a - b).max() < 1e-6 * shapes.extent(V)
+
+
+@pytest.mark.parametrize("scale", [1e-4, 1e4])
+def test_scale_and_place_do_not_matter(scale, device):
+    V, F = shapes.blob()
+    offset = 1e3 * shapes.extent(V) * np.array([1.0, -1.0, 0.5])
+    a = stylize(V, F, 0.4, device=device, **FIXED).positions
+    b = stylize(scale * (V + offset), F, 0.4, device=device, **FIXED).positions / scale - offset
+    assert np.abs(a - b).max() < 1e-7 * shapes.extent(V)
+
+
+def test_components_behave_as_each_alone(device):
+    V, F = shapes.two_blobs()
+    together = stylize(V, F, 0.4, device=device, **FIXED).positions
+    first = len(shapes.blob(2)[0])
+    for part in (slice(0, first), slice(first + 1, None)):
+        numbers = np.arange(len(V))[part]
+        G = F[np.isin(F[:, 0], numbers)] - numbers[0]
+        alone = stylize(V[part], G, 0.4, device=device, **FIXED).positions
+        assert np.abs(together[part] - alone).max() < 1e-7 * shapes.extent(V)
+    np.testing.assert_array_equal(together[first], V[first])  # the loose vertex
+
+
+def test_the_same_input_gives_the_same_bits(device):
+    V, F = shapes.skewed_blob()
+    a, b = (stylize(V, F, 0.4, device=device) for _ in range(2))
+    np.testing.assert_array_equal(a.positions, b.positions)
+    np.testing.assert_array_equal(a.rotations, b.rotations)
+    assert a.energy == b.energy
+
+
+def test_pinned_vertices_stay_exactly(device):
+    V, F = shapes.blob()
+    pins = np.flatnonzero(V[:, 2] > 1.0)
+    result = stylize(V, F, 0.6, pins, device=device)
+    np.testing.assert_array_equal(result.positions[pins], V[pins])
+    assert np.abs(result.positions - V).max() > 0.05
+
+
+def test_pins_follow_their_targets(device):
+    V, F = shapes.blob()
+    pins = np.concatenate([np.flatnonzero(V[:, 2] > 1.0), np.flatnonzero(V[:, 2] < -0.5)])
+    targets = V.copy()
+    targets[V[:, 2] > 1.0] += [0.3, 0.0, 0.4]
+    result = stylize(V, F, 0.0, pins, targets=targets, device=device)
+    np.testing.assert_array_equal(result.positions[pins], targets[pins])
+    free = np.setdiff1d(np.arange(len(V)), pins)
+    assert np.abs(result.positions[free] - V[free]).max() > 0.1
+
+
+def test_a_cubeness_map_acts_where_it_is(device):
+    V, F = shapes.sphere(3)
+    cubeness = np.where(V[:, 0] > 0.0, 1.0, 0.0)
+    U = stylize(V, F, cubeness, device=device).positions
+    right = (V[F][:, :, 0] > 0.3).all(axis=1)
+    left = (V[F][:, :, 0] < -0.3).all(axis=1)
+    assert face_alignment(U, F[right]) > 0.93
+    assert abs(face_alignment(U, F[left]) - face_alignment(V, F[left])) < 0.05
+
+
+def test_keep_rotation_takes_the_turn_back(device):
+    V, F = shapes.blob()
+    tilt = shapes.rotation(0, 8, 4)
+
+    def turn_of(U):
+        rest = rest_mesh(V @ tilt.T, F)
+        A, B = (X - np.average(X, axis=0, weights=rest.areas) for X in (U, V @ tilt.T))
+        P, _, Rt = np.linalg.svd((A * rest.areas[:, None]).T @ B)
+        return np.degrees(np.arccos((np.trace(P @ Rt) - 1) / 2))
+
+    free = stylize(V @ tilt.T, F, 0.5, device=device)
+    kept = stylize(V @ tilt.T, F, 0.5, device=device, keep_rotation=True)
+    assert turn_of(free.positions) > 1.0
+    assert turn_of(kept.positions) < 1e-5
+    # The shape is the same, only turned.
+    gaps = [np.linalg.norm(r.positions - r.positions[0], axis=1) for r in (free, kept)]
+    np.testing.assert_allclose(*gaps, atol=1e-10)
+
+
+def test_the_reported_energy_is_that_of_the_result(device):
+    V, F = shapes.blob()
+    result = stylize(V, F, 0.3, device=device)
+    again = Stylization(Setup(rest_mesh(V, F)), 0.3, device=device)
+    again._U = again.rest.box.to_unit(result.positions)
+    for _ in range(20):  # the ADMM starts cold here, and then ends nearer to its limit
+        energy = again.finish()
+    assert energy.total == pytest.approx(result.energy.total, rel=2e-4)
+
+
+def test_a_run_can_be_cancelled_and_says_so(device):
+    V, F = shapes.blob(2)
+    result = stylize(V, F, 0.3, device=device, on_iteration=lambda s: s.iteration == 3)
+    assert (result.iterations, result.reason, result.converged) == (3, "cancelled", False)
+
+
+def test_steps_one_at_a_time_equal_a_run(device):
+    V, F = shapes.blob(2)
+    setup = Setup(rest_mesh(V, F))
+    result = run(Stylization(setup, 0.3, device=device), max_iterations=7, tolerance=1e-12)
+    assert result.reason == "max_iterations"
+    steps = Stylization(setup, 0.3, device=device)
+    for _ in range(7):
+        steps.step()
+    np.testing.assert_array_equal(steps.placed()[0], result.positions)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"cubeness": -0.1}, "cubeness must be finite and not negative"),
+        ({"cubeness": np.nan}, "cubeness must be finite"),
+        ({"cubeness": np.ones(3)}, "cubeness must be one number or 42"),
+        ({"orientation": np.diag([1.0, 2.0, 1.0])}, "must be a rotation"),
+        ({"orientation": np.diag([1.0, 1.0, -1.0])}, "must be a rotation"),
+        ({"orientation": np.eye(2)}, r"shape \(3, 3\)"),
+        ({"pinned": [42]}, "between 0 and 41"),
+        ({"pinned": range(42)}, "all vertices are pinned"),
+        ({"pinned": [0], "targets": np.full((42, 3), np.inf)}, "must be finite"),
+        ({"device": "abacus"}, "device 'abacus' is none of"),
+        ({"tolerance": 0.0}, "tolerance must"),
+        ({"max_iterations": 0}, "max_iterations must"),
+    ],
+)
+def test_bad_options_are_refused(options, message):
+    V, F = shapes.blob(1)
+    with pytest.raises(CubicCraftError, match=message):
+        stylize(V, F, **{"cubeness": 0.3, "device": "numpy", **options})

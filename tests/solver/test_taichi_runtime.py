@@ -1,0 +1,150 @@
+"""Taichi is imported late, without RTLD_DEEPBIND, and shared with other users of it.
+
+Each test runs in a process of its own, because Taichi's program is global.
+"""
+
+import os
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from conftest import needs_taichi
+
+ROOT = Path(__file__).parents[2]
+SET_UP = """
+import sys
+sys.path.insert(0, {root!r})
+sys.path.insert(0, {here!r})
+import numpy as np
+import shapes
+from solver import stylize
+V, F = shapes.blob(2)
+"""
+
+
+def python(code, **environment):
+    code = SET_UP.format(root=str(ROOT), here=str(Path(__file__).parent)) + textwrap.dedent(code)
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        timeout=300,
+    )
+
+
+def passes(code, **environment):
+    run = python(code, **environment)
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+def test_importing_the_solver_does_not_import_taichi():
+    assert passes("print('taichi' in sys.modules)") == "False\n"
+
+
+def test_numpy_needs_no_taichi():
+    passes("stylize(V, F, device='numpy', max_iterations=2); assert 'taichi' not in sys.modules")
+
+
+def test_without_taichi_auto_means_numpy_and_cpu_is_refused():
+    output = passes(
+        """
+        sys.modules["taichi"] = None  # makes every import of it fail
+        print(stylize(V, F, max_iterations=2).device)
+        try:
+            stylize(V, F, device="cpu")
+        except ValueError as error:
+            print(error)
+        """
+    )
+    assert output.startswith("numpy\nthe device 'cpu' needs Taichi")
+
+
+@needs_taichi
+def test_nothing_is_printed():
+    assert passes("stylize(V, F, max_iterations=2)") == ""
+
+
+@needs_taichi
+@pytest.mark.skipif(sys.platform != "linux", reason="the flag is Linux's")
+def test_taichi_is_loaded_without_deepbind_and_the_function_is_put_back():
+    passes(
+        """
+        flags = []
+        original = sys.setdlopenflags
+        def spy(value):
+            flags.append(value)
+            original(value)
+        sys.setdlopenflags = spy
+        stylize(V, F, max_iterations=2)
+        assert sys.setdlopenflags is spy
+        assert flags and not any(value & 8 for value in flags), flags
+        """
+    )
+
+
+@needs_taichi
+@pytest.mark.parametrize("moment", ["before", "between"])
+def test_a_foreign_init_does_not_matter_and_is_left_alone(moment):
+    passes(
+        f"""
+        from solver.backends.taichi_runtime import import_taichi
+        expected = stylize(V, F, device="cpu", max_iterations=5).positions
+        ti = import_taichi()
+        if {moment!r} == "before":
+            ti.reset()
+        ti.init(arch=ti.cpu, log_level=ti.ERROR, default_fp=ti.f32)
+        field = ti.field(ti.f32, shape=4)
+        field.fill(7)
+        again = stylize(V, F, device="cpu", max_iterations=5).positions
+        np.testing.assert_array_equal(again, expected)
+        assert (field.to_numpy() == 7).all()  # a second init of ours would have destroyed it
+        """
+    )
+
+
+@needs_taichi
+def test_a_foreign_init_during_a_run_does_not_matter():
+    passes(
+        """
+        from solver.backends.taichi_runtime import import_taichi
+        expected = stylize(V, F, device="cpu", max_iterations=6).positions
+        def disturb(stylization):
+            if stylization.iteration == 3:
+                ti = import_taichi()
+                ti.reset()
+                ti.init(arch=ti.cpu, log_level=ti.ERROR)
+        again = stylize(V, F, device="cpu", max_iterations=6, on_iteration=disturb).positions
+        np.testing.assert_array_equal(again, expected)
+        """
+    )
+
+
+@needs_taichi
+def test_a_foreign_reset_during_a_run_does_not_matter():
+    passes(
+        """
+        from solver.backends.taichi_runtime import import_taichi
+        expected = stylize(V, F, device="cpu", max_iterations=6).positions
+        def disturb(stylization):
+            if stylization.iteration == 3:
+                import_taichi().reset()
+        again = stylize(V, F, device="cpu", max_iterations=6, on_iteration=disturb).positions
+        np.testing.assert_array_equal(again, expected)
+        """
+    )
+
+
+@needs_taichi
+def test_kernels_are_cached_in_the_folder_given(tmp_path):
+    passes(
+        f"""
+        from solver import set_cache_folder
+        set_cache_folder({str(tmp_path)!r})
+        stylize(V, F, device="cpu", max_iterations=2)
+        """
+    )
+    assert any(tmp_path.rglob("*"))
