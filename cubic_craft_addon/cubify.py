@@ -57,7 +57,7 @@ class Solution:
     positions: np.ndarray
     """(n,3) float32, object space"""
     rotations: np.ndarray
-    """(n,3,3) float64 linear maps of the vertices' surroundings, object space"""
+    """(n,3,3) float64 rotations of the vertices' surroundings, object space"""
     result: solver.Result
 
     @property
@@ -133,12 +133,12 @@ def solve(
         )
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{prepared.name}": {error}') from error
-    stretch, unstretch = prepared.stretch, np.linalg.inv(prepared.stretch)
+    unstretch = np.linalg.inv(prepared.stretch)
     positions = (result.positions @ unstretch.T).astype(np.float32)
     # What the solver holds must not move by a rounding of the stretch.
     is_still = (result.positions == prepared.setup.rest.input_positions).all(axis=1)
     positions[is_still] = prepared.original[is_still]
-    return Solution(positions, unstretch @ result.rotations @ stretch, result)
+    return Solution(positions, _unstretched(result.rotations, prepared.stretch), result)
 
 
 def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.Object:
@@ -160,3 +160,15 @@ def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.O
         return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations)
     mesh_bridge.write_mesh(obj.data, solution.positions, solution.rotations)
     return obj
+
+
+def _unstretched(rotations, stretch):
+    """Return the rotations (n,3,3) in object space.
+
+    On an object that is scaled unevenly they are the nearest rotations to what happens to a
+    vertex's surroundings; they turn the offsets of shape keys, and must not distort them.
+    """
+    if np.allclose(stretch, stretch[0, 0] * np.eye(3), rtol=1e-6, atol=0.0):
+        return rotations
+    maps = np.linalg.inv(stretch) @ rotations @ stretch
+    return solver.svd_rotations(maps.swapaxes(1, 2))

@@ -20,7 +20,7 @@ _PROGRESS_STEPS = 100
 
 _log = logging.getLogger(__name__)
 
-# Vertex groups belong to their object, so a click leaves each object its own.
+# Vertex groups belong to their object, so each object keeps its own unless a caller sets them.
 _OF_EACH_OBJECT = ("pin_group", "map_group", "map_invert")
 _SHARED = tuple(name for name in RunProperties.__annotations__ if name not in _OF_EACH_OBJECT)
 
@@ -31,7 +31,8 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     bl_idname = "cubic_craft.cubify"
     bl_label = "Cubify"
     bl_description = (
-        "Turn the selected meshes into cubic sculptures. Each starts from its original shape"
+        "Turn the selected meshes into cubic sculptures, with the settings of the active one."
+        " Each starts from its original shape"
     )
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
@@ -46,18 +47,9 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         """There is a mesh to work on."""
         return poll_meshes(cls, context)
 
-    def invoke(self, context, event):
-        """Take what the caller has not set from the active object, for all objects."""
-        source = object_properties(selected_meshes(context)[0])
-        for name in _SHARED:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(source, name))
-        if not self.properties.is_property_set("frame") and source.frame is not None:
-            self.frame = source.frame.name
-        return self.execute(context)
-
     def execute(self, context):
         """Solve all objects, then write all results."""
+        self._adopt_settings(object_properties(selected_meshes(context)[0]))
         solved, problems = self._solve_all(context)
         written = []
         try:
@@ -84,6 +76,14 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
             layout.prop(self, name)
         for name in ("device", "max_iterations", "tolerance"):
             layout.prop(self, name)
+
+    def _adopt_settings(self, source):
+        """Take what the caller has not set from an object's settings; the redo panel shows it."""
+        for name in _SHARED:
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(source, name))
+        if not self.properties.is_property_set("frame") and source.frame is not None:
+            self.frame = source.frame.name
 
     def _solve_all(self, context):
         """Return (object, settings, solution) for each mesh that could be solved, and problems."""

@@ -4,6 +4,7 @@ from .backends import DEVICES, set_cache_folder
 from .errors import CubicCraftError
 from .progress import Progress
 from .rest_mesh import RestMesh, rest_mesh
+from .rotation_fit import svd_rotations
 from .setup import Setup
 from .stop_rule import StopRule
 from .stylization import Energy, Stylization
@@ -23,4 +24,5 @@ __all__ = [
     "run",
     "set_cache_folder",
     "stylize",
+    "svd_rotations",
 ]

@@ -105,6 +105,20 @@ class Stylization:
         self.energy = Energy(*self._local.update(self._U))
         return self.energy
 
+    def energy_of(self, positions, steps=20):
+        """Return the Energy of a given shape, with rotations that fit it.
+
+        Parameters
+        ----------
+        positions : (N,3) array_like
+            In the user's unit. The state of the run is replaced by it.
+        steps : int
+            Local steps; each carries the ADMM nearer to the best rotations.
+        """
+        used = np.asarray(positions, dtype=np.float64)[self.rest.used]
+        self._U = self.rest.box.to_unit(used)
+        return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
+
     def placed(self, with_rotation_kept=False):
         """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
 

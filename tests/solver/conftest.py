@@ -1,10 +1,5 @@
-import importlib.util
-
 import pytest
-
-HAS_TAICHI = importlib.util.find_spec("taichi") is not None
-
-needs_taichi = pytest.mark.skipif(not HAS_TAICHI, reason="no Taichi wheel for this Python")
+from taichi_marks import needs_taichi
 
 
 @pytest.fixture(params=["numpy", pytest.param("cpu", marks=needs_taichi)])

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def plain_energy(V, F, U, R, lam, Q=np.eye(3)):
+def plain_energy(V, F, U, R, lam, Q):
     """Return the ARAP and the cubic energy of rotations R and positions U, as they stand."""
     arap = 0.0
     areas = np.zeros(len(V))

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import shapes
-from conftest import needs_taichi
 from plain_energy import plain_energy
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
+from taichi_marks import needs_taichi
 
 from solver.admm import AdmmOptions
 from solver.backends import local_step_class
@@ -68,7 +68,7 @@ def test_rotations_minimise_the_local_energy(device):
         ] + list(Rotation.random(3, random_state=i))
         best = min(
             minimize(
-                lambda w, R0=R0: objective(i, (Rotation.from_rotvec(w) * R0).as_matrix()),
+                lambda w, i=i, R0=R0: objective(i, (Rotation.from_rotvec(w) * R0).as_matrix()),
                 np.zeros(3),
                 method="Nelder-Mead",
                 options={"xatol": 1e-9, "fatol": 1e-12, "maxiter": 2000},

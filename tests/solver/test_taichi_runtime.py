@@ -10,7 +10,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from conftest import needs_taichi
+from taichi_marks import needs_taichi
 
 ROOT = Path(__file__).parents[2]
 SET_UP = """

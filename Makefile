@@ -1,0 +1,82 @@
+# CubicCraft. The two commands to begin with: make render, make test.
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+PYTHON313 ?= $(shell command -v python3.13 || ls $(HOME)/.pyenv/versions/3.13*/bin/python3.13 2>/dev/null | tail -1)
+VENV := .venv
+PY := $(VENV)/bin/python
+PIP := -m pip install --quiet --disable-pip-version-check
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
+ZIP := dist/cubic_craft.zip
+SOURCES := $(shell git ls-files '*.py' blender_manifest.toml 2>/dev/null)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui lint \
+	typecheck build bench clean has-py313
+
+help: ## Show this list
+	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+
+setup: $(VENV)/.done ## Make the virtual environment .venv, with Blender as a Python module
+
+$(VENV)/.done: requirements/*.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
+		{ echo "Python 3.11 is needed (the bpy module is built for it): make PYTHON=/path/to/python3.11"; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/blender-newest.txt
+	@touch $@
+
+render: setup ## Picture of a mesh beside its cubic versions; MESH=file for your own
+	@mkdir -p build
+	$(PY) scripts/headless_render.py $(if $(MESH),"$(MESH)") --cubeness 0.2 0.4 1.0 \
+		--output build/render.png
+	@echo "Look at build/render.png"
+
+test: test-solver test-blender ## All tests that need no window
+
+test-solver: setup ## The solver without Blender
+	$(PY) $(PYTEST) tests/solver
+
+test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
+	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
+
+test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts
+
+$(VENV)-oldest/.done: requirements/*.txt
+	$(PYTHON) -m venv $(VENV)-oldest
+	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
+	@touch $@
+
+test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
+	$(VENV)-py313/bin/python $(PYTEST) tests/solver
+
+$(VENV)-py313/.done: requirements/*.txt
+	@test -n "$(PYTHON313)" || { echo "no Python 3.13 found; set PYTHON313"; exit 1; }
+	$(PYTHON313) -m venv $(VENV)-py313
+	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2"
+	@touch $@
+
+has-py313:
+	@test -n "$(PYTHON313)"
+
+test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path for your own
+	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
+
+lint: setup ## Style and formatting
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+
+typecheck: setup ## Types
+	$(VENV)/bin/pyright
+
+build: $(ZIP) ## The extension as Blender installs it
+
+$(ZIP): $(VENV)/.done $(SOURCES)
+	$(PY) scripts/build_extension.py $@
+
+bench: setup ## Side by side with PyMeshLab; writes docs/benchmarks.md
+	$(PY) $(PIP) -r requirements/bench.txt
+	$(PY) scripts/benchmark.py
+
+clean: ## Remove what has been built, not the virtual environments
+	rm -rf build dist

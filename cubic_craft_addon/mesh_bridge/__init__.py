@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that reads or writes mesh data-blocks.
+
+Only positions are ever written: the ``position`` attribute and the points of shape keys. Beside
+them the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
+Restore and Apply remove without a trace.
+"""
+
+from .checks import check_editable
+from .new_object import write_new_object
+from .original import has_original, original_positions, read_positions
+from .restore import forget, restore
+from .results import write_mesh, write_shape_key
+from .triangulation import triangles
+from .vertex_groups import group_weights
+
+__all__ = (
+    "check_editable",
+    "forget",
+    "group_weights",
+    "has_original",
+    "original_positions",
+    "read_positions",
+    "restore",
+    "triangles",
+    "write_mesh",
+    "write_new_object",
+    "write_shape_key",
+)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects can be cubified at all: refusals that name the object and the cure."""
+
+import bpy
+import numpy as np
+
+from ...solver.errors import CubicCraftError
+from .arrays import read_key, read_position
+
+
+def check_editable(obj: bpy.types.Object) -> None:
+    """Check that an object is a mesh that can be read, solved and written.
+
+    Raises
+    ------
+    CubicCraftError
+        Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
+        vertices, no faces, shape keys that do not fit, or coordinates that are not finite.
+    """
+    mesh = mesh_of(obj)
+    check_writable(mesh, obj.name)
+    if obj.mode == "SCULPT":
+        # Sculpt Mode keeps its own copy of what it edits.
+        raise CubicCraftError(f"'{obj.name}' is in Sculpt Mode: go back to Object Mode first")
+    if not obj.visible_get():
+        raise CubicCraftError(f"'{obj.name}' is hidden: show it and its collection first")
+    if len(mesh.vertices) < 3:
+        raise CubicCraftError(
+            f"'{obj.name}' has fewer than 3 vertices: add geometry with faces first"
+        )
+    if not mesh.polygons:
+        raise CubicCraftError(f"'{obj.name}' has no faces: fill some in Edit Mode first")
+    check_finite(mesh, obj.name)
+
+
+def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return the mesh of an object.
+
+    Raises
+    ------
+    CubicCraftError
+        The object is of another kind.
+    """
+    if not isinstance(obj.data, bpy.types.Mesh):
+        raise CubicCraftError(
+            f"'{obj.name}' is not a mesh: select a mesh or convert it (Object > Convert > Mesh)"
+        )
+    return obj.data
+
+
+def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
+    """Check that what is written to the mesh stays there; `name` is what the artist sees.
+
+    Blender itself does not object to writes to linked data and only loses them on saving.
+
+    Raises
+    ------
+    CubicCraftError
+        Linked or overridden data, or Edit Mode.
+    """
+    if mesh.library is not None or mesh.override_library is not None or not mesh.is_editable:
+        raise CubicCraftError(
+            f"'{name}' has mesh data linked from another file: make it local first "
+            "(Object > Relations > Make Local)"
+        )
+    if mesh.is_editmode:
+        raise CubicCraftError(f"'{name}' is in Edit Mode: go back to Object Mode first")
+
+
+def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
+    """Check that the mesh and each of its shape keys have finite coordinates.
+
+    Raises
+    ------
+    CubicCraftError
+        Naming the shape and the first vertex that is wrong.
+    """
+    shapes = {"": read_position(mesh)}
+    if mesh.shape_keys is not None:
+        shapes |= {
+            f" in shape key '{key.name}'": read_key(mesh, key) for key in mesh.shape_keys.key_blocks
+        }
+    for where, positions in shapes.items():
+        broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+        if len(broken):
+            raise CubicCraftError(
+                f"'{name}' has coordinates that are not finite{where} (vertex {broken[0]}, "
+                f"the first of {len(broken)}): delete those vertices in Edit Mode first"
+            )

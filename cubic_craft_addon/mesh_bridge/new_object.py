@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write a result to a copy of the object; the source stays as it is, bit for bit."""
+
+import bpy
+import numpy as np
+
+from .checks import check_writable, mesh_of
+from .results import write_mesh
+
+
+def write_new_object(
+    obj: bpy.types.Object, positions: np.ndarray, rotations: np.ndarray
+) -> bpy.types.Object:
+    """Copy an object with its mesh and write a result to the copy's mesh.
+
+    The copy is named "<name> Cubic", lies in the collections of the source, and is selected and
+    active in its place. It holds the original of the source, so it can be restored.
+
+    Parameters
+    ----------
+    obj : an object with a mesh, in Object Mode
+    positions : (n,3) numpy array, object space
+    rotations : (n,3,3) numpy array
+
+    Returns
+    -------
+    the new object
+
+    Raises
+    ------
+    CubicCraftError
+        As `write_mesh`; there is then no new object.
+    """
+    mesh = mesh_of(obj)
+    check_writable(mesh, obj.name)
+    new_mesh, new = mesh.copy(), obj.copy()
+    assert new_mesh is not None and new is not None
+    try:
+        write_mesh(new_mesh, positions, rotations)
+        new_mesh.name = f"{mesh.name} Cubic"
+        new.name = f"{obj.name} Cubic"
+        new.data = new_mesh
+        _link_beside(obj, new)
+        _select_instead(obj, new)
+    except BaseException:
+        bpy.data.objects.remove(new)
+        bpy.data.meshes.remove(new_mesh)
+        raise
+    return new
+
+
+def _link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
+    """Link the new object to the collections of the old one, as far as they can be changed."""
+    collections = [c for c in obj.users_collection if c.is_editable and not c.override_library]
+    for collection in collections or [bpy.context.scene.collection]:
+        collection.objects.link(new)
+
+
+def _select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
+    """Select the new object and make it active instead of the old one, where the view has it."""
+    try:
+        new.select_set(True)
+        obj.select_set(False)
+    except RuntimeError:  # none of its collections is in this view layer
+        return
+    bpy.context.view_layer.objects.active = new

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write a result to the mesh itself or to a shape key.
+
+Either always starts from the original and takes the place of an earlier result of ours. All is
+computed and checked before the first write.
+"""
+
+import bpy
+import numpy as np
+
+from ...solver.errors import CubicCraftError
+from .arrays import loose_vertices, mark_moved
+from .checks import check_writable, mesh_of
+from .cubic_key import remove_cubic_key, write_cubic_key
+from .original import drop_stored, original_shapes, store_original, stored_result
+from .rollback import all_or_nothing
+from .rotations import matrices_from_quaternions, quaternions_from_matrices
+from .shapes import carry, write_shapes
+
+
+def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray) -> None:
+    """Write a result to the mesh: the base moves and the shape keys are carried along.
+
+    Parameters
+    ----------
+    mesh : a mesh in Object Mode
+    positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+    rotations : (n,3,3) numpy array, the local rotation of each vertex
+
+    Raises
+    ------
+    CubicCraftError
+        Wrong number of vertices, values that are not finite, or a mesh that cannot be written.
+        The mesh is then as it was before.
+    """
+    check_writable(mesh, mesh.name)
+    original = original_shapes(mesh)
+    positions = _settled(mesh, positions, original.base)
+    _check_shape(mesh, rotations, (len(positions), 3, 3), "rotations")
+    quaternions = quaternions_from_matrices(rotations)
+    quaternions[loose_vertices(mesh)] = (1, 0, 0, 0)
+    written = carry(original, positions, matrices_from_quaternions(quaternions))
+    for name, points in written.keys.items():
+        _check_shape(mesh, points, positions.shape, f"shape key '{name}'")
+    with all_or_nothing(mesh):
+        drop_stored(mesh)
+        store_original(mesh, original, written, quaternions)
+        write_shapes(mesh, written)
+        remove_cubic_key(mesh)
+
+
+def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
+    """Write a result to the shape key "Cubic"; everything else has its original shape.
+
+    Parameters
+    ----------
+    obj : an object with a mesh, in Object Mode
+    positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+
+    Raises
+    ------
+    CubicCraftError
+        Wrong number of vertices, values that are not finite, or a mesh that cannot be written.
+        The mesh is then as it was before.
+    """
+    mesh = mesh_of(obj)
+    check_writable(mesh, obj.name)
+    original = original_shapes(mesh)
+    positions = _settled(mesh, positions, original.base)
+    with all_or_nothing(mesh):
+        if stored_result(mesh) is not None:
+            write_shapes(mesh, original)
+        drop_stored(mesh)
+        write_cubic_key(obj, positions)
+        mark_moved(mesh)
+
+
+def _settled(mesh: bpy.types.Mesh, positions: np.ndarray, base: np.ndarray) -> np.ndarray:
+    """Round positions to what is stored; vertices that stay, or are loose, keep their bits."""
+    _check_shape(mesh, positions, base.shape, "positions")
+    with np.errstate(over="ignore"):
+        rounded = np.asarray(positions, np.float32)
+    stays = (rounded == base).all(axis=1) | loose_vertices(mesh)
+    settled = np.where(stays[:, None], base, rounded)
+    _check_shape(mesh, settled, base.shape, "positions")
+    return settled
+
+
+def _check_shape(
+    mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...], what: str
+) -> None:
+    """Check that an array to be written fits the mesh and is finite."""
+    if np.shape(array) != shape:
+        raise CubicCraftError(
+            f"The result does not fit mesh '{mesh.name}': its {what} have the shape "
+            f"{np.shape(array)} instead of {shape}; cubify it again"
+        )
+    if not np.isfinite(array).all():
+        raise CubicCraftError(
+            f"The result for mesh '{mesh.name}' is not finite in its {what}: nothing was written; "
+            "try a smaller cubeness, or clean up degenerate faces (Mesh > Clean Up)"
+        )

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All shapes of a mesh at once: its positions and its shape keys, and how keys are carried."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from .arrays import mark_moved, read_key, read_position, write_key, write_position
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """The shapes of a mesh as plain arrays, each (n,3) float32.
+
+    `keys` and `relative` go by the names of the shape keys. Every key but the reference (the
+    first) is in `relative`, in an order in which the key that it is relative to comes before it.
+    """
+
+    position: np.ndarray
+    keys: dict[str, np.ndarray]
+    reference: str | None
+    relative: dict[str, str]
+
+    @property
+    def base(self) -> np.ndarray:
+        """The shape that counts: the reference key where there are shape keys."""
+        return self.position if self.reference is None else self.keys[self.reference]
+
+
+def read_shapes(mesh: bpy.types.Mesh, skip: bpy.types.ShapeKey | None = None) -> Shapes:
+    """Read all shapes of a mesh, without the shape key `skip`."""
+    position = read_position(mesh)
+    if mesh.shape_keys is None:
+        return Shapes(position, {}, None, {})
+    blocks = [key for key in mesh.shape_keys.key_blocks if key != skip]
+    reference = mesh.shape_keys.reference_key.name
+    relative = {key.name: key.relative_key.name for key in blocks if key.name != reference}
+    return Shapes(
+        position=position,
+        keys={key.name: read_key(mesh, key) for key in blocks},
+        reference=reference,
+        relative=_ordered(relative, reference),
+    )
+
+
+def write_shapes(mesh: bpy.types.Mesh, shapes: Shapes) -> None:
+    """Write shapes back to the mesh that they were read from."""
+    if mesh.shape_keys is not None:
+        for name, points in shapes.keys.items():
+            write_key(mesh.shape_keys.key_blocks[name], points)
+    write_position(mesh, shapes.position)
+    mark_moved(mesh)
+
+
+def carry(
+    shapes: Shapes,
+    base: np.ndarray,
+    rotations: np.ndarray,
+    known: Mapping[str, np.ndarray] | None = None,
+) -> Shapes:
+    """Move the base and take every shape key along.
+
+    Each key keeps its offset from the key that it is relative to, turned by the rotation of its
+    vertex. Vertices without offset lie on that other key bit for bit; where nothing moves and
+    nothing turns, a key keeps its bits.
+
+    Parameters
+    ----------
+    shapes : the shapes before
+    base : (n,3) numpy float32 array, the new base; also the new ``position``, because Blender
+        itself keeps that equal to the reference key
+    rotations : (n,3,3) numpy float64 array
+    known : names of keys whose new points are known already, to those points
+
+    Returns
+    -------
+    Shapes
+    """
+    if shapes.reference is None:
+        return Shapes(base, {}, None, {})
+    known = known or {}
+    keys = {shapes.reference: base}
+    unturned = (rotations == np.eye(3)).all(axis=(1, 2))
+    for name, other in shapes.relative.items():
+        keys[name] = (
+            known[name]
+            if name in known
+            else _carried(shapes.keys[name], shapes.keys[other], keys[other], rotations, unturned)
+        )
+    return Shapes(base, keys, shapes.reference, shapes.relative)
+
+
+def _carried(
+    key: np.ndarray,
+    other: np.ndarray,
+    new_other: np.ndarray,
+    rotations: np.ndarray,
+    unturned: np.ndarray,
+) -> np.ndarray:
+    """Carry one key along with the key `other` that it is relative to."""
+    offset = key.astype(np.float64) - other
+    with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
+        turned = (new_other + np.einsum("nij,nj->ni", rotations, offset)).astype(np.float32)
+    unmoved = unturned & (new_other == other).all(axis=1)
+    on_other = (key == other).all(axis=1)
+    return np.select([unmoved[:, None], on_other[:, None]], [key, new_other], turned)
+
+
+def _ordered(relative: Mapping[str, str], reference: str) -> dict[str, str]:
+    """Sort keys so that each comes after the key that it is relative to.
+
+    A key in a circle (relative to itself, for one), or relative to a key that is left out, is
+    taken as relative to the reference.
+    """
+    ordered: dict[str, str] = {}
+    pending = dict(relative)
+    while pending:
+        ready = {n: o for n, o in pending.items() if o == reference or o in ordered}
+        if not ready:
+            ready = {next(iter(pending)): reference}
+        ordered |= ready
+        pending = {n: o for n, o in pending.items() if n not in ready}
+    return ordered
