@@ -3,6 +3,8 @@
 `prepare` and `solve` change nothing, so that an exception or a cancel loses nothing; `write` does.
 """
 
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +16,7 @@ from .. import solver
 from . import mesh_bridge
 from .kernel_cache import use_extension_folder
 from .object_frame import stretch_and_orientation
+from .requirements import check_requirements
 from .settings import Settings
 
 PIN_THRESHOLD = 0.5
@@ -75,8 +78,10 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
         The object or a setting cannot be used; the message names the object and the cure.
     """
     begin = time.perf_counter()
+    check_requirements()
     mesh_bridge.check_editable(obj)
-    original = mesh_bridge.original_positions(obj.data)
+    mesh = mesh_bridge.mesh_of(obj)
+    original = mesh_bridge.original_positions(mesh)
     stretch, orientation = stretch_and_orientation(obj, settings)
     pinned = np.zeros(len(original), dtype=bool)
     for group in settings.pin_groups:
@@ -88,7 +93,7 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
             map_weights = 1.0 - map_weights
     try:
         rest = solver.rest_mesh(
-            original.astype(np.float64) @ stretch.T, mesh_bridge.triangles(obj.data, original)
+            original.astype(np.float64) @ stretch.T, mesh_bridge.triangles(mesh, original)
         )
         setup = solver.Setup(rest, np.flatnonzero(pinned))
     except solver.CubicCraftError as error:
@@ -158,7 +163,7 @@ def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.O
         return obj
     if result == "NEW_OBJECT":
         return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations)
-    mesh_bridge.write_mesh(obj.data, solution.positions, solution.rotations)
+    mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
     return obj
 
 

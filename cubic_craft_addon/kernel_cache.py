@@ -4,15 +4,16 @@ from functools import cache
 
 import bpy
 
-from ..solver import set_cache_folder
+from .. import solver
 from .package import ROOT_PACKAGE
 
 
 @cache
-def use_extension_folder():
+def use_extension_folder() -> None:
     """Have Taichi cache its kernels in the folder that Blender gives the extension."""
     try:
-        set_cache_folder(bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True))
+        folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True)
     except (ValueError, OSError):
         # Not installed as an extension, or the folder cannot be made: Taichi's default will do.
         return
+    solver.set_cache_folder(folder)

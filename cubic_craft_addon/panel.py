@@ -5,6 +5,7 @@ import bpy
 from ..solver import CubicCraftError
 from . import mesh_bridge
 from .properties import object_properties
+from .requirements import check_requirements
 
 DEFAULT_TAB = "Cubic Craft"
 
@@ -94,6 +95,7 @@ _SECTIONS = (
 def _problem(obj, properties):
     """Return what would make Cubify refuse the object, or an empty text."""
     try:
+        check_requirements()
         mesh_bridge.check_editable(obj)
     except CubicCraftError as error:
         return str(error)

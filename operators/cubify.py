@@ -10,10 +10,11 @@ from dataclasses import fields, replace
 import bpy
 from bpy.props import StringProperty
 
+from .. import solver
 from ..cubic_craft_addon import cubify
 from ..cubic_craft_addon.properties import RunProperties, object_properties, settings_of
 from ..cubic_craft_addon.settings import Settings
-from ..solver import CubicCraftError, Progress
+from ..solver import CubicCraftError
 from .selection import poll_meshes, report_all, selected_meshes
 
 _PROGRESS_STEPS = 100
@@ -143,7 +144,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
 
 
 def _solve(obj, settings, manager, offset):
-    progress = Progress(settings.max_iterations, settings.tolerance)
+    progress = solver.Progress(settings.max_iterations, settings.tolerance)
 
     def show(stylization):
         manager.progress_update(offset + round(_PROGRESS_STEPS * progress.update(stylization)))

@@ -1,14 +1,23 @@
-"""Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi."""
+"""Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi.
 
-from .backends import DEVICES, set_cache_folder
+The names below are imported at their first use, so that Blender can show the panel of the extension
+without loading SciPy, and even where SciPy is missing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from .errors import CubicCraftError
-from .progress import Progress
-from .rest_mesh import RestMesh, rest_mesh
-from .rotation_fit import svd_rotations
-from .setup import Setup
-from .stop_rule import StopRule
-from .stylization import Energy, Stylization
-from .stylize import Result, run, stylize
+
+if TYPE_CHECKING:
+    from .backends import DEVICES, set_cache_folder
+    from .progress import Progress
+    from .rest import RestMesh, rest_mesh
+    from .rotation_fit import svd_rotations
+    from .runner import Result, run, stylize
+    from .setup import Setup
+    from .stop_rule import StopRule
+    from .stylization import Energy, Stylization
 
 __all__ = [
     "DEVICES",
@@ -26,3 +35,27 @@ __all__ = [
     "stylize",
     "svd_rotations",
 ]
+
+_MODULES = {
+    "DEVICES": "backends",
+    "Energy": "stylization",
+    "Progress": "progress",
+    "RestMesh": "rest",
+    "Result": "runner",
+    "Setup": "setup",
+    "StopRule": "stop_rule",
+    "Stylization": "stylization",
+    "rest_mesh": "rest",
+    "run": "runner",
+    "set_cache_folder": "backends",
+    "stylize": "runner",
+    "svd_rotations": "rotation_fit",
+}
+
+
+def __getattr__(name):
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_MODULES[name]}", __name__), name)
+    globals()[name] = value
+    return value

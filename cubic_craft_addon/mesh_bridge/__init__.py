@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that reads or writes mesh data-blocks.
 
 Only positions are ever written: the ``position`` attribute and the points of shape keys. Beside
@@ -6,7 +5,7 @@ them the bridge keeps its own attributes and one custom property on the mesh (se
 Restore and Apply remove without a trace.
 """
 
-from .checks import check_editable
+from .checks import check_editable, mesh_of
 from .new_object import write_new_object
 from .original import has_original, original_positions, read_positions
 from .restore import forget, restore
@@ -19,6 +18,7 @@ __all__ = (
     "forget",
     "group_weights",
     "has_original",
+    "mesh_of",
     "original_positions",
     "read_positions",
     "restore",

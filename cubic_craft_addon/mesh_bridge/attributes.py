@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
 """Point attributes of ours on a mesh, added and removed without disturbing the artist's.
 
 Adding or removing an attribute shifts the others inside Blender's list, and Blender remembers
@@ -11,7 +10,6 @@ from contextlib import contextmanager
 
 import bpy
 import numpy as np
-
 
 # Attributes whose names begin so are ours, also where Blender has brought them along from another
 # mesh, by joining for one.

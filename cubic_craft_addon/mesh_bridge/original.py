@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
 """The original of a mesh that we have written to: kept, found again, or given up.
 
 The original lies in point attributes of the mesh, so it is saved, copied and undone with it. It
@@ -66,7 +65,7 @@ def original_positions(mesh: bpy.types.Mesh) -> np.ndarray:
 def has_original(mesh: bpy.types.Mesh) -> bool:
     """Tell whether the mesh holds a result of ours that `restore` can take back.
 
-    It hashes the positions (a millisecond per 80 000 vertices). False where the mesh cannot be
+    It hashes the positions (2 ms per 100 000 vertices). False where the mesh cannot be
     read, as in Edit Mode.
     """
     try:

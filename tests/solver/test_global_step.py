@@ -6,7 +6,7 @@ import shapes
 
 from solver import CubicCraftError
 from solver.global_step import GlobalStep
-from solver.rest_mesh import rest_mesh
+from solver.rest import rest_mesh
 
 NO_PINS = np.array([], int)
 

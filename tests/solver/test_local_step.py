@@ -10,7 +10,7 @@ from taichi_marks import needs_taichi
 
 from solver.admm import AdmmOptions
 from solver.backends import local_step_class
-from solver.rest_mesh import rest_mesh
+from solver.rest import rest_mesh
 from solver.setup import Setup
 from solver.stylization import Stylization
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import CubicCraftError
-from .rest_mesh import rest_mesh
+from .rest import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
 from .stylization import Energy, Stylization

@@ -1,0 +1,48 @@
+"""The tests in bpy run against the extension as a user has it: built and installed from the zip."""
+
+import importlib
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+NAME = "bl_ext.user_default.cubic_craft"
+
+# Before bpy is imported: an empty user folder, so that no setting or extension of the user matters.
+_user_folder = tempfile.TemporaryDirectory(prefix="cubic_craft_tests_")
+os.environ["BLENDER_USER_RESOURCES"] = _user_folder.name
+
+import bpy  # noqa: E402
+
+
+def _extension_zip():
+    given = os.environ.get("CUBIC_CRAFT_ZIP")
+    if given:
+        return Path(given).resolve()
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from build_extension import build
+
+    path = Path(_user_folder.name) / "built" / "cubic_craft.zip"
+    build(path)
+    return path
+
+
+@pytest.fixture(scope="session", autouse=True)
+def extension():
+    """Install and enable the built extension; return its package."""
+    done = bpy.ops.extensions.package_install_files(
+        filepath=str(_extension_zip()), repo="user_default", enable_on_install=True
+    )
+    assert done == {"FINISHED"}
+    module = importlib.import_module(NAME)
+    assert _user_folder.name in module.__file__
+    return module
+
+
+@pytest.fixture(autouse=True)
+def empty_file(extension):
+    """Start each test with an empty file; the extension stays enabled."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -1,0 +1,50 @@
+import importlib
+
+import pytest
+from rich_mesh import add_rich_monkey
+
+
+@pytest.fixture
+def bridge(extension):
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+
+
+@pytest.fixture
+def error(extension):
+    return importlib.import_module(f"{extension.__name__}.solver.errors").CubicCraftError
+
+
+@pytest.fixture(params=[False, True], ids=["plain", "keys"])
+def monkey(request):
+    return add_rich_monkey(keys=request.param)
+
+
+@pytest.fixture
+def plain_monkey():
+    return add_rich_monkey(keys=False)
+
+
+@pytest.fixture
+def keyed_monkey():
+    return add_rich_monkey(keys=True)
+
+
+@pytest.fixture
+def fail_once(bridge, monkeypatch):
+    """Let one call of a function fail, such as the second one of ``"original.write_note"``."""
+
+    def fail(name, *, call):
+        file, function = name.split(".")
+        module = importlib.import_module(f"{bridge.__name__}.{file}")
+        real = getattr(module, function)
+        calls = []
+
+        def failing(*args, **named):
+            calls.append(args)
+            if len(calls) == call:
+                raise RuntimeError("disk on fire")
+            return real(*args, **named)
+
+        monkeypatch.setattr(module, function, failing)
+
+    return fail

@@ -1,0 +1,187 @@
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+from rich_mesh import add_rich_monkey, cubic_like, points_of, set_points, set_position
+from snapshot import differences, snapshot_object
+
+
+def test_good_mesh(bridge, monkey):
+    before = snapshot_object(monkey)
+    bridge.check_editable(monkey)
+    assert differences(before, snapshot_object(monkey)) == []
+
+
+def test_no_mesh(bridge, error):
+    for obj in (
+        bpy.data.objects.new("Hook", None),
+        bpy.data.objects.new("Rope", bpy.data.curves.new("Rope", "CURVE")),
+    ):
+        with pytest.raises(error, match=f"'{obj.name}' is not a mesh: .*Convert"):
+            bridge.check_editable(obj)
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT"])
+def test_mode(bridge, error, monkey, mode):
+    bpy.ops.object.mode_set(mode=mode)
+    with pytest.raises(error, match=f"'Suzanne' is in {mode.title()} Mode: go back"):
+        bridge.check_editable(monkey)
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    bridge.check_editable(monkey)
+
+
+def test_edit_mode_of_another_user_of_the_mesh(bridge, error, plain_monkey):
+    twin = bpy.data.objects.new("Twin", plain_monkey.data)
+    bpy.context.collection.objects.link(twin)
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(error, match="'Twin' is in Edit Mode"):
+        bridge.check_editable(twin)
+
+
+def test_nothing_reads_or_writes_in_edit_mode(bridge, error, monkey):
+    mesh = monkey.data
+    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    result = cubic_like(bridge.read_positions(mesh))
+    before = snapshot_object(monkey)
+    bpy.ops.object.mode_set(mode="EDIT")
+    for call in (
+        lambda: bridge.read_positions(mesh),
+        lambda: bridge.original_positions(mesh),
+        lambda: bridge.write_mesh(mesh, *result),
+        lambda: bridge.write_shape_key(monkey, result[0]),
+        lambda: bridge.write_new_object(monkey, *result),
+        lambda: bridge.restore(monkey),
+        lambda: bridge.forget(mesh),
+    ):
+        with pytest.raises(error, match="is in Edit Mode: go back to Object Mode"):
+            call()
+    assert not bridge.has_original(mesh)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert bridge.has_original(mesh)
+    after = snapshot_object(monkey)
+    # Edit Mode itself adds and drops selections.
+    ignore = ["*select*", "*attributes/order", "*attributes/active index", "*points"]
+    assert differences(before, after, ignore=ignore) == []
+
+
+def test_hidden(bridge, error, monkey):
+    collection = bpy.data.collections.new("Room")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(monkey)
+    bpy.context.scene.collection.objects.unlink(monkey)
+    layer = bpy.context.view_layer.layer_collection.children["Room"]
+    for hide, value in (
+        (lambda v: monkey.hide_set(v), True),
+        (lambda v: setattr(monkey, "hide_viewport", v), True),
+        (lambda v: setattr(collection, "hide_viewport", v), True),
+        (lambda v: setattr(layer, "exclude", v), True),
+    ):
+        bridge.check_editable(monkey)
+        hide(value)
+        with pytest.raises(error, match="'Suzanne' is hidden: show it"):
+            bridge.check_editable(monkey)
+        hide(not value)
+    bridge.check_editable(monkey)
+
+
+def test_no_faces(bridge, error):
+    for points, message in (
+        ([(0, 0, 0), (1, 0, 0)], "fewer than 3 vertices"),
+        ([], "fewer than 3 vertices"),
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "no faces"),
+    ):
+        mesh = bpy.data.meshes.new("Wire")
+        mesh.from_pydata(points, [(0, 1)] if points else [], [])
+        obj = bpy.data.objects.new("Wire", mesh)
+        bpy.context.collection.objects.link(obj)
+        with pytest.raises(error, match=f"'{obj.name}' has {message}: "):
+            bridge.check_editable(obj)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_coordinates_without_number(bridge, error, monkey, value):
+    mesh = monkey.data
+    broken = bridge.read_positions(mesh)
+    broken[11, 1] = value
+    where = ""
+    if mesh.shape_keys is None:
+        set_position(mesh, broken)
+    else:
+        set_points(mesh, "Basis", broken)
+        where = " in shape key 'Basis'"
+    with pytest.raises(error, match=f"'Suzanne' has .*{where} .vertex 11, .* of 1.*delete"):
+        bridge.check_editable(monkey)
+    with pytest.raises(error, match=f"'{mesh.name}'.*delete"):
+        bridge.read_positions(mesh)
+
+
+def test_shape_key_without_number(bridge, error, keyed_monkey):
+    mesh = keyed_monkey.data
+    points = points_of(mesh, "Wide")
+    points[4] = np.nan
+    set_points(mesh, "Wide", points)
+    with pytest.raises(error, match=r"'Suzanne'.* in shape key 'Wide' .*vertex 4"):
+        bridge.check_editable(keyed_monkey)
+
+
+def test_shape_keys_that_do_not_fit(bridge, error, keyed_monkey):
+    mesh = keyed_monkey.data
+    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    mesh.vertices.add(2)
+    for call in (
+        lambda: bridge.check_editable(keyed_monkey),
+        lambda: bridge.read_positions(mesh),
+        lambda: bridge.original_positions(mesh),
+    ):
+        with pytest.raises(error, match=r"'Basis' of mesh 'Monkey' has .*: delete the shape key"):
+            call()
+    assert not bridge.has_original(mesh)
+
+
+@pytest.fixture
+def library(tmp_path):
+    """Save a file with the monkey and start an empty one."""
+    add_rich_monkey(keys=True)
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    libraries: Any = bpy.data.libraries
+    with libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Suzanne"]
+    obj = wanted.objects[0]
+    bpy.context.collection.objects.link(obj)
+    return obj
+
+
+@pytest.mark.parametrize("override", [None, "object", "mesh"])
+def test_linked_data(bridge, error, library, override):
+    obj = library
+    if override:
+        obj = obj.override_create(remap_local_usages=True)
+    if override == "mesh":
+        mesh = obj.data.override_create(remap_local_usages=True)
+        assert mesh.is_editable and obj.data == mesh
+    result = cubic_like(bridge.read_positions(obj.data))
+    before = snapshot_object(obj)
+    for call in (
+        lambda: bridge.check_editable(obj),
+        lambda: bridge.write_mesh(obj.data, *result),
+        lambda: bridge.write_shape_key(obj, result[0]),
+        lambda: bridge.write_new_object(obj, *result),
+        lambda: bridge.restore(obj),
+        lambda: bridge.forget(obj.data),
+    ):
+        with pytest.raises(error, match=r"linked.*make it local"):
+            call()
+    assert differences(before, snapshot_object(obj)) == []
+    assert not bridge.has_original(obj.data)
+
+
+def test_made_local(bridge, library):
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.make_local(type="SELECT_OBDATA")
+    obj = bpy.context.scene.objects["Suzanne"]
+    bridge.check_editable(obj)
+    bridge.write_mesh(obj.data, *cubic_like(bridge.read_positions(obj.data)))
+    bridge.restore(obj)

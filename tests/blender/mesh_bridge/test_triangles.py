@@ -1,0 +1,75 @@
+import bpy
+import numpy as np
+from rich_mesh import cubic_like, set_position
+from snapshot import differences, snapshot_object
+
+
+def mesh_of(points, faces):
+    mesh = bpy.data.meshes.new("Cut")
+    mesh.from_pydata(points, [], faces)
+    return mesh
+
+
+def test_triangles_are_taken_as_they_are(bridge):
+    faces = [(2, 0, 1), (1, 3, 2)]
+    mesh = mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (5, 5, 5)], faces)
+    triangles = bridge.triangles(mesh, bridge.read_positions(mesh))
+    assert triangles.dtype == np.int32
+    assert triangles.tolist() == [list(face) for face in faces]
+
+
+def test_no_faces(bridge):
+    mesh = mesh_of([(0, 0, 0)], [])
+    assert bridge.triangles(mesh, bridge.read_positions(mesh)).shape == (0, 3)
+
+
+def test_as_blender_cuts_them(bridge, monkey):
+    mesh = monkey.data
+    mesh.calc_loop_triangles()
+    expected = [triangle.vertices[:] for triangle in mesh.loop_triangles]
+    sizes = {len(face.vertices) for face in mesh.polygons}
+    assert 3 in sizes and 4 in sizes and max(sizes) > 5
+    triangles = bridge.triangles(mesh, bridge.read_positions(mesh))
+    assert [tuple(triangle) for triangle in triangles.tolist()] == expected
+    loose = np.arange(len(mesh.vertices) - 4, len(mesh.vertices))
+    assert not np.isin(triangles, loose).any()
+
+
+def test_the_given_shape_is_cut_and_not_the_present_one(bridge):
+    """An arrowhead quad must be cut through its inner corner, which is not always the same."""
+    faces = [(0, 1, 2, 3)]
+    arrow = np.array([(0, 0, 0), (2, -1, 0), (0.5, 0, 0), (2, 1, 0)], np.float32)
+    turned = np.roll(arrow, 1, axis=0)
+    cuts = []
+    for shape in (arrow, turned):
+        mesh = mesh_of(shape.tolist(), faces)
+        cuts.append(bridge.triangles(mesh, shape))
+        set_position(mesh, arrow if shape is turned else turned)
+        assert np.array_equal(bridge.triangles(mesh, shape), cuts[-1])
+    assert not np.array_equal(*cuts)
+
+
+def test_after_cubify_as_before(bridge, monkey):
+    mesh = monkey.data
+    base = bridge.read_positions(mesh)
+    before = bridge.triangles(mesh, base)
+    bridge.write_mesh(mesh, *cubic_like(base))
+    assert np.array_equal(bridge.triangles(mesh, bridge.original_positions(mesh)), before)
+    rng = np.random.default_rng(0)
+    crumpled = base + rng.normal(0, 0.3, base.shape).astype(np.float32)
+    assert not np.array_equal(bridge.triangles(mesh, crumpled), before)
+
+
+def test_faces_without_area(bridge):
+    points = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (0, 0, 0)]
+    mesh = mesh_of(points, [(0, 1, 2, 3), (0, 4, 1), (0, 1, 2, 3, 4)])
+    triangles = bridge.triangles(mesh, bridge.read_positions(mesh))
+    assert triangles.shape == (6, 3)
+    assert all(len(set(triangle)) == 3 for triangle in triangles.tolist())
+
+
+def test_nothing_is_left_behind(bridge, monkey):
+    before, count = snapshot_object(monkey), len(bpy.data.meshes)
+    bridge.triangles(monkey.data, bridge.read_positions(monkey.data))
+    assert len(bpy.data.meshes) == count
+    assert differences(before, snapshot_object(monkey)) == []

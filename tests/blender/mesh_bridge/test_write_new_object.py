@@ -1,0 +1,123 @@
+import bpy
+import numpy as np
+import pytest
+from rich_mesh import cubic_like, points_of
+from snapshot import (
+    POSITIONS,
+    SHAPE_KEY_POINTS,
+    STORED,
+    differences,
+    snapshot_mesh,
+    snapshot_object,
+)
+
+# What is another data-block by nature.
+COPIED = ("*rna/name", "*rna/data", "*rna/shape_keys", "*rna/active_shape_key", "*rna/user")
+COPIED += ("*rna/animation_data",)
+
+
+def counts():
+    return [
+        len(blocks)
+        for blocks in (bpy.data.objects, bpy.data.meshes, bpy.data.shape_keys, bpy.data.actions)
+    ]
+
+
+def test_copy_and_source(bridge, monkey):
+    mesh = monkey.data
+    before = snapshot_object(monkey)
+    positions, rotations = cubic_like(bridge.read_positions(mesh))
+    new = bridge.write_new_object(monkey, positions, rotations)
+    assert differences(before, snapshot_object(monkey), ignore=["selected"]) == []
+    assert (new.name, new.data.name) == ("Suzanne Cubic", "Monkey Cubic")
+    ignore = POSITIONS + SHAPE_KEY_POINTS + STORED + COPIED
+    assert differences(before, snapshot_object(new), ignore=ignore) == []
+    assert bridge.read_positions(new.data)[:-4].tobytes() == positions[:-4].tobytes()
+    assert new.select_get() and not monkey.select_get()
+    assert bpy.context.view_layer.objects.active == new
+
+
+def test_shape_keys_of_the_copy(bridge, keyed_monkey):
+    result = cubic_like(bridge.read_positions(keyed_monkey.data))
+    new = bridge.write_new_object(keyed_monkey, *result)
+    assert new.data.shape_keys != keyed_monkey.data.shape_keys
+    drivers = new.data.shape_keys.animation_data.drivers
+    assert [curve.data_path for curve in drivers] == ['key_blocks["Wide"].value']
+    bridge.write_mesh(keyed_monkey.data, *result)
+    for name in ("Smile", "Frown", "Wide"):
+        ours = points_of(new.data, name)
+        assert ours.tobytes() == points_of(keyed_monkey.data, name).tobytes()
+
+
+def test_copy_can_be_restored(bridge, monkey):
+    before = snapshot_object(monkey)
+    new = bridge.write_new_object(monkey, *cubic_like(bridge.read_positions(monkey.data)))
+    bridge.restore(new)
+    assert differences(before, snapshot_object(new), ignore=COPIED) == []
+
+
+@pytest.mark.parametrize("first", ["mesh", "key"])
+def test_source_with_a_result_of_ours(bridge, monkey, first):
+    """The copy starts from the original; the source keeps its result."""
+    base = bridge.read_positions(monkey.data)
+    directly = bridge.write_new_object(monkey, *cubic_like(base, 2))
+    expected = snapshot_mesh(directly.data)
+    if first == "mesh":
+        bridge.write_mesh(monkey.data, *cubic_like(base, 1))
+    else:
+        bridge.write_shape_key(monkey, cubic_like(base, 1)[0])
+    before = snapshot_object(monkey)
+    new = bridge.write_new_object(monkey, *cubic_like(base, 2))
+    assert differences(before, snapshot_object(monkey), ignore=["selected"]) == []
+    assert differences(expected, snapshot_mesh(new.data), ignore=COPIED) == []
+    assert bridge.original_positions(new.data).tobytes() == base.tobytes()
+
+
+def test_collections(bridge, plain_monkey):
+    rooms = [bpy.data.collections.new(name) for name in ("Hall", "Attic")]
+    for room in rooms:
+        bpy.context.scene.collection.children.link(room)
+        room.objects.link(plain_monkey)
+    bpy.context.scene.collection.objects.unlink(plain_monkey)
+    result = cubic_like(bridge.read_positions(plain_monkey.data))
+    new = bridge.write_new_object(plain_monkey, *result)
+    assert set(new.users_collection) == set(rooms)
+
+
+def test_object_of_another_scene(bridge, plain_monkey):
+    """It is in no view layer at hand: the copy is made, and nothing is selected."""
+    other = bpy.data.scenes.new("Other")
+    other.collection.objects.link(plain_monkey)
+    bpy.context.scene.collection.objects.unlink(plain_monkey)
+    result = cubic_like(bridge.read_positions(plain_monkey.data))
+    new = bridge.write_new_object(plain_monkey, *result)
+    assert list(new.users_collection) == [other.collection]
+    assert bpy.context.view_layer.objects.active != new
+
+
+def test_mesh_of_two_objects(bridge, plain_monkey):
+    twin = bpy.data.objects.new("Twin", plain_monkey.data)
+    result = cubic_like(bridge.read_positions(plain_monkey.data))
+    new = bridge.write_new_object(plain_monkey, *result)
+    assert plain_monkey.data == twin.data != new.data
+    assert new.data.users == 1
+
+
+def test_refused_result_leaves_no_copy(bridge, error, monkey):
+    before, blocks = snapshot_object(monkey), counts()
+    positions, rotations = cubic_like(bridge.read_positions(monkey.data))
+    positions[9] = np.nan
+    with pytest.raises(error, match=monkey.data.name):
+        bridge.write_new_object(monkey, positions, rotations)
+    assert counts() == blocks
+    assert differences(before, snapshot_object(monkey)) == []
+
+
+@pytest.mark.parametrize("failing", ["new_object.write_mesh", "new_object._select_instead"])
+def test_failure_half_way_leaves_no_copy(bridge, monkey, failing, fail_once):
+    before, blocks = snapshot_object(monkey), counts()
+    fail_once(failing, call=1)
+    with pytest.raises(RuntimeError, match="disk on fire"):
+        bridge.write_new_object(monkey, *cubic_like(bridge.read_positions(monkey.data)))
+    assert counts() == blocks
+    assert differences(before, snapshot_object(monkey)) == []

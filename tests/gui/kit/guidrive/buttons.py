@@ -1,0 +1,135 @@
+"""Finding buttons: Blender tells no script where they are, so the mouse feels its way."""
+
+import bpy
+
+from .gestures import move_mouse, turn_wheel
+from .screen import Button, area, in_region, region
+from .waiting import wait_redraw, wait_until
+
+SCAN_STEP = 12  # pixels; a row of buttons is 20 high
+
+
+def open_sidebar(tab):
+    """Open the viewport's sidebar at a tab (a panel's bl_category) and wait until it is drawn."""
+    area().spaces.active.show_region_ui = True
+    yield from wait_until(lambda: region("UI").width > 1, what="the sidebar")
+
+    def tab_is_active():
+        try:
+            region("UI").active_panel_category = tab
+        except (AttributeError, TypeError):  # no such tab: not drawn yet
+            return False
+        return region("UI").active_panel_category == tab
+
+    area().tag_redraw()
+    yield from wait_until(tab_is_active, what=f"sidebar tab {tab!r}")
+    yield from wait_redraw("UI")
+
+
+def button_under_mouse(region_type="UI", area_type="VIEW_3D"):
+    """Return the text of the button under the mouse, as Blender's context menu would copy it.
+
+    That is "bpy.ops.my_extension.run()" for an operator, for a property its full data path such as
+    'bpy.data.scenes["Scene"].my_extension.strength', and "" where there is no such button.
+    Overwrites Blender's clipboard.
+    """
+    manager = bpy.context.window_manager
+    with in_region(region_type, area_type):
+        manager.clipboard = ""
+        copy_call = bpy.ops.ui.copy_python_command_button
+        copy_path = bpy.ops.ui.copy_data_path_button
+        if copy_call.poll():  # pyright: ignore[reportCallIssue] - the stubs take it for unbound
+            copy_call()
+        if not manager.clipboard and copy_path.poll():  # pyright: ignore[reportCallIssue]
+            copy_path(full_path=True)
+    return manager.clipboard
+
+
+def find_button(target, region_type="UI", area_type="VIEW_3D"):
+    """Find a button by operator id ("my_extension.run") or end of its data path ("obj.strength").
+
+    The mouse walks over the region, which is scrolled if need be. Returns a Button; raises
+    LookupError with the buttons that were met. Closed panels and pop-ups are not searched.
+    """
+    met = {}
+
+    def matches(text):
+        return text.startswith(f"bpy.ops.{target}(") or f".{text}".endswith(f".{target}")
+
+    for thorough in (False, True):
+        button = yield from _scan(matches, met, region_type, area_type, thorough)
+        for wheel in ("WHEELUPMOUSE", "WHEELDOWNMOUSE"):
+            while not button and (yield from _scroll(wheel, region_type, area_type)):
+                button = yield from _scan(matches, met, region_type, area_type, thorough)
+        if button:
+            return button
+    raise LookupError(f"no button {target!r}; met: {list(met)}")
+
+
+def _hover(x, y, region_type, area_type):
+    """Move the mouse and return the text of the button there."""
+    yield from move_mouse((x, y))
+    return button_under_mouse(region_type, area_type)
+
+
+def _scan(matches, met, region_type, area_type, thorough):
+    """Walk the mouse down the region until it meets the button.
+
+    Unless thorough, it looks to the left and right only in rows that have a button on the way.
+    """
+    place = region(region_type, area_type)
+    columns = [place.x + int(across * place.width) for across in (0.52, 0.37, 0.75, 0.12)]
+    rows = range(place.y + place.height - 4, place.y, -SCAN_STEP)
+    if place.width > 4 * place.height:  # a header: one row of small buttons
+        columns = range(place.x + SCAN_STEP, place.x + place.width, SCAN_STEP)
+        rows = [place.y + place.height // 2]
+        thorough = True
+    last = ""
+    for y in rows:
+        for x in columns:
+            text = yield from _hover(x, y, region_type, area_type)
+            if text:
+                met[text] = True
+            if matches(text):
+                return (yield from _measure(text, x, y, region_type, area_type))
+            if x == columns[0]:
+                is_new_row, last = text not in ("", last), text
+                if not (is_new_row or thorough):
+                    break
+    return None
+
+
+def _measure(text, x, y, region_type, area_type):
+    """Return the Button with this text around a point."""
+
+    def edge(inside, outside, hover_at):
+        while abs(outside - inside) > 1:
+            middle = (inside + outside) // 2
+            if (yield from hover_at(middle)) == text:
+                inside = middle
+            else:
+                outside = middle
+        return inside
+
+    def row(hover_x):
+        return _hover(hover_x, y, region_type, area_type)
+
+    def column(hover_y):
+        return _hover(x, hover_y, region_type, area_type)
+
+    place = region(region_type, area_type)
+    left = yield from edge(x, place.x - 1, row)
+    right = yield from edge(x, place.x + place.width, row)
+    bottom = yield from edge(y, place.y - 1, column)
+    top = yield from edge(y, place.y + place.height, column)
+    return Button(text, left, bottom, right, top)
+
+
+def _scroll(wheel, region_type, area_type):
+    """Turn the mouse wheel some steps; tell whether the region has scrolled."""
+    place = region(region_type, area_type)
+    before = place.view2d.region_to_view(0, 0)[1]
+    yield from move_mouse((place.x + place.width // 2, place.y + place.height // 2))
+    yield from turn_wheel(wheel, 8)
+    yield from wait_redraw()
+    return place.view2d.region_to_view(0, 0)[1] != before

@@ -1,0 +1,89 @@
+"""What a hand does: move, click, drag, press keys, type."""
+
+from .events import events, settle
+from .screen import Button, viewport_point
+from .waiting import counts, wait_until
+
+
+def move_mouse(point):
+    """Move the mouse to a point."""
+    events().move(*point)
+    yield from settle()
+
+
+def click(target, button="LEFTMOUSE"):
+    """Click on a Button or on a point."""
+    yield from move_mouse(target.at() if isinstance(target, Button) else target)
+    events().press(button)
+    yield from settle()
+    events().release(button)
+    yield from settle()
+
+
+def drag(start, end, steps=8, button="LEFTMOUSE"):
+    """Press at a point, move to another in some steps, release."""
+    yield from move_mouse(start)
+    events().press(button)
+    yield from settle()
+    for step in range(1, steps + 1):
+        x, y = (round(a + (b - a) * step / steps) for a, b in zip(start, end, strict=True))
+        yield from move_mouse((x, y))
+    events().release(button)
+    yield from settle()
+
+
+def drag_slider(slider, start=0.5, end=0.9, steps=8):
+    """Drag in a slider found by find_button, between two fractions of its width."""
+    yield from drag(slider.at(start), slider.at(end), steps)
+
+
+def turn_wheel(wheel, steps):
+    """Turn the mouse wheel: "WHEELUPMOUSE" or "WHEELDOWNMOUSE"."""
+    for _ in range(steps):
+        events().press(wheel)
+        yield from settle()
+
+
+def keys(*combinations):
+    """Press keys by their names in bpy.types.Event, such as "ESC", "RET", "TAB", "CTRL+SHIFT+Z".
+
+    They go to the region under the mouse; see viewport_point and move_mouse.
+    """
+    for combination in combinations:
+        *modifiers, key = combination.split("+")
+        modifiers = [f"LEFT_{modifier}" for modifier in modifiers]
+        for name in (*modifiers, key):
+            events().press(name)
+            yield from settle()
+        for name in (key, *reversed(modifiers)):
+            events().release(name)
+            yield from settle()
+
+
+def type_text(text):
+    """Type letters, digits, spaces and . , - _ into the field that is being edited."""
+    for character in text:
+        events().type(character)
+        yield from settle()
+
+
+def enter_value(field, value):
+    """Type a value into a number or text field found by find_button and confirm it."""
+    events().press("LEFT_CTRL")  # Ctrl and click starts to edit a slider, too
+    yield from click(field)
+    events().release("LEFT_CTRL")
+    yield from settle()
+    yield from keys("CTRL+A")
+    yield from type_text(str(value))
+    yield from keys("RET")
+
+
+def undo():
+    """Press Ctrl-Z over the viewport and wait until Blender has taken back one step.
+
+    References to objects, meshes and scenes taken before are invalid after it.
+    """
+    undone = counts["undo"]
+    yield from move_mouse(viewport_point())
+    yield from keys("CTRL+Z")
+    yield from wait_until(lambda: counts["undo"] > undone, what="undo")

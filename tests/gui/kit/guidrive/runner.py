@@ -1,0 +1,103 @@
+"""The start and the end of a test: run(test) is the last line of each test script."""
+
+import faulthandler
+import os
+import pathlib
+import sys
+import time
+import traceback
+
+import addon_utils
+import bpy
+
+from .pictures import save_screen
+from .waiting import counts, start_counting, wait_until
+
+python_errors = []  # tracebacks of errors that Blender caught (in draw, modal, handlers, timers)
+
+_start = time.monotonic()
+
+
+def log(*values):
+    """Print the values with the time since the start."""
+    print(f"[gui {time.monotonic() - _start:7.3f}]", *values, flush=True)
+
+
+def run(test, timeout=240.0):
+    """Start the test, a generator function: passed when it ends, failed when it raises.
+
+    It also fails when Blender has caught a Python error, after `timeout` seconds, or 30 seconds
+    later with all stack traces if Blender hangs; keep the run script's -t (300) above that.
+    """
+    faulthandler.dump_traceback_later(timeout + 30, exit=True)
+    _quiet_preferences()
+    start_counting()
+    _keep_python_errors()
+    steps = _after_first_draw(test)
+    deadline = time.monotonic() + timeout
+
+    def turn():
+        try:
+            next(steps)
+            if time.monotonic() > deadline:
+                steps.throw(TimeoutError(f"the test ran longer than {timeout:g} s"))
+        except StopIteration:
+            _finish()
+        except BaseException as error:  # whatever it is, the test has failed
+            traceback.print_exc()
+            _fail(repr(error))
+        else:
+            return 0.0  # again in the next turn of the main loop
+        return None
+
+    bpy.app.timers.register(turn, persistent=True)
+
+
+def _finish():
+    """Quit Blender in the regular way, so that a crash in unregister() or at the exit shows."""
+    if python_errors:
+        _fail(f"{len(python_errors)} Python error(s) in Blender, see above")
+    log("PASSED")
+    sys.stderr.flush()
+    pathlib.Path(os.environ["GUIDRIVE_PASSED"]).touch()
+    bpy.ops.wm.quit_blender()
+
+
+def _fail(reason):
+    """End Blender with exit code 1 and a picture of the screen, failed.png."""
+    log(f"FAILED {reason}")
+    sys.stderr.flush()
+    try:
+        save_screen("failed.png")
+    finally:
+        os._exit(1)
+
+
+def _after_first_draw(test):
+    yield from wait_until(lambda: counts["WINDOW"] > 0, what="the first draw of the viewport")
+    for module in list(bpy.context.preferences.addons.keys()):
+        _, loaded = addon_utils.check(module)
+        if module.startswith("bl_ext.") and not loaded:
+            raise RuntimeError(f"the extension {module} could not be enabled, see above")
+    yield from test()
+
+
+def _quiet_preferences():
+    """Switch off what gets in the way of a test."""
+    preferences = bpy.context.preferences
+    preferences.use_preferences_save = False
+    preferences.view.show_splash = False
+    preferences.view.show_tooltips = False
+    preferences.view.smooth_view = 0
+    preferences.view.use_save_prompt = False
+    preferences.filepaths.use_auto_save_temporary_files = False
+
+
+def _keep_python_errors():
+    print_error = sys.excepthook
+
+    def keep_error(error_type, error, trace):
+        python_errors.append("".join(traceback.format_exception(error_type, error, trace)))
+        print_error(error_type, error, trace)
+
+    sys.excepthook = keep_error

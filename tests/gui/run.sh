@@ -1,0 +1,95 @@
+#!/bin/bash
+# Runs every window test (test_*.py of this folder) on a built extension.
+#   run.sh [--if-possible] EXTENSION.zip [OUTPUT [SUITE...]]
+#     OUTPUT  folder for screenshots and logs (default: build/gui in the project)
+#     SUITE   Debian releases whose Blender is used (default: trixie sid); set up at first use
+# With BLENDER set, that Blender is used in place of Debian's; else this needs root on Debian.
+# --if-possible: where the tests cannot run, say so and succeed (exit code 0 in place of 2).
+# EXPECT_DEVICE, if set, is the solver backend the tests insist on; Debian's suites have a default.
+# Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
+set -uo pipefail
+
+usage() { sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; }
+HERE=$(dirname "$(realpath "$0")")
+IF_POSSIBLE=''
+[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
+case ${1:-} in
+    -h | --help) usage; exit 0 ;;
+    '' | -*) usage >&2; exit 2 ;;
+esac
+ZIP=$(realpath -e "$1") || exit 2
+OUTPUT=${2:-$HERE/../../build/gui}
+shift $(($# < 2 ? $# : 2))
+read -ra SUITES <<<"${*:-trixie sid}"
+if [ -n "${BLENDER:-}" ]; then
+    command -v "$BLENDER" >/dev/null || { echo "no such Blender: $BLENDER" >&2; exit 2; }
+    SUITES=(blender)
+fi
+mkdir -p "$OUTPUT" || exit 2
+OUTPUT=$(realpath "$OUTPUT")
+
+# Prints why the tests cannot run here; nothing if they can.
+obstacle() {
+    if [ -n "${BLENDER:-}" ]; then
+        [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || command -v Xvfb >/dev/null ||
+            echo "BLENDER is set, but there is neither a display nor Xvfb"
+    elif ! grep -qsx 'ID=debian' /etc/os-release; then
+        echo "not a Debian machine (set BLENDER to a Blender's path to use that one)"
+    elif [ "$(id -u)" != 0 ]; then
+        echo "they need root (set BLENDER to a Blender's path to use that one)"
+    fi
+}
+
+# The backend that must have run: Taichi has no wheel for the Python of sid.
+expected_device() {
+    case $1 in
+        trixie) echo taichi-cpu ;;
+        sid) echo numpy ;;
+    esac
+}
+
+run_test() {
+    local suite=$1 test=$2 folder=$3
+    if [ "$suite" = blender ]; then
+        "$HERE/kit/run_with_blender.sh" -e "$ZIP" -d "$folder" "$test"
+    else
+        "$HERE/kit/run_in_gui.sh" -s "$suite" -p -e "$ZIP" -d "$folder" \
+            -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$test"
+    fi
+}
+
+REASON=$(obstacle)
+if [ -n "$REASON" ]; then
+    echo "window tests skipped: $REASON"
+    [ -n "$IF_POSSIBLE" ]
+    exit $((2 * $?))
+fi
+
+PASSED=0 FAILED=0
+for suite in "${SUITES[@]}"; do
+    ready=1
+    [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite" || ready=0
+    for test in "$HERE"/test_*.py; do
+        name=$(basename "$test" .py)
+        folder=$OUTPUT/$suite/$name
+        rm -rf "$folder"
+        mkdir -p "$folder"
+        seconds=$SECONDS
+        if [ $ready = 0 ]; then
+            code="not run, the set-up failed"
+        else
+            run_test "$suite" "$test" "$folder" >"$folder/log.txt" 2>&1
+            code=$?
+        fi
+        if [ "$code" = 0 ]; then
+            PASSED=$((PASSED + 1))
+            echo "passed: $name on $suite ($((SECONDS - seconds)) s), pictures in $folder"
+        else
+            FAILED=$((FAILED + 1))
+            [ ! -e "$folder/log.txt" ] || cat "$folder/log.txt"
+            echo "failed: $name on $suite ($code), pictures in $folder"
+        fi
+    done
+done
+echo "$PASSED passed, $FAILED failed"
+[ $FAILED = 0 ]

@@ -1,0 +1,106 @@
+"""Cubify, undo, Cubify with another cubeness, Restore: by the hand of a user, in a real window.
+
+EXPECT_DEVICE in the environment ("taichi-cpu", "numpy") names the backend that must have run.
+"""
+
+import os
+
+import bpy
+import guidrive as gui
+import numpy as np
+
+NAME = "Suzanne"  # of the monkey and of its mesh
+SETTINGS = "cubic_craft"  # the property of objects
+SOLVE_SECONDS = 120.0  # far above a solve: Taichi also compiles in the first
+
+
+def cubic_craft():
+    """Return the object's settings, looked up anew as an undo makes old references invalid."""
+    return getattr(bpy.data.objects[NAME], SETTINGS)
+
+
+def positions():
+    vertices = bpy.data.meshes[NAME].vertices
+    values = np.empty(3 * len(vertices), dtype=np.float32)
+    vertices.foreach_get("co", values)
+    return values
+
+
+def is_bitwise(values, wanted):
+    return values.tobytes() == wanted.tobytes()
+
+
+def add_monkey():
+    """Leave a subdivided monkey, well in view, as the only object, and push an undo step."""
+    with gui.in_region():
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.ops.object.modifier_add(type="SUBSURF")
+        bpy.ops.object.modifier_apply(modifier="Subdivision")
+        bpy.ops.object.shade_flat()
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Add the monkey")
+    gui.area().spaces.active.region_3d.view_location.x += 0.7  # out from behind the sidebar
+    assert bpy.context.view_layer.objects.active == bpy.data.objects[NAME]
+
+
+def cubify(previous):
+    """Click Cubify, wait until the mesh differs from `previous`, check it, return it."""
+    button = yield from gui.find_button("cubic_craft.cubify")
+    yield from gui.click(button)
+    yield from gui.wait_until(
+        lambda: not is_bitwise(positions(), previous) and not gui.running_operators(),
+        timeout=SOLVE_SECONDS,
+        what="a new shape",
+    )
+    result = positions()
+    assert np.isfinite(result).all()
+    assert np.ptp(result) < 2 * np.ptp(previous), "the mesh has exploded"
+    return result
+
+
+def check_status():
+    """Check that the status line tells what the run was, and by which backend."""
+    status = cubic_craft().status
+    gui.log("status:", status)
+    assert status
+    expected = os.environ.get("EXPECT_DEVICE")
+    if expected:
+        assert expected in status, f"{expected} did not run: {status}"
+    else:
+        assert "taichi" in status or "numpy" in status, status
+
+
+def test():
+    add_monkey()
+    original = positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    yield from gui.screenshot("original.png")
+
+    first = yield from cubify(original)
+    check_status()
+    yield from gui.screenshot("cubified.png")
+    yield from gui.undo()
+    assert is_bitwise(positions(), original), "Ctrl-Z has not brought the original back"
+    yield from gui.screenshot("undone.png")
+
+    before = cubic_craft().cubeness
+    slider = yield from gui.find_button("cubic_craft.cubeness")
+    yield from gui.drag_slider(slider, 0.4, 0.9)
+    cubeness = cubic_craft().cubeness
+    assert cubeness > before, f"cubeness went from {before} to {cubeness}"
+    second = yield from cubify(original)
+    assert not is_bitwise(second, first), "the cubeness made no difference"
+    yield from gui.screenshot("more_cubic.png")
+
+    restore = yield from gui.find_button("cubic_craft.restore")
+    yield from gui.click(restore)
+    yield from gui.wait_until(
+        lambda: is_bitwise(positions(), original), what="the original shape, bit for bit"
+    )
+    yield from gui.screenshot("restored.png")
+
+
+gui.run(test)
