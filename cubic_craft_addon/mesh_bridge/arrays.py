@@ -64,13 +64,13 @@ def write_key(key: bpy.types.ShapeKey, positions: np.ndarray) -> None:
 def mark_moved(mesh: bpy.types.Mesh) -> None:
     """Tell Blender that positions of the mesh have changed.
 
-    ``mesh.update()`` alone leaves the cached triangulation and bounding box of the old shape
-    behind after ``foreach_set``; setting one single coordinate (to itself) drops them as well.
+    ``foreach_set`` tells nobody, and ``mesh.update()`` would leave the cached triangulation and
+    bounding box of the old shape behind. Setting one single coordinate drops all caches, tags the
+    mesh for evaluation and redraws; that it is set to what it is makes no difference.
     """
     if mesh.vertices:
         first = mesh.vertices[0]
         first.co = first.co
-    mesh.update()
 
 
 def loose_vertices(mesh: bpy.types.Mesh) -> np.ndarray:

@@ -62,8 +62,7 @@ def carry(
     """Move the base and take every shape key along.
 
     Each key keeps its offset from the key that it is relative to, turned by the rotation of its
-    vertex. Vertices without offset lie on that other key bit for bit; where nothing moves and
-    nothing turns, a key keeps its bits.
+    vertex. Where nothing moves and nothing turns, a key keeps its bits.
 
     Parameters
     ----------
@@ -103,8 +102,7 @@ def _carried(
     with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
         turned = (new_other + np.einsum("nij,nj->ni", rotations, offset)).astype(np.float32)
     unmoved = unturned & (new_other == other).all(axis=1)
-    on_other = (key == other).all(axis=1)
-    return np.select([unmoved[:, None], on_other[:, None]], [key, new_other], turned)
+    return np.where(unmoved[:, None], key, turned)
 
 
 def _ordered(relative: Mapping[str, str], reference: str) -> dict[str, str]:

@@ -63,11 +63,14 @@ def set_position(mesh: Any, values: np.ndarray) -> None:
 
 
 def _edit_topology(mesh: Any) -> None:
-    """Make n-gons, two loose vertices, one of them at -0, and a loose edge."""
+    """Make n-gons, two loose vertices and a loose edge; zeros of both signs."""
     bm = bmesh.new()
     bm.from_mesh(mesh)
     bm.edges.ensure_lookup_table()
     bmesh.ops.dissolve_edges(bm, edges=[bm.edges[i] for i in (100, 101, 300, 400, 401, 402)])
+    for vertex in bm.verts:
+        if abs(vertex.co.x) < 1e-6 and vertex.co.z > 0:
+            vertex.co.x = -0.0
     bm.verts.new((2.0, -0.5, 1.0))
     bm.verts.new((-0.0, 3.0, -0.0))
     bm.edges.new((bm.verts.new((0.0, 0.0, 5.0)), bm.verts.new((0.1, 1e-30, 6.0))))

@@ -11,6 +11,8 @@ from snapshot import POSITIONS, STORED, differences, snapshot_object
 
 # What a run leaves on the object beside its mesh: its settings and the text of its last run.
 SETTINGS = ("rna/cubic_craft*", "*custom/custom cubic_craft*")
+# Before Blender 5 the settings appear among the object's custom properties once they are read.
+READ = ("custom/custom cubic_craft",)
 
 
 def add_monkey(name="Suzanne", **where):
@@ -56,7 +58,7 @@ def test_cubify_makes_it_cubic_and_restore_gives_the_original_bits():
     assert bpy.ops.cubic_craft.cubify(cubeness=0.8) == {"FINISHED"}
     after = position_of(obj.data)
     assert alignment(obj.data, after) > alignment(obj.data, before) + 0.05
-    assert "2,562 vertices" in obj.cubic_craft.status
+    assert "642 vertices" in obj.cubic_craft.status
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
     assert position_of(obj.data).tobytes() == before.tobytes()
     assert obj.cubic_craft.status == ""
@@ -122,7 +124,8 @@ def test_apply_keeps_the_shape_and_forgets_the_original():
 
 def test_saving_and_loading_between_cubify_and_restore_loses_nothing(tmp_path):
     obj = add_rich_monkey(keys=True)
-    before = {name: points_of(obj.data, name) for name in obj.data.shape_keys.key_blocks}
+    names = [key.name for key in obj.data.shape_keys.key_blocks]
+    before = {name: points_of(obj.data, name) for name in names}
     cubify(cubeness=0.7)
     path = str(tmp_path / "file.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
@@ -326,7 +329,7 @@ def test_refusals_name_the_object_and_change_nothing(spoil, options, message, re
     objects = len(bpy.data.objects)
     with pytest.raises(RuntimeError, match=message):
         cubify(result=result, **options)
-    assert differences(before, snapshot_object(obj)) == []
+    assert differences(before, snapshot_object(obj), READ) == []
     assert len(bpy.data.objects) == objects
 
 
@@ -360,7 +363,7 @@ def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
     with pytest.raises(RuntimeError, match="no memory left"):
         cubify()
     for o, taken in zip((obj, other), before, strict=True):
-        assert differences(taken, snapshot_object(o)) == []
+        assert differences(taken, snapshot_object(o), READ) == []
 
 
 def test_n_gons_are_kept_and_solved():

@@ -145,7 +145,7 @@ def library(tmp_path):
     add_rich_monkey(keys=True)
     path = str(tmp_path / "library.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     libraries: Any = bpy.data.libraries
     with libraries.load(path, link=True) as (_, wanted):
         wanted.objects = ["Suzanne"]

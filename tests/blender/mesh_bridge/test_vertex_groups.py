@@ -12,6 +12,7 @@ def cube():
 def test_weights(bridge, cube):
     for name in ("Other", "Map"):
         cube.vertex_groups.new(name=name).add([0, 2], 0.75, "REPLACE")
+    cube.vertex_groups["Other"].add([3, 5], 0.5, "REPLACE")
     cube.vertex_groups["Map"].add([2, 5], 0.25, "REPLACE")
     cube.vertex_groups["Map"].add([6], 0.0, "REPLACE")
     weights = bridge.group_weights(cube, "Map")
