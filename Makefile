@@ -1,7 +1,11 @@
 # CubicCraft. The two commands to begin with: make render, make test.
 
-PYTHON ?= $(shell command -v python3.11 || command -v python3)
-PYTHON313 ?= $(shell command -v python3.13 || ls $(HOME)/.pyenv/versions/3.13*/bin/python3.13 2>/dev/null | tail -1)
+# The first that runs and is of the version: a name on PATH may be a shim without a Python behind it.
+find_python = $(shell for p in python$(1) python3 $(HOME)/.pyenv/versions/$(1)*/bin/python3; do \
+	$$p -c 'import sys; sys.exit(sys.version_info[:2] != tuple(map(int, "$(1)".split("."))))' \
+	2>/dev/null && echo $$p && break; done)
+PYTHON ?= $(call find_python,3.11)
+PYTHON313 ?= $(call find_python,3.13)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
@@ -19,8 +23,8 @@ help: ## Show this list
 setup: $(VENV)/.done ## Make the virtual environment .venv, with Blender as a Python module
 
 $(VENV)/.done: requirements/*.txt
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
-		{ echo "Python 3.11 is needed (the bpy module is built for it): make PYTHON=/path/to/python3.11"; exit 1; }
+	@test -n "$(PYTHON)" || { echo "no Python 3.11 found, for which the bpy module is built;" \
+		"set it: make PYTHON=path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/blender-newest.txt
 	@touch $@
@@ -51,7 +55,8 @@ test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
 	$(VENV)-py313/bin/python $(PYTEST) tests/solver
 
 $(VENV)-py313/.done: requirements/*.txt
-	@test -n "$(PYTHON313)" || { echo "no Python 3.13 found; set PYTHON313"; exit 1; }
+	@test -n "$(PYTHON313)" || \
+		{ echo "no Python 3.13 found; set it: make PYTHON313=path"; exit 1; }
 	$(PYTHON313) -m venv $(VENV)-py313
 	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2"
 	@touch $@
