@@ -7,19 +7,21 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from .gpu_arch import gpu_arch
+
 _RTLD_DEEPBIND = 8  # on Linux; the value means something else on macOS
 
 _ARCHES_WITH_F64 = ("x64", "arm64", "cuda")
 
 _cache_folder = None
 _our_program = None  # the Taichi program that we started, to tell it from a foreign one
+_our_device = None  # "cpu" or "gpu"
 
 
 @dataclass(frozen=True)
 class Runtime:
     """A started Taichi."""
 
-    taichi: Any
     device: str
     """such as "taichi-cpu" or "taichi-cuda" """
     has_f64: bool
@@ -39,17 +41,8 @@ def import_taichi() -> Any:
     builds of Blender, it then allocates with one allocator and frees with the other, and crashes.
     So the flag is filtered out for the time of the import.
     """
-    os.environ.setdefault("ENABLE_TAICHI_HEADER_PRINT", "False")
-    if sys.platform != "linux":
+    with _environment("ENABLE_TAICHI_HEADER_PRINT", "False"), _without_deepbind():
         import taichi
-
-        return taichi
-    original = sys.setdlopenflags
-    sys.setdlopenflags = lambda flags: original(flags & ~_RTLD_DEEPBIND)
-    try:
-        import taichi
-    finally:
-        sys.setdlopenflags = original
     return taichi
 
 
@@ -58,27 +51,52 @@ def start(device):
 
     A program that another add-on has started is used as it is: a second ``ti.init`` would destroy
     that add-on's fields.
+
+    Raises
+    ------
+    CubicCraftError
+        There is no GPU.
     """
-    global _our_program
+    global _our_program, _our_device
     ti = import_taichi()
     program = ti.lang.impl.get_runtime().prog
     is_foreign = program is not None and program is not _our_program
-    is_right = program is not None and (_is_cpu(ti) == (device == "cpu"))
-    if not (is_foreign or is_right):
+    if not is_foreign and (program is None or _our_device != device):
+        ti.set_logging_level(ti.ERROR)
+        arch = ti.cpu if device == "cpu" else gpu_arch(ti)
         options = {"offline_cache_file_path": _cache_folder} if _cache_folder else {}
-        with contextlib.redirect_stdout(None):  # it announces itself whatever the log level
-            ti.init(
-                arch=ti.cpu if device == "cpu" else ti.gpu,
-                log_level=ti.ERROR,
-                offline_cache=True,
-                **options,
-            )
-        _our_program = ti.lang.impl.get_runtime().prog
-    arch = ti.lang.impl.current_cfg().arch
-    name = ti._lib.core.arch_name(arch)
-    return Runtime(ti, f"taichi-{'cpu' if _is_cpu(ti) else name}", name in _ARCHES_WITH_F64)
-
-
-def _is_cpu(ti):
+        # It would ask a server for its newest version, and it announces itself whatever the level.
+        with _environment("TI_SKIP_VERSION_CHECK", "ON"), contextlib.redirect_stdout(None):
+            ti.init(arch=arch, log_level=ti.ERROR, offline_cache=True, **options)
+        _our_program, _our_device = ti.lang.impl.get_runtime().prog, device
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
-    return name in ("x64", "arm64")
+    shown = "cpu" if name in ("x64", "arm64") else name
+    return Runtime(f"taichi-{shown}", name in _ARCHES_WITH_F64)
+
+
+@contextlib.contextmanager
+def _environment(name, value):
+    """Set an environment variable for a time."""
+    before = os.environ.get(name)
+    os.environ[name] = value
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[name]
+        else:
+            os.environ[name] = before
+
+
+@contextlib.contextmanager
+def _without_deepbind():
+    """Filter RTLD_DEEPBIND out of the flags with which libraries are loaded, on Linux."""
+    if sys.platform != "linux":
+        yield
+        return
+    original = sys.setdlopenflags
+    sys.setdlopenflags = lambda flags: original(flags & ~_RTLD_DEEPBIND)
+    try:
+        yield
+    finally:
+        sys.setdlopenflags = original

@@ -148,3 +148,45 @@ def test_kernels_are_cached_in_the_folder_given(tmp_path):
         """
     )
     assert any(tmp_path.rglob("*"))
+
+
+@needs_taichi
+def test_taichi_asks_no_server_for_its_version():
+    passes(
+        """
+        import threading
+        from urllib import request
+        def refuse(*args, **kwargs):
+            raise AssertionError("went online")
+        request.urlopen = refuse
+        from solver.backends import taichi_runtime
+        ti = taichi_runtime.import_taichi()
+        from taichi import _version_check
+        asked = []
+        _version_check.try_check_version = lambda: asked.append(True)
+        stylize(V, F, device="cpu", max_iterations=2)
+        assert not asked
+        import os
+        assert "TI_SKIP_VERSION_CHECK" not in os.environ
+        """
+    )
+
+
+@needs_taichi
+def test_a_gpu_is_used_or_refused_but_never_crashes():
+    output = passes(
+        """
+        a = stylize(V, F, device="cpu", max_iterations=5)
+        try:
+            b = stylize(V, F, device="gpu", max_iterations=5)
+        except ValueError as error:
+            print(error)
+        else:
+            print(b.device)
+            assert np.abs(a.positions - b.positions).max() < 1e-4
+        c = stylize(V, F, device="cpu", max_iterations=5)
+        np.testing.assert_array_equal(a.positions, c.positions)
+        """
+    )
+    assert output.startswith(("no GPU that Taichi can use was found", "taichi-"))
+    assert "taichi-cpu" not in output
