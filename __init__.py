@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """CubicCraft: cubic stylization of meshes, as a Blender extension."""
 
 from . import cubic_craft_addon, operators

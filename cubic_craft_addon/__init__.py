@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
 from . import panel, preferences, properties

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The pipeline of one object: mesh bridge -> solver -> mesh bridge.
 
 `prepare` and `solve` change nothing, so that an exception or a cancel loses nothing; `write` does.

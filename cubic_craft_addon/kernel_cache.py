@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compiled kernels live in the extension's own user folder, not in Taichi's default one."""
 
 from functools import cache

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
 
 import bpy

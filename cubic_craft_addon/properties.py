@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The settings as Blender properties: on every object, and on the operator."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the solver needs beside what every Blender brings."""
 
 from functools import cache

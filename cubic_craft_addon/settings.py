@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of one run as plain values, wherever they come from."""
 
 from dataclasses import dataclass

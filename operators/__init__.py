@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The operators, one file each, named by its verb."""
 
 import bpy

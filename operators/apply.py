@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Apply: the cubic shape becomes the mesh's own, and the original is forgotten."""
 
 import bpy

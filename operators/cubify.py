@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify: the selected meshes become cubic, in one click and one undo step.
 
 Invariant: all objects are solved before the first is written, so that whatever goes wrong on the

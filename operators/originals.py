@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What Restore and Apply share: both work on meshes that have an original."""
 
 from ..cubic_craft_addon import mesh_bridge

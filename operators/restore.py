@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Restore: the selected meshes get their original shape back, to the bit."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
 _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Time the solver side by side with PyMeshLab's filter, in one run, and write docs/benchmarks.md.
 
 Both run to their own stop, with set-up, without reading the file and without start-up (imports, and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Build the extension with Blender's own tool: build_extension.py OUTPUT.zip."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi.
 
 The names below are imported at their first use, so that Blender can show the panel of the extension

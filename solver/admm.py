@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Constants of the alternating direction method of multipliers (ADMM) of the local step.
 
 Per vertex, and divided by its area a_i so that nothing depends on scale or tessellation:

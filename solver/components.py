@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Connected components: parts that share no triangle."""
 
 import numpy as np

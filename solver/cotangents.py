@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cotangents of the corner angles, bounded on needles, slivers and triangles without area."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
 
 import contextlib

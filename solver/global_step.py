@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The global step: positions from rotations, by one factorisation per mesh and set of pins."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Refuse what cannot be solved, before anything is computed."""
 
 import numpy as np

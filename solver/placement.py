@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The rotation of a part as a whole, and how to take it back."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How far a run has come, as one number for a progress bar."""
 
 import math

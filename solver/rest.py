@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """All that is computed once per mesh, whatever the cubeness, orientation or pins."""
 
 from dataclasses import dataclass

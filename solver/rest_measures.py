@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Areas and normals of the rest shape."""
 
 import numpy as np

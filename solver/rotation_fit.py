@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The rotation that fits a 3 x 3 matrix best (orthogonal Procrustes), for many at once.
 
 R = argmax tr(R M) over SO(3), by Newton's method on SO(3) from a good guess: with G = R M,

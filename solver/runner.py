@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The whole run in one call: mesh in, cubic mesh out."""
 
 import time

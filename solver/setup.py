@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is done once per mesh and set of pins."""
 
 import numpy as np

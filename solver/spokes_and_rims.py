@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The spokes-and-rims ARAP energy as sparse matrices, weighted per triangle.
 
 With the cotangent w_fe of the angle opposite edge e in triangle f, the energy is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """When the iteration has converged."""
 
 ENERGY_WINDOW = 10

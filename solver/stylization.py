@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local-global iteration on one mesh, one step at a time."""
 
 from dataclasses import dataclass

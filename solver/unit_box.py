@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solve in a unit box, whatever the size of the mesh and its distance from the origin.
 
 The energy itself does not depend on the unit: both terms grow with the square of the length. What

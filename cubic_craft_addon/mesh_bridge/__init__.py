@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that reads or writes mesh data-blocks.
 
 Only positions are ever written: the ``position`` attribute and the points of shape keys. Beside

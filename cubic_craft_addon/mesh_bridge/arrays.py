@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Coordinates of a mesh to float32 arrays and back, bit for bit.
 
 Blender stores coordinates as float32, and ``foreach_get`` / ``foreach_set`` take the fast path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Point attributes of ours on a mesh, added and removed without disturbing the artist's.
 
 Adding or removing an attribute shifts the others inside Blender's list, and Blender remembers

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects can be cubified at all: refusals that name the object and the cure."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The shape key of ours: made, found again, removed.
 
 The artist may rename it, dial it, key it and drive it. It is found by its name, and under another

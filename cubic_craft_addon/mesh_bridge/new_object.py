@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Write a result to a copy of the object; the source stays as it is, bit for bit."""
 
 import bpy

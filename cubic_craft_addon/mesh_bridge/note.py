@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The note of ours on a mesh: one custom property that says what we wrote.
 
 It is JSON text, because custom properties cannot hold lists of texts, with one of two parts:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The original of a mesh that we have written to: kept, found again, or given up.
 
 The original lies in point attributes of the mesh, so it is saved, copied and undone with it. It

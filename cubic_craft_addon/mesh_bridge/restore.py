@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Take results of ours back, or let them stand and forget where they came from."""
 
 import bpy

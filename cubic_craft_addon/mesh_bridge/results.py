@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Write a result to the mesh itself or to a shape key.
 
 Either always starts from the original and takes the place of an earlier result of ours. All is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Write all or nothing: put a mesh back when writing to it fails half-way."""
 
 from collections.abc import Iterator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Rotation matrices to stored quaternions and back, for many vertices at once.
 
 Offsets of shape keys are turned forth and back by the *stored* rotations, so that both ways are

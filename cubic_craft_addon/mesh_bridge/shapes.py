@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """All shapes of a mesh at once: its positions and its shape keys, and how keys are carried."""
 
 from collections.abc import Mapping

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The triangles that a mesh is solved on; the mesh itself keeps its faces."""
 
 import bpy

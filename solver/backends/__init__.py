@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local step on different machinery, behind one interface: see `NumpyLocalStep`."""
 
 from .choice import DEVICES, local_step_class

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Choose the machinery of the local step by the name of a device."""
 
 from functools import partial

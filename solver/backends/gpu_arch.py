@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Find a GPU for Taichi without risking the process."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local step in NumPy: runs everywhere, and is what the tests compare Taichi with."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local step as Taichi kernels: one thread per vertex, in 64 or 32 bit.
 
 Import this only after `taichi_runtime.import_taichi`. All arrays are kernel arguments, because a

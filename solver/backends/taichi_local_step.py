@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
 import time

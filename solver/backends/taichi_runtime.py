@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Import and start Taichi without harm to Blender or to other add-ons that use it."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The tests in bpy run against the extension as a user has it: built and installed from the zip."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A monkey with everything on it that an artist may have, and a stand-in for the solver."""
 
 from typing import Any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A complete copy of a mesh and an object in plain values, to prove that nothing changed.
 
 `snapshot_mesh` and `snapshot_object` return flat dictionaries from a path, such as

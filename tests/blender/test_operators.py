@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The operators as the artist and a script use them, on the installed extension."""
 
 import importlib

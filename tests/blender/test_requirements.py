@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Without SciPy the extension can be enabled, and says what is missing instead of failing."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The helper that proves that nothing changed must see every change."""
 
 import bpy

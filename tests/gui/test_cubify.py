@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify, undo, Cubify with another cubeness, Restore: by the hand of a user, in a real window.
 
 EXPECT_DEVICE in the environment ("taichi-cpu", "numpy") names the backend that must have run.

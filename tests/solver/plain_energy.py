@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The energy by its definition, in loops: slow, and sharing nothing with the solver."""
 
 import numpy as np

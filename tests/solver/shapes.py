@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes made in the tests, small and with every feature that matters to the solver."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Both factorisations against a dense solve."""
 
 import numpy as np

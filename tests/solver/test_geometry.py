@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Weights, measures, components and the unit box, by hand and by identities."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The global step: minimal energy, exact pins, centroids that stay."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The local step: its energy by definition, its optimality, and the backends against each other."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes that cannot be solved are refused with the reason."""
 
 import numpy as np

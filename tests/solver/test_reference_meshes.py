@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes of the literature, where they are at hand: energies and convergence that are known.
 
 CUBIC_CRAFT_MESHES names their folder; their terms do not let us distribute them.

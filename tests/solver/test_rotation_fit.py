@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Newton's rotation fit against the singular value decomposition."""
 
 import numpy as np

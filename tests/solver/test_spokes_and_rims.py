@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The sparse matrices against the definition of the energy, in loops."""
 
 import numpy as np

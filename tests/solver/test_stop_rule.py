@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The stop rule needs both a shape at rest and an energy at rest."""
 
 from types import SimpleNamespace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What must hold for the method as a whole, on every shape and with both backends."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Taichi is imported late, without RTLD_DEEPBIND, and shared with other users of it.
 
 Each test runs in a process of its own, because Taichi's program is global.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shape keys under a result written to the mesh: carried along, and back."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 import bpy
 import pytest
 from rich_mesh import cubic_like, points_of

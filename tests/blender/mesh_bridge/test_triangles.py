@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 import bpy
 import numpy as np
 from rich_mesh import cubic_like, set_position

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Drive a GUI Blender from inside: open tabs, click buttons, drag sliders, press keys, check.
 
 A test is a generator function; ``run(test)`` at the end of the script starts it. All that needs

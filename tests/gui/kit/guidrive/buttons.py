@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Finding buttons: Blender tells no script where they are, so the mouse feels its way."""
 
 import bpy

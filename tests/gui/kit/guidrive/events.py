@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where mouse and key events come from: Blender itself, or the X server."""
 
 import functools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a hand does: move, click, drag, press keys, type."""
 
 from .events import events, settle

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Screenshots, into the output folder of the run (GUIDRIVE_SHARE)."""
 
 import os

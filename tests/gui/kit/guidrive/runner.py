@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The start and the end of a test: run(test) is the last line of each test script."""
 
 import faulthandler

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is on the screen: the window, its areas and regions, and the buttons in them."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Waiting until Blender has done something: on conditions, never on seconds."""
 
 import collections

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Test of the kit itself, with the extension dummy_ext beside it (see README.md of the tests).
 
 Clicks a button, drags sliders while its modal operator runs, ends it by Enter and Esc, undoes,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A modal operator that shakes a mesh until Enter or Esc, with sliders that it reads as it runs."""
 
 import math
