@@ -134,7 +134,7 @@ def solve(
             stylization,
             settings.max_iterations,
             settings.tolerance,
-            settings.keep_rotation,
+            _keeps_rotation(prepared, settings),
             on_iteration,
         )
     except solver.CubicCraftError as error:
@@ -166,6 +166,16 @@ def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.O
         return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations)
     mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
     return obj
+
+
+def _keeps_rotation(prepared, settings):
+    """Tell whether each free part is turned back as a whole at the end.
+
+    A part may turn by some degrees to fit the cube. Several parts would each turn their own way and
+    come apart, such as eyes from their sockets; a single one shows the sides of the cube as they
+    are asked for.
+    """
+    return settings.rotation == "KEEP" or (settings.rotation == "AUTO" and prepared.components > 1)
 
 
 def _unstretched(rotations, stretch):

@@ -58,7 +58,7 @@ def _draw_orientation(layout, obj):
     if properties.space == "FRAME":
         layout.prop(properties, "frame")
     layout.prop(properties, "orientation")
-    layout.prop(properties, "keep_rotation")
+    layout.prop(properties, "rotation")
 
 
 def _draw_pins(layout, obj):

@@ -26,6 +26,11 @@ _RESULTS = (
     ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be dialled and keyed'),
     ("NEW_OBJECT", "New Object", "Leave the object as it is and make a cubic copy of it"),
 )
+_ROTATIONS = (
+    ("AUTO", "Auto", "Keep where there are several parts, so that they stay together, else Free"),
+    ("KEEP", "Keep", "Each part stands as before; the sides of the cube may lean"),
+    ("FREE", "Free", "The sides of the cube are as asked for; the shape may turn"),
+)
 _DEVICES = (
     ("AUTO", "Auto", "The fastest that is installed"),
     ("CPU", "CPU", "Taichi on the processor"),
@@ -93,11 +98,12 @@ class RunProperties:
         default=Settings.result,
         options={"SKIP_SAVE"},
     )
-    keep_rotation: BoolProperty(
-        name="Keep Rotation",
-        description="A shape may turn a little to fit the cube. Turn it back at the end, so that it"
-        " stands as before and the sides of the cube lean instead. Parts with pins never turn",
-        default=Settings.keep_rotation,
+    rotation: EnumProperty(
+        name="Rotation",
+        description="A part may turn by some degrees as a whole to fit the cube. It can be turned"
+        " back at the end; parts with pins never turn",
+        items=_ROTATIONS,
+        default=Settings.rotation,
         options={"SKIP_SAVE"},
     )
     device: EnumProperty(
@@ -158,7 +164,7 @@ def settings_of(obj: bpy.types.Object) -> Settings:
         map_group=p.map_group,
         map_invert=p.map_invert,
         result=p.result,
-        keep_rotation=p.keep_rotation,
+        rotation=p.rotation,
         device=p.device,
         max_iterations=p.max_iterations,
         tolerance=p.tolerance,

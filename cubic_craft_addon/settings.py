@@ -24,8 +24,8 @@ class Settings:
     map_invert: bool = False
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
-    keep_rotation: bool = False
-    """turn each free part back by its best-fit rotation at the end"""
+    rotation: str = "AUTO"
+    """KEEP turns each free part back as a whole at the end, FREE does not; AUTO: several parts"""
     device: str = "AUTO"
     """AUTO, CPU, GPU or NUMPY"""
     max_iterations: int = 1000

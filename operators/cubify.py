@@ -74,7 +74,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         layout.prop(self, "space")
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
-        for name in ("orientation", "keep_rotation", "result"):
+        for name in ("orientation", "rotation", "result"):
             layout.prop(self, name)
         for name in ("device", "max_iterations", "tolerance"):
             layout.prop(self, name)

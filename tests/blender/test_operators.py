@@ -263,15 +263,24 @@ def test_a_flat_scale_is_no_obstacle():
     assert np.isfinite(position_of(obj.data)).all()
 
 
-def test_keep_rotation_changes_only_how_the_shape_stands():
+def test_rotation_changes_only_how_the_shape_stands():
     obj = add_triangles()
-    cubify(keep_rotation=False)
-    free = position_of(obj.data)
-    cubify(keep_rotation=True)
-    kept = position_of(obj.data)
-    assert np.abs(free - kept).max() > 1e-3
-    lengths = [np.linalg.norm(shape - shape[0], axis=1) for shape in (free, kept)]
+    shapes = {}
+    for rotation in ("FREE", "KEEP", "AUTO"):
+        cubify(rotation=rotation)
+        shapes[rotation] = position_of(obj.data)
+    assert np.abs(shapes["FREE"] - shapes["KEEP"]).max() > 1e-3
+    lengths = [np.linalg.norm(shapes[r] - shapes[r][0], axis=1) for r in ("FREE", "KEEP")]
     np.testing.assert_allclose(*lengths, atol=1e-5)
+    np.testing.assert_array_equal(shapes["AUTO"], shapes["FREE"])
+
+
+def test_several_parts_keep_their_rotation_by_default():
+    obj = add_monkey()
+    cubify(rotation="KEEP")
+    kept = position_of(obj.data)
+    cubify(rotation="AUTO")
+    np.testing.assert_array_equal(position_of(obj.data), kept)
 
 
 def test_numpy_and_taichi_give_the_same_shape():
