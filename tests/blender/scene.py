@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects to work on, and short names for what is done to them."""
+
+import bpy
+import numpy as np
+from mathutils import Euler
+from rich_mesh import position_of
+
+
+def add_monkey(name="Suzanne", **where):
+    bpy.ops.mesh.primitive_monkey_add(**where)
+    obj = bpy.context.object
+    obj.name = name
+    return obj
+
+
+def add_triangles():
+    """Add a shape without symmetry, in one part and of triangles only."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    obj = bpy.context.object
+    V = position_of(obj.data)
+    V *= 1 + 0.3 * np.sin(3 * V[:, :1] + 0.4) * np.cos(2 * V[:, 1:2])
+    obj.data.vertices.foreach_set("co", V.ravel())
+    obj.data.transform(Euler((0.1, 0.2, 0.05)).to_matrix().to_4x4())
+    obj.data.update()
+    return obj
+
+
+def select(*objects):
+    bpy.ops.object.select_all(action="DESELECT")
+    for obj in objects:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def cubify(**options):
+    return bpy.ops.cubic_craft.cubify(**{"max_iterations": 30, **options})

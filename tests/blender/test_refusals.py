@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What cannot be cubified is refused by name, and whatever goes wrong, nothing has changed."""
+
+import importlib
+
+import bpy
+import pytest
+from rich_mesh import add_rich_monkey
+from scene import add_monkey, cubify, select
+from snapshot import differences, snapshot_object
+
+# Before Blender 5 the settings appear among the object's custom properties once they are read.
+READ = ("custom/custom cubic_craft",)
+
+
+def _empty(obj):
+    obj.data.clear_geometry()
+
+
+def _no_faces(obj):
+    obj.data.clear_geometry()
+    obj.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1)], [])
+
+
+def _not_finite(obj):
+    obj.data.vertices[5].co.x = float("nan")
+
+
+def _hidden(obj):
+    obj.hide_set(True)
+    bpy.context.view_layer.objects.active = obj
+
+
+def _all_pinned(obj):
+    obj.vertex_groups.new(name="All").add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+
+
+@pytest.mark.parametrize(
+    ("spoil", "options", "message"),
+    [
+        (_empty, {}, "Suzanne.*fewer than 3 vertices"),
+        (_no_faces, {}, "Suzanne.*no faces"),
+        (_not_finite, {}, "Suzanne.*finite"),
+        (_hidden, {}, "Suzanne.*hidden"),
+        (_all_pinned, {"pin_group": "All"}, "Suzanne.*all vertices are pinned"),
+        (None, {"pin_group": "Ears"}, "Suzanne.*Ears"),
+        (None, {"map_group": "Ears"}, "Suzanne.*Ears"),
+        (None, {"space": "FRAME"}, "Suzanne.*frame object"),
+        (None, {"space": "FRAME", "frame": "Nobody"}, "no object.*Nobody"),
+    ],
+)
+@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
+def test_refusals_name_the_object_and_change_nothing(spoil, options, message, result):
+    obj = add_monkey()
+    if spoil:
+        spoil(obj)
+    bpy.context.view_layer.update()
+    before = snapshot_object(obj)
+    objects = len(bpy.data.objects)
+    with pytest.raises(RuntimeError, match=message):
+        cubify(result=result, **options)
+    assert differences(before, snapshot_object(obj), READ) == []
+    assert len(bpy.data.objects) == objects
+
+
+def test_edit_mode_and_no_mesh_fail_the_poll_with_a_message():
+    add_monkey()
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(RuntimeError, match="Switch to Object Mode first"):
+        cubify()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.select_all(action="DESELECT")
+    bpy.context.view_layer.objects.active = None
+    with pytest.raises(RuntimeError, match="Select a mesh object first"):
+        cubify()
+
+
+def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
+    obj, other = add_rich_monkey(keys=True), add_monkey("Other")
+    select(other, obj)
+    before = [snapshot_object(o) for o in (obj, other)]
+    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.cubify")
+    original = pipeline.solve
+    calls = []
+
+    def fail_second(*arguments):
+        calls.append(arguments)
+        if len(calls) == 2:
+            raise MemoryError("no memory left")
+        return original(*arguments)
+
+    monkeypatch.setattr(pipeline, "solve", fail_second)
+    with pytest.raises(RuntimeError, match="no memory left"):
+        cubify()
+    for o, taken in zip((obj, other), before, strict=True):
+        assert differences(taken, snapshot_object(o), READ) == []
