@@ -113,10 +113,10 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
     """
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
-    if max_iterations < 1:
+    if not max_iterations >= 1:
         raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
     begin = time.perf_counter()
-    rule = StopRule(tolerance)
+    rule = StopRule(tolerance, stylization.resolution)
     reason = "max_iterations"
     while stylization.iteration < max_iterations and reason == "max_iterations":
         stylization.step()

@@ -19,14 +19,25 @@ class Setup:
     Raises
     ------
     CubicCraftError
-        An index out of range, or no vertex left free.
+        An index that is no integer or out of range, or no vertex left free.
+
+    Attributes
+    ----------
+    pinned_input : (k,) int array
+        The pinned vertices, loose ones included.
+    pinned : (j,) int array
+        Those that are not loose, as indices into ``rest.V``.
     """
 
     def __init__(self, rest, pinned=()):
-        pinned = np.unique(np.asarray(pinned, dtype=np.int64))
+        pinned = np.asarray(pinned)
+        if pinned.size and not np.issubdtype(pinned.dtype, np.integer):
+            raise CubicCraftError(f"pinned must list vertices by number, not be {pinned.dtype}")
+        pinned = np.unique(pinned.astype(np.int64))
         count = len(rest.input_positions)
         if len(pinned) and (pinned[0] < 0 or pinned[-1] >= count):
             raise CubicCraftError(f"pinned vertices must lie between 0 and {count - 1}")
         self.rest = rest
+        self.pinned_input = pinned
         self.pinned = np.flatnonzero(np.isin(rest.used, pinned))
         self.global_step = GlobalStep(rest, self.pinned)

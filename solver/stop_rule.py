@@ -17,10 +17,13 @@ class StopRule:
     ----------
     tolerance : float
         Largest displacement in one iteration, relative to the largest distance from the rest shape.
+    resolution : float
+        Distance below which everything is rounding.
     """
 
-    def __init__(self, tolerance):
+    def __init__(self, tolerance, resolution=1e-9):
         self._tolerance = tolerance
+        self._resolution = resolution
         self._energies = []
 
     def is_converged(self, energy, displacement, distance):
@@ -35,9 +38,9 @@ class StopRule:
             Largest distance of a vertex from its rest position.
         """
         self._energies.append(energy)
-        if displacement > self._tolerance * distance + 1e-12:
+        if displacement > self._tolerance * distance + self._resolution:
             return False
-        if distance <= 1e-9:
+        if distance <= self._resolution:
             # The first iterations of the ADMM may leave all rotations at the identity.
             return len(self._energies) > 2
         window = self._energies[-ENERGY_WINDOW - 1 :]

@@ -71,13 +71,10 @@ class Stylization:
         self._local = make_local_step(
             rest, lam, _orientation(orientation, rest), admm or AdmmOptions()
         )
-        at_rest = rest.input_positions
-        pinned_rows = rest.used[setup.pinned]
-        self._targets = np.asarray(at_rest if targets is None else targets, float)[pinned_rows]
-        if not np.isfinite(self._targets).all():
-            raise CubicCraftError("the targets of pinned vertices must be finite")
+        self._targets = _targets(targets, setup)
         self._U = rest.V.copy()
-        self._U[setup.pinned] = rest.box.to_unit(self._targets)
+        held = rest.used[setup.pinned]
+        self._U[setup.pinned] = rest.box.to_unit(self._targets[held])
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
@@ -86,6 +83,11 @@ class Stylization:
     def device(self):
         """Name of the device that runs the local step, such as "taichi-cpu"."""
         return self._local.device
+
+    @property
+    def resolution(self):
+        """Distance in the unit box below which everything is rounding."""
+        return self._local.resolution
 
     @property
     def compile_seconds(self):
@@ -123,7 +125,7 @@ class Stylization:
     def placed(self, with_rotation_kept=False):
         """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
 
-        Loose and pinned vertices have exactly their given positions.
+        Loose vertices have exactly their given positions, pinned ones their targets.
         """
         rest, pinned = self.rest, self._setup.pinned
         U, R = self._U, self._local.R.astype(np.float64, copy=False)
@@ -133,7 +135,8 @@ class Stylization:
             U, R = keep_rotation(rest, U, R, has_pin)
         positions = rest.input_positions.copy()
         positions[rest.used] = rest.box.from_unit(U)
-        positions[rest.used[pinned]] = self._targets
+        held = self._setup.pinned_input
+        positions[held] = self._targets[held]
         rotations = np.tile(np.eye(3), (len(positions), 1, 1))
         rotations[rest.used] = R
         return positions, rotations
@@ -154,3 +157,16 @@ def _orientation(Q, rest):
     if not (is_orthogonal and (np.linalg.det(Q) > 0.0).all()):
         raise CubicCraftError("the orientation must be a rotation matrix")
     return Q
+
+
+def _targets(targets, setup):
+    """Return the targets as (N,3) positions in the user's unit; only those of pins matter."""
+    at_rest = setup.rest.input_positions
+    if targets is None:
+        return at_rest
+    targets = np.asarray(targets, dtype=np.float64)
+    if targets.shape != at_rest.shape:
+        raise CubicCraftError(f"targets must have the shape {at_rest.shape}, not {targets.shape}")
+    if not np.isfinite(targets[setup.pinned_input]).all():
+        raise CubicCraftError("the targets of pinned vertices must be finite")
+    return targets

@@ -5,6 +5,9 @@ import numpy as np
 
 from ..rotation_fit import fit_rotations, orthonormalize
 
+SMALLEST_AREA = 1e-30
+"""in the unit box; less is no area, and would overflow in 32 bit"""
+
 
 class NumpyLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
@@ -22,14 +25,17 @@ class NumpyLocalStep:
     ----------
     R : (n,3,3) array
         Rotations, the identity at first.
+    resolution : float
+        Distance in the unit box below which everything is rounding.
     """
 
     device = "numpy"
     compile_seconds = 0.0
+    resolution = 1e-9
 
     def __init__(self, rest, lam, Q, options):
         self._rest = rest
-        self._lam = lam
+        self._lam = local_cubeness(rest, lam)
         self._Q = np.broadcast_to(Q, (len(lam), 3, 3))
         self._options = options
         matrices = rest.matrices
@@ -113,5 +119,13 @@ class NumpyLocalStep:
 
 
 def area_scale(areas):
-    """Return the areas (n,), bounded below so that dividing by them is safe."""
-    return np.maximum(areas, 1e-6 * areas.mean() + 1e-300)
+    """Return what the local problem of each vertex is divided by, (n,): its area.
+
+    Vertices without area have no cubic term, and any positive number will do.
+    """
+    return np.where(areas > SMALLEST_AREA, areas, 1.0)
+
+
+def local_cubeness(rest, lam):
+    """Return the cubeness (n,) with which the L1 term stands beside the divided ARAP term."""
+    return np.where(rest.areas > SMALLEST_AREA, lam, 0.0)

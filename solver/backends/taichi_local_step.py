@@ -6,8 +6,9 @@ from functools import cache
 
 import numpy as np
 
+from ..errors import CubicCraftError
 from . import taichi_runtime
-from .numpy_local_step import area_scale
+from .numpy_local_step import area_scale, local_cubeness
 
 
 class TaichiLocalStep:
@@ -25,6 +26,8 @@ class TaichiLocalStep:
     ----------
     device : str
         Such as "taichi-cpu".
+    resolution : float
+        As in `NumpyLocalStep`.
     compile_seconds : float
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
@@ -33,6 +36,9 @@ class TaichiLocalStep:
         runtime = taichi_runtime.start(device)
         self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
+        if precision not in ("f64", "f32"):
+            raise CubicCraftError(f"the precision must be f64 or f32, not {precision!r}")
+        self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         self._kernels = _kernels(precision)
         self._real = real
@@ -45,6 +51,7 @@ class TaichiLocalStep:
         self._weights = array(-m.laplacian)
         self._gather, self._scatter = array(m.gather), array(m.scatter)
         self._normals = array(rest.normals)
+        lam = local_cubeness(rest, lam)
         self._lam, self._Q = array(lam), array(Q)
         self._area_scale = array(area_scale(rest.areas))
         self._cubic_weight = lam * rest.areas

@@ -84,6 +84,15 @@ def test_components_behave_as_each_alone(device):
     np.testing.assert_array_equal(together[first], V[first])  # the loose vertex
 
 
+@pytest.mark.parametrize("scale", [1e-2, 1e-4])
+def test_a_tiny_part_is_solved_like_a_large_one(scale, device):
+    V, F = shapes.blob(2)
+    both = np.concatenate([V, scale * V + [3.0, 0.0, 0.0]])
+    result = stylize(both, np.concatenate([F, F + len(V)]), 0.4, device=device, **FIXED)
+    large, tiny = result.positions[: len(V)], result.positions[len(V) :]
+    assert np.abs((tiny - [3.0, 0.0, 0.0]) / scale - large).max() < 1e-6
+
+
 def test_the_same_input_gives_the_same_bits(device):
     V, F = shapes.skewed_blob()
     a, b = (stylize(V, F, 0.4, device=device) for _ in range(2))
@@ -109,6 +118,15 @@ def test_pins_follow_their_targets(device):
     np.testing.assert_array_equal(result.positions[pins], targets[pins])
     free = np.setdiff1d(np.arange(len(V)), pins)
     assert np.abs(result.positions[free] - V[free]).max() > 0.1
+
+
+def test_a_pinned_loose_vertex_goes_to_its_target(device):
+    V, F = shapes.two_blobs()
+    loose = len(shapes.blob(2)[0])
+    targets = np.full(V.shape, np.nan)
+    targets[[0, loose]] = [V[0], [1.0, 2.0, 3.0]]
+    result = stylize(V, F, 0.2, [0, loose], targets=targets, device=device, max_iterations=3)
+    np.testing.assert_array_equal(result.positions[[0, loose]], targets[[0, loose]])
 
 
 def test_a_cubeness_map_acts_where_it_is(device):
@@ -175,6 +193,10 @@ def test_steps_one_at_a_time_equal_a_run(device):
         ({"orientation": np.diag([1.0, 1.0, -1.0])}, "must be a rotation"),
         ({"orientation": np.eye(2)}, r"shape \(3, 3\)"),
         ({"pinned": [42]}, "between 0 and 41"),
+        ({"pinned": np.ones(42, bool)}, "by number"),
+        ({"pinned": [0.7]}, "by number"),
+        ({"pinned": [0], "targets": np.ones((2, 3))}, r"targets must have the shape \(42, 3\)"),
+        ({"max_iterations": np.nan}, "max_iterations must"),
         ({"pinned": range(42)}, "all vertices are pinned"),
         ({"pinned": [0], "targets": np.full((42, 3), np.inf)}, "must be finite"),
         ({"device": "abacus"}, "device 'abacus' is none of"),

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""32 bit, as on GPUs without 64 bit: runs to the end with a result that can be used."""
+
+import numpy as np
+import pytest
+import shapes
+from taichi_marks import needs_taichi
+
+from solver import stylize
+
+pytestmark = needs_taichi
+
+
+def single(V, F, cubeness, **options):
+    return stylize(V, F, cubeness, device="cpu", precision="f32", **options)
+
+
+@pytest.mark.parametrize("name", shapes.ALL)
+@pytest.mark.parametrize("cubeness", [0.0, 0.4])
+def test_runs_converge_to_the_shape_of_64_bit(name, cubeness):
+    V, F = shapes.ALL[name]()
+    result = single(V, F, cubeness)
+    exact = stylize(V, F, cubeness, device="cpu")
+    assert result.converged and exact.converged
+    assert np.isfinite(result.positions).all()
+    assert result.energy.total == pytest.approx(exact.energy.total, rel=1e-3, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    "V",
+    [
+        np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]),
+        np.ones((3, 3)),
+        np.array([[0.0, 0, 0], [1, 0, 0], [1, 0, 0]]),
+    ],
+)
+def test_a_mesh_without_area_stays(V):
+    result = single(V, np.array([[0, 1, 2]]), 0.4)
+    assert result.converged
+    assert np.isfinite(result.energy.total)
+    np.testing.assert_allclose(result.positions, V, atol=1e-5)
+
+
+def test_a_bad_precision_is_refused():
+    with pytest.raises(ValueError, match="f64 or f32"):
+        stylize(*shapes.blob(1), 0.2, device="cpu", precision="f16")
