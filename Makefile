@@ -11,7 +11,8 @@ PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
 ZIP := dist/cubic_craft.zip
-SOURCES := $(shell git ls-files '*.py' blender_manifest.toml 2>/dev/null)
+SOURCES := __init__.py blender_manifest.toml \
+	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui lint \

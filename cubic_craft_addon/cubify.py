@@ -63,11 +63,17 @@ class Solution:
     rotations: np.ndarray
     """(n,3,3) float64 rotations of the vertices' surroundings, object space"""
     result: solver.Result
+    setup_seconds: float
 
     @property
     def seconds(self):
         """Time of the iterations."""
         return self.result.solve_seconds
+
+    @property
+    def total_seconds(self):
+        """Time that the artist has waited for it."""
+        return self.setup_seconds + self.seconds + self.result.compile_seconds
 
 
 def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
@@ -144,7 +150,8 @@ def solve(
     # What the solver holds must not move by a rounding of the stretch.
     is_still = (result.positions == prepared.setup.rest.input_positions).all(axis=1)
     positions[is_still] = prepared.original[is_still]
-    return Solution(positions, _unstretched(result.rotations, prepared.stretch), result)
+    rotations = _unstretched(result.rotations, prepared.stretch)
+    return Solution(positions, rotations, result, prepared.seconds)
 
 
 def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.Object:

@@ -29,9 +29,11 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     Raises
     ------
     CubicCraftError
-        The space is FRAME and no frame object is set.
+        The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
     world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    if not np.isfinite(world).all():
+        raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
     U, sizes, Vt = np.linalg.svd(world)
     if sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30):
         turn = U @ Vt

@@ -97,7 +97,7 @@ def _problem(obj, properties):
     """Return what would make Cubify refuse the object, or an empty text."""
     try:
         check_requirements()
-        mesh_bridge.check_editable(obj)
+        mesh_bridge.check_usable(obj)
     except CubicCraftError as error:
         return str(error)
     for group in (properties.pin_group, properties.map_group):

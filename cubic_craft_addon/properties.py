@@ -32,7 +32,7 @@ _ROTATIONS = (
     ("FREE", "Free", "The sides of the cube are as asked for; the shape may turn"),
 )
 _DEVICES = (
-    ("AUTO", "Auto", "The fastest that is installed"),
+    ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
     ("CPU", "CPU", "Taichi on the processor"),
     ("GPU", "GPU", "Taichi on the graphics card"),
     ("NUMPY", "NumPy", "Without Taichi: slower, runs everywhere"),
@@ -40,6 +40,7 @@ _DEVICES = (
 
 
 _NAME = "cubic_craft"  # of the property of objects
+_OPTIONS = {"SKIP_SAVE", "ANIMATABLE"}
 
 
 class RunProperties:
@@ -57,7 +58,7 @@ class RunProperties:
         soft_max=1.0,
         step=1,
         precision=3,
-        options={"SKIP_SAVE", "ANIMATABLE"},
+        options=_OPTIONS,
     )
     orientation: FloatVectorProperty(
         name="Orientation",
@@ -66,52 +67,52 @@ class RunProperties:
         default=Settings.orientation,
         soft_min=-math.pi / 4,
         soft_max=math.pi / 4,
-        options={"SKIP_SAVE", "ANIMATABLE"},
+        options=_OPTIONS,
     )
     space: EnumProperty(
         name="Relative To",
         description="What the rotation of the cube is relative to",
         items=_SPACES,
         default=Settings.space,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     pin_group: StringProperty(
         name="Pinned",
         description="Vertex group that stays exactly in place (weights of 0.5 and more)",
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     map_group: StringProperty(
         name="Vertex Group",
         description="Vertex group whose weights scale the cubeness",
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     map_invert: BoolProperty(
         name="Invert",
         description="Cubic where the vertex group is not",
         default=Settings.map_invert,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     result: EnumProperty(
         name="Write To",
         description="Where the cubic shape goes",
         items=_RESULTS,
         default=Settings.result,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     rotation: EnumProperty(
         name="Rotation",
         description="A part may turn by some degrees as a whole to fit the cube. It can be turned"
-        " back at the end; parts with pins never turn",
+        " back at the end; parts with pins are left as they are",
         items=_ROTATIONS,
         default=Settings.rotation,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     device: EnumProperty(
         name="Device",
         description="What computes",
         items=_DEVICES,
         default=Settings.device,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     max_iterations: IntProperty(
         name="Max Iterations",
@@ -119,7 +120,7 @@ class RunProperties:
         default=Settings.max_iterations,
         min=1,
         soft_max=5000,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
     tolerance: FloatProperty(
         name="Tolerance",
@@ -129,7 +130,7 @@ class RunProperties:
         min=1e-9,
         max=1.0,
         precision=6,
-        options={"SKIP_SAVE"},
+        options=_OPTIONS,
     )
 
 

@@ -6,25 +6,18 @@ way, nothing has changed.
 """
 
 import logging
-from dataclasses import fields, replace
 
 import bpy
 from bpy.props import StringProperty
 
-from .. import solver
-from ..cubic_craft_addon import cubify
-from ..cubic_craft_addon.properties import RunProperties, object_properties, settings_of
-from ..cubic_craft_addon.settings import Settings
+from ..cubic_craft_addon import cubify, mesh_bridge
+from ..cubic_craft_addon.properties import RunProperties, object_properties
 from ..solver import CubicCraftError
+from .run_settings import adopt_settings, frame_of, remember_settings
 from .selection import poll_meshes, report_all, selected_meshes
-
-_PROGRESS_STEPS = 100
+from .tasks import plan, solve_all
 
 _log = logging.getLogger(__name__)
-
-# Vertex groups belong to their object, so each object keeps its own unless a caller sets them.
-_OF_EACH_OBJECT = ("pin_group", "map_group", "map_invert")
-_SHARED = tuple(name for name in RunProperties.__annotations__ if name not in _OF_EACH_OBJECT)
 
 
 class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
@@ -36,7 +29,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         "Turn the selected meshes into cubic sculptures, with the settings of the active one."
         " Each starts from its original shape"
     )
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_options = {"REGISTER", "UNDO"}
 
     frame: StringProperty(
         name="Frame",
@@ -46,24 +39,42 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh to work on."""
-        return poll_meshes(cls, context)
+        """There is a mesh that can be cubified."""
+        if not poll_meshes(cls, context):
+            return False
+        problems = []
+        for obj in selected_meshes(context):
+            try:
+                mesh_bridge.check_usable(obj)
+            except CubicCraftError as error:
+                problems.append(str(error))
+            else:
+                return True
+        cls.poll_message_set(problems[0])
+        return False
 
     def execute(self, context):
         """Solve all objects, then write all results."""
-        self._adopt_settings(object_properties(selected_meshes(context)[0]))
-        solved, problems = self._solve_all(context)
+        objects = selected_meshes(context)
+        adopt_settings(self, objects[0])
+        try:
+            frame = frame_of(self, objects[0])
+        except CubicCraftError as error:
+            return report_all(self, "", [str(error)])
+        tasks, problems = plan(self, objects, frame)
+        solved, unsolved = solve_all(tasks, context.window_manager)
+        problems += unsolved
         written = []
         try:
-            for obj, settings, solution in solved:
-                target = cubify.write(obj, solution, settings.result)
-                self._remember(obj, settings)
-                object_properties(target).status = _status(solution)
-                written.append(solution)
+            for task in solved:
+                target = cubify.write(task.obj, task.solution, task.settings.result)
+                written.append(task.solution)
+                remember_settings(self, target, task.settings)
+                object_properties(target).status = _status(task.solution)
         except Exception as error:
             # The bridge has put this mesh back; what was written before needs its undo step.
             _log.exception("Writing a result failed")
-            problems.append(f"Writing failed ({error}); the other objects are unchanged")
+            problems.append(f"Writing failed ({error}); what was not written yet is unchanged")
         return report_all(self, _summary(written), problems)
 
     def draw(self, context):
@@ -79,87 +90,13 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         for name in ("device", "max_iterations", "tolerance"):
             layout.prop(self, name)
 
-    def _adopt_settings(self, source):
-        """Take what the caller has not set from an object's settings; the redo panel shows it."""
-        for name in _SHARED:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(source, name))
-        if not self.properties.is_property_set("frame") and source.frame is not None:
-            self.frame = source.frame.name
-
-    def _solve_all(self, context):
-        """Return (object, settings, solution) for each mesh that could be solved, and problems."""
-        solved, problems = [], []
-        solutions = {}  # of meshes; one that several objects share is solved once
-        objects = selected_meshes(context)
-        manager = context.window_manager
-        manager.progress_begin(0, _PROGRESS_STEPS * len(objects))
-        try:
-            for number, obj in enumerate(objects):
-                is_again = obj.data in solutions
-                try:
-                    settings = self._settings(obj)
-                    if not is_again:
-                        solutions[obj.data] = _solve(
-                            obj, settings, manager, number * _PROGRESS_STEPS
-                        )
-                except CubicCraftError as error:
-                    problems.append(str(error))
-                    continue
-                if not is_again or settings.result == "NEW_OBJECT":
-                    solved.append((obj, settings, solutions[obj.data]))
-        finally:
-            manager.progress_end()
-        return solved, problems
-
-    def _settings(self, obj):
-        """Return the object's settings, overridden by what is set on the operator."""
-        settings = settings_of(obj)
-        is_set = self.properties.is_property_set
-        plain = {field.name for field in fields(Settings)}
-        changes = {
-            name: getattr(self, name)
-            for name in RunProperties.__annotations__
-            if is_set(name) and name in plain
-        }
-        if is_set("orientation"):
-            changes["orientation"] = tuple(self.orientation)
-        if is_set("pin_group"):
-            changes["pin_groups"] = (self.pin_group,) if self.pin_group else ()
-        if is_set("frame"):
-            frame = bpy.data.objects.get(self.frame)
-            if self.frame and frame is None:
-                raise CubicCraftError(f'there is no object "{self.frame}"; pick another frame')
-            changes["frame"] = frame
-        return replace(settings, **changes)
-
-    def _remember(self, obj, settings):
-        """Keep what has been used on the object, so that its panel shows how the shape was made."""
-        properties = object_properties(obj)
-        for name in (*RunProperties.__annotations__, "frame"):
-            if not self.properties.is_property_set(name):
-                continue
-            value = settings.frame if name == "frame" else getattr(self, name)
-            if getattr(properties, name) != value:
-                setattr(properties, name, value)
-
-
-def _solve(obj, settings, manager, offset):
-    progress = solver.Progress(settings.max_iterations, settings.tolerance)
-
-    def show(stylization):
-        manager.progress_update(offset + round(_PROGRESS_STEPS * progress.update(stylization)))
-        return False
-
-    return cubify.solve(cubify.prepare(obj, settings), settings, show)
-
 
 def _status(solution):
     r = solution.result
     end = "converged" if r.converged else "not converged, raise Max Iterations"
     return (
         f"{len(solution.positions):,} vertices, {r.iterations} iterations, energy"
-        f" {r.energy.total:.5f}, {end}, {solution.seconds:.2f} s on {r.device}"
+        f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"
     )
 
 
@@ -168,5 +105,5 @@ def _summary(written):
         return ""
     if len(written) == 1:
         return f"Cubified: {_status(written[0])}"
-    seconds = sum(solution.seconds for solution in written)
+    seconds = sum(solution.total_seconds for solution in written)
     return f"Cubified {len(written)} meshes in {seconds:.2f} s"

@@ -5,12 +5,12 @@ _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
 
 
 def selected_meshes(context):
-    """Return the selected mesh objects, the active one first."""
-    objects = [obj for obj in context.selected_objects if obj.type == "MESH"]
+    """Return the selected mesh objects, the active one first; if none is selected, the active."""
     active = context.active_object
-    if active is not None and active.type == "MESH":
-        objects = [active, *(obj for obj in objects if obj != active)]
-    return objects
+    objects = [obj for obj in context.selected_objects if obj.type == "MESH"]
+    if not objects and active is not None and active.type == "MESH":
+        return [active]
+    return sorted(objects, key=lambda obj: obj != active)
 
 
 def poll_meshes(operator_class, context):

@@ -6,19 +6,21 @@ them the bridge keeps its own attributes and one custom property on the mesh (se
 Restore and Apply remove without a trace.
 """
 
-from .checks import check_editable, mesh_of
+from .checks import check_editable, check_usable, mesh_of
 from .new_object import write_new_object
 from .original import has_original, original_positions, read_positions
-from .restore import forget, restore
+from .restore import forget, has_traces, restore
 from .results import write_mesh, write_shape_key
 from .triangulation import triangles
 from .vertex_groups import group_weights
 
 __all__ = (
     "check_editable",
+    "check_usable",
     "forget",
     "group_weights",
     "has_original",
+    "has_traces",
     "mesh_of",
     "original_positions",
     "read_positions",

@@ -26,7 +26,8 @@ def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
     if mesh.is_editmode:
         raise CubicCraftError(f"Mesh '{mesh.name}' is in Edit Mode: go back to Object Mode first")
     flat = np.empty(3 * len(mesh.vertices), np.float32)
-    _position_of(mesh).data.foreach_get("vector", flat)
+    if len(flat):  # a mesh without vertices may have no such attribute
+        _position_of(mesh).data.foreach_get("vector", flat)
     return flat.reshape(-1, 3)
 
 
@@ -47,14 +48,25 @@ def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
     CubicCraftError
         The key does not fit the mesh, as scripts may leave it.
     """
+    check_fits(mesh, key)
+    flat = np.empty(3 * len(key.points), np.float32)
+    key.points.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
+    """Check that a shape key has a point for each vertex of its mesh.
+
+    Raises
+    ------
+    CubicCraftError
+        It has not, as scripts may leave it.
+    """
     if len(key.points) != len(mesh.vertices):
         raise CubicCraftError(
             f"Shape key '{key.name}' of mesh '{mesh.name}' has {len(key.points)} points for "
             f"{len(mesh.vertices)} vertices: delete the shape key first"
         )
-    flat = np.empty(3 * len(key.points), np.float32)
-    key.points.foreach_get("co", flat)
-    return flat.reshape(-1, 3)
 
 
 def write_key(key: bpy.types.ShapeKey, positions: np.ndarray) -> None:

@@ -12,8 +12,8 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-# Attributes whose names begin so are ours, also where Blender has brought them along from another
-# mesh, by joining for one.
+# Attributes called so, or so with something after a dot, are ours, also where Blender has brought
+# them along from another mesh, by joining for one.
 ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
 
@@ -21,7 +21,7 @@ ROTATION = "cubic_craft_rotation"
 def our_attributes(mesh: bpy.types.Mesh) -> list[str]:
     """List the names of the attributes of ours on a mesh."""
     names = (attribute.name for attribute in mesh.attributes)
-    return [name for name in names if name.startswith((ORIGINAL, ROTATION))]
+    return [name for name in names if name.partition(".")[0] in (ORIGINAL, ROTATION)]
 
 
 def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:

@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 
 from ...solver.errors import CubicCraftError
-from .arrays import read_key, read_position
+from .arrays import check_fits, read_key, read_position
+from .note import check_note
 
 
 def check_editable(obj: bpy.types.Object) -> None:
@@ -14,8 +15,20 @@ def check_editable(obj: bpy.types.Object) -> None:
     Raises
     ------
     CubicCraftError
+        As `check_usable`, or coordinates that are not finite.
+    """
+    check_usable(obj)
+    check_finite(mesh_of(obj), obj.name)
+
+
+def check_usable(obj: bpy.types.Object) -> None:
+    """Check all of `check_editable` that is cheap enough for each redraw: no coordinates.
+
+    Raises
+    ------
+    CubicCraftError
         Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
-        vertices, no faces, shape keys that do not fit, or coordinates that are not finite.
+        vertices, no faces, shape keys that do not fit, or a property in the way of our note.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -30,7 +43,9 @@ def check_editable(obj: bpy.types.Object) -> None:
         )
     if not mesh.polygons:
         raise CubicCraftError(f"'{obj.name}' has no faces: fill some in Edit Mode first")
-    check_finite(mesh, obj.name)
+    for key in mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ():
+        check_fits(mesh, key)
+    check_note(mesh)
 
 
 def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape key of ours: made, found again, removed.
 
-The artist may rename it, dial it, key it and drive it. It is found by its name, and under another
-name by its points.
+The artist may rename it, dial it, key it and drive it. It is found by its points, under any name.
+With other points than we wrote it is the artist's, whatever it is called: it is never changed or
+removed again. Only where Blender itself has moved it along with an edited Basis it stays ours.
 """
 
 import bpy
@@ -12,6 +13,7 @@ from .arrays import read_key, write_key
 from .checks import mesh_of
 from .fingerprint import fingerprint
 from .note import read_note, write_note
+from .offsets import offset_sums, same_offsets
 
 _NAME = "Cubic"
 
@@ -23,18 +25,31 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
         return None
     reference = mesh.shape_keys.reference_key
     keys = [key for key in mesh.shape_keys.key_blocks if key != reference]
-    named = next((key for key in keys if key.name == noted["name"]), None)
-    if named is not None and fingerprint(read_key(mesh, named)) == noted["fingerprint"]:
-        return named
-    renamed = (key for key in keys if fingerprint(read_key(mesh, key)) == noted["fingerprint"])
-    # Under its name but with other points: editing Basis in Edit Mode moves the keys along.
-    return next(renamed, named)
+    keys.sort(key=lambda key: key.name != noted["name"])  # the most likely one first
+    base = read_key(mesh, reference)
+
+    def is_written(points: np.ndarray) -> bool:
+        return _print(points) == noted["fingerprint"]
+
+    def is_shifted(points: np.ndarray) -> bool:
+        return same_offsets(offset_sums(points, base), noted["offsets"])
+
+    # While Basis is as it was, nothing has moved the key but the artist.
+    tests = (is_written,) if _print(base) == noted["base"] else (is_written, is_shifted)
+    for is_ours in tests:
+        for key in keys:
+            points = read_key(mesh, key)
+            is_fresh = np.array_equal(points, base)  # as every new key is: its name must tell
+            if is_ours(points) and (key.name == noted["name"] or not is_fresh):
+                return key
+    return None
 
 
 def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
     """Write positions to the shape key of ours, which is made where it is missing.
 
-    A key that is there keeps its value, its range, and what drives it.
+    A key that is there keeps its value, its range, and what drives it. One that the artist has
+    edited is no longer ours and stays; the note forgets it for the new one.
     """
     mesh = mesh_of(obj)
     note = read_note(mesh)
@@ -47,14 +62,25 @@ def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
         key = obj.shape_key_add(name=_NAME, from_mix=False)
         key.value = 1.0  # what a new key starts with differs between versions of Blender
     write_key(key, positions)
-    part = {"name": key.name, "fingerprint": fingerprint(positions), "made_basis": made_basis}
+    assert mesh.shape_keys is not None
+    base = read_key(mesh, mesh.shape_keys.reference_key)
+    part = {
+        "name": key.name,
+        "fingerprint": _print(positions),
+        "base": _print(base),
+        "offsets": offset_sums(positions, base),
+        "made_basis": made_basis,
+    }
     write_note(mesh, note | {"key": part})
 
 
-def remove_cubic_key(mesh: bpy.types.Mesh) -> None:
-    """Remove the shape key of ours, and Basis where we made it and no other key needs it."""
+def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
+    """Remove the shape key of ours, and Basis where we made it and no other key needs it.
+
+    `key` is what `find_cubic_key` found before anything was written: it compares the key with
+    the base.
+    """
     note = read_note(mesh)
-    key = find_cubic_key(mesh)
     noted = note.pop("key", None)
     if key is not None:
         remove_key(mesh, key)
@@ -87,3 +113,8 @@ def remove_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     for obj, index in active.items():
         if index and index >= place:
             obj.active_shape_key_index = index - 1
+
+
+def _print(points: np.ndarray) -> str:
+    """Hash the points of a key; Edit Mode turns -0 into 0, which is no edit of the artist."""
+    return fingerprint(points + np.float32(0))

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from .checks import check_writable, mesh_of
+from .note import check_note
 from .results import write_mesh
 
 
@@ -14,11 +15,12 @@ def write_new_object(
     """Copy an object with its mesh and write a result to the copy's mesh.
 
     The copy is named "<name> Cubic", lies in the collections of the source, and is selected and
-    active in its place. It holds the original of the source, so it can be restored.
+    active in its place, unless that is in Weight Paint or another mode: one can leave it only
+    while the object is active. It holds the original of the source, so it can be restored.
 
     Parameters
     ----------
-    obj : an object with a mesh, in Object Mode
+    obj : an object with a mesh, not in Edit Mode
     positions : (n,3) numpy array, object space
     rotations : (n,3,3) numpy array
 
@@ -33,13 +35,14 @@ def write_new_object(
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
+    check_note(mesh)
     new_mesh, new = mesh.copy(), obj.copy()
     assert new_mesh is not None and new is not None
     try:
+        new.data = new_mesh  # first, so that its active shape key follows when ours is removed
         write_mesh(new_mesh, positions, rotations)
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
-        new.data = new_mesh
         _link_beside(obj, new)
         _select_instead(obj, new)
     except BaseException:
@@ -53,14 +56,23 @@ def _link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
     """Link the new object to the collections of the old one, as far as they can be changed."""
     collections = [c for c in obj.users_collection if c.is_editable and not c.override_library]
     for collection in collections or [bpy.context.scene.collection]:
-        collection.objects.link(new)
+        # Copying a rigid body has linked the copy to their collection already.
+        if collection not in new.users_collection:
+            collection.objects.link(new)
 
 
 def _select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
-    """Select the new object and make it active instead of the old one, where the view has it."""
+    """Select the new object and make it active instead of the old one, where the view has it.
+
+    Not where the active object is in another mode than Object Mode: it would be stuck there.
+    """
+    active = bpy.context.view_layer.objects.active
+    is_free = obj.mode == "OBJECT" and (active is None or active.mode == "OBJECT")
     try:
-        new.select_set(True)
-        obj.select_set(False)
+        new.select_set(is_free)  # a copy starts as selected as its source
+        if is_free:
+            obj.select_set(False)
     except RuntimeError:  # none of its collections is in this view layer
         return
-    bpy.context.view_layer.objects.active = new
+    if is_free:
+        bpy.context.view_layer.objects.active = new

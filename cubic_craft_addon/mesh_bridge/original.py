@@ -63,12 +63,14 @@ def original_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     return _finite(_stored_base(mesh), mesh)
 
 
-def has_original(mesh: bpy.types.Mesh) -> bool:
+def has_original(mesh: bpy.types.Mesh | None) -> bool:
     """Tell whether the mesh holds a result of ours that `restore` can take back.
 
-    It hashes the positions (2 ms per 100 000 vertices). False where the mesh cannot be
-    read, as in Edit Mode.
+    It hashes the positions (2 ms per 100 000 vertices). False where there is no mesh, or one
+    that cannot be read, as in Edit Mode.
     """
+    if not isinstance(mesh, bpy.types.Mesh) or mesh.is_editmode:
+        return False
     try:
         return stored_result(mesh) is not None or find_cubic_key(mesh) is not None
     except CubicCraftError:

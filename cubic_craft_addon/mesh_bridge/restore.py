@@ -5,8 +5,9 @@ import bpy
 
 from ...solver.errors import CubicCraftError
 from .arrays import mark_moved
+from .attributes import our_attributes
 from .checks import check_writable, mesh_of
-from .cubic_key import remove_cubic_key
+from .cubic_key import find_cubic_key, remove_cubic_key
 from .note import read_note, write_note
 from .original import drop_stored, has_original, original_shapes, stored_result
 from .rollback import all_or_nothing
@@ -24,23 +25,36 @@ def restore(obj: bpy.types.Object) -> None:
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
     if not has_original(mesh):
-        if "mesh" in read_note(mesh):
+        if has_traces(mesh):
             raise CubicCraftError(
-                f"'{obj.name}' was edited after it was cubified, so its original is gone: "
-                "undo the edit, or cubify it anew from its present shape"
+                f"'{obj.name}' has been edited since it was cubified, and its present shape is "
+                "the original now: Apply removes what is left of the former one"
             )
         raise CubicCraftError(f"'{obj.name}' has no original to restore: cubify it first")
+    cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh)
     with all_or_nothing(mesh):
         if stored_result(mesh) is not None:
             write_shapes(mesh, original)
         drop_stored(mesh)
-        remove_cubic_key(mesh)
+        remove_cubic_key(mesh, cubic_key)
         mark_moved(mesh)
 
 
+def has_traces(mesh: bpy.types.Mesh | None) -> bool:
+    """Tell whether anything of ours is on the mesh, valid or stale: something to `forget`.
+
+    Cheap: it reads no positions. False where there is no mesh.
+    """
+    if not isinstance(mesh, bpy.types.Mesh):
+        return False
+    return bool(read_note(mesh)) or bool(our_attributes(mesh))
+
+
 def forget(mesh: bpy.types.Mesh) -> None:
-    """Keep the shape and remove everything else of ours; the shape key "Cubic" stays.
+    """Keep the shape and remove everything else of ours, valid or stale.
+
+    The shape key "Cubic" stays.
 
     Raises
     ------

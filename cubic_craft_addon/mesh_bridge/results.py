@@ -11,7 +11,7 @@ import numpy as np
 from ...solver.errors import CubicCraftError
 from .arrays import loose_vertices, mark_moved
 from .checks import check_writable, mesh_of
-from .cubic_key import remove_cubic_key, write_cubic_key
+from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .original import drop_stored, original_shapes, store_original, stored_result
 from .rollback import all_or_nothing
 from .rotations import matrices_from_quaternions, quaternions_from_matrices
@@ -34,6 +34,7 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
         The mesh is then as it was before.
     """
     check_writable(mesh, mesh.name)
+    cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh)
     positions = _settled(mesh, positions, original.base)
     _check_shape(mesh, rotations, (len(positions), 3, 3), "rotations")
@@ -46,7 +47,7 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
         drop_stored(mesh)
         store_original(mesh, original, written, quaternions)
         write_shapes(mesh, written)
-        remove_cubic_key(mesh)
+        remove_cubic_key(mesh, cubic_key)
 
 
 def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
@@ -60,11 +61,16 @@ def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
     Raises
     ------
     CubicCraftError
-        Wrong number of vertices, values that are not finite, or a mesh that cannot be written.
-        The mesh is then as it was before.
+        Wrong number of vertices, values that are not finite, absolute shape keys, or a mesh that
+        cannot be written. The mesh is then as it was before.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
+    if mesh.shape_keys is not None and not mesh.shape_keys.use_relative:
+        raise CubicCraftError(
+            f"'{obj.name}' has absolute shape keys, among which a key cannot be dialled: switch on "
+            "Relative (Object Data > Shape Keys) or choose another result"
+        )
     original = original_shapes(mesh)
     positions = _settled(mesh, positions, original.base)
     with all_or_nothing(mesh):

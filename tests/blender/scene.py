@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects to work on, and short names for what is done to them."""
 
+import contextlib
+import io
+
 import bpy
 import numpy as np
 from mathutils import Euler
@@ -35,3 +38,10 @@ def select(*objects):
 
 def cubify(**options):
     return bpy.ops.cubic_craft.cubify(**{"max_iterations": 30, **options})
+
+
+def reports_of(run):
+    """Return what an operator prints when it is run: its reports, as bpy shows them."""
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        assert run() == {"FINISHED"}
+    return printed.getvalue()

@@ -48,7 +48,7 @@ STORED = (
     "*attributes/cubic_craft_*/values",
     "*attributes/order",
     "*attributes/active index",
-    "*custom/custom cubic_craft",
+    "*custom/custom cubic_craft_note",
 )
 
 

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import add_rich_monkey, points_of, position_of
-from scene import add_monkey, add_triangles, cubify, select
+from scene import add_monkey, add_triangles, cubify, reports_of, select
 from snapshot import POSITIONS, STORED, differences, snapshot_object
 
 # What a run leaves on the object beside its mesh: its settings and the text of its last run.
@@ -72,8 +72,9 @@ def test_an_edited_mesh_becomes_the_original():
     obj.data.vertices[3].co.x += 0.5
     obj.data.update()
     edited = position_of(obj.data)
-    with pytest.raises(RuntimeError, match="original shape"):
+    with pytest.raises(RuntimeError, match="edited since"):
         bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == edited.tobytes()
     cubify()
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
@@ -143,6 +144,92 @@ def test_several_objects_and_a_shared_mesh():
         assert position_of(obj.data).tobytes() == before.tobytes()
 
 
+def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
+    first = add_monkey("First")
+    twin = first.copy()
+    bpy.context.collection.objects.link(twin)
+    twin.scale, twin.rotation_euler = (1.0, 1.0, 3.0), (0.5, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    select(first, twin)
+    cubify(result="NEW_OBJECT", space="WORLD")
+    shapes = [
+        position_of(bpy.data.objects[name].data) for name in ("First Cubic", "First.001 Cubic")
+    ]
+    select(twin)
+    cubify(result="MESH", space="WORLD")
+    assert position_of(twin.data).tobytes() == shapes[1].tobytes()
+    assert shapes[0].tobytes() != shapes[1].tobytes()
+
+
+def test_the_object_that_differs_from_its_twin_is_named():
+    first = add_monkey("First")
+    twin = first.copy()
+    twin.name = "Twin"
+    bpy.context.collection.objects.link(twin)
+    twin.scale.z = 3.0
+    bpy.context.view_layer.update()
+    select(first, twin)
+    assert "shares its mesh" in reports_of(cubify)
+
+
+def test_a_new_object_shows_how_it_was_made_and_is_changed_by_the_next_click():
+    source = add_monkey()
+    cubify(cubeness=0.9, result="NEW_OBJECT")
+    made = bpy.context.object
+    assert made.cubic_craft.cubeness == pytest.approx(0.9)
+    assert "507 vertices" in made.cubic_craft.status
+    assert source.cubic_craft.cubeness == pytest.approx(0.4)
+    assert source.cubic_craft.status == ""
+    before = position_of(made.data)
+    cubify()
+    assert bpy.context.object == made
+    assert position_of(made.data).tobytes() == before.tobytes()
+
+
+def test_a_frame_of_the_same_name_in_a_library_is_not_mixed_up(tmp_path):
+    library = str(tmp_path / "library.blend")
+    linked = bpy.data.objects.new("Frame", None)
+    linked.rotation_euler = (0.3, 0.4, 0.5)
+    bpy.data.libraries.write(library, {linked}, fake_user=True)
+    bpy.data.objects.remove(linked)
+    local = bpy.data.objects.new("Frame", None)
+    bpy.context.collection.objects.link(local)
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.objects = ["Frame"]
+    linked = wanted.objects[0]
+    obj = add_monkey()
+    obj.cubic_craft.space, obj.cubic_craft.frame = "FRAME", linked
+    cubify()
+    assert obj.cubic_craft.frame == linked
+
+
+def test_settings_that_are_not_used_leave_other_objects_alone():
+    frames = [bpy.data.objects.new(name, None) for name in ("One", "Two")]
+    first, second = add_monkey("First"), add_monkey("Second")
+    for obj, frame in zip((first, second), frames, strict=True):
+        obj.cubic_craft.frame = frame
+    select(first, second)
+    cubify(frame="Nobody")
+    assert [obj.cubic_craft.frame for obj in (first, second)] == frames
+
+
+def test_an_active_object_that_is_not_selected_is_left_alone():
+    active, other = add_monkey("Active"), add_monkey("Other")
+    select(other)
+    bpy.context.view_layer.objects.active = active
+    before = position_of(active.data)
+    cubify()
+    assert position_of(active.data).tobytes() == before.tobytes()
+    assert position_of(other.data).tobytes() != before.tobytes()
+
+
+def test_every_setting_can_be_driven_and_animated():
+    obj = add_monkey()
+    for name in ("cubeness", "tolerance", "map_invert", "max_iterations", "space", "result"):
+        obj.driver_add(f"cubic_craft.{name}")
+        obj.keyframe_insert(f"cubic_craft.{name}", frame=1)
+
+
 def test_one_bad_object_does_not_stop_the_others():
     good = add_monkey("Good")
     lamp = bpy.data.objects.new("Wire", bpy.data.meshes.new("Wire"))
@@ -150,7 +237,7 @@ def test_one_bad_object_does_not_stop_the_others():
     bpy.context.collection.objects.link(lamp)
     select(good, lamp)
     before = position_of(good.data)
-    assert cubify() == {"FINISHED"}
+    assert "Wire" in reports_of(cubify)
     assert position_of(good.data).tobytes() != before.tobytes()
 
 
@@ -263,7 +350,9 @@ def test_n_gons_are_kept_and_solved():
     bpy.ops.mesh.primitive_cylinder_add(vertices=9, end_fill_type="NGON")
     obj = bpy.context.object
     sizes = sorted(p.loop_total for p in obj.data.polygons)
+    before = position_of(obj.data)
     assert cubify(cubeness=1.0) == {"FINISHED"}
+    assert np.abs(position_of(obj.data) - before).max() > 0.01
     assert sorted(p.loop_total for p in obj.data.polygons) == sizes == [4] * 9 + [9, 9]
 
 

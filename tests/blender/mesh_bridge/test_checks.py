@@ -179,6 +179,87 @@ def test_linked_data(bridge, error, library, override):
     assert not bridge.has_original(obj.data)
 
 
+def test_usable_is_editable_but_for_the_coordinates(bridge, error, keyed_monkey):
+    mesh = keyed_monkey.data
+    points = points_of(mesh, "Wide")
+    points[4] = np.nan
+    set_points(mesh, "Wide", points)
+    bridge.check_usable(keyed_monkey)
+    with pytest.raises(error, match="not finite"):
+        bridge.check_editable(keyed_monkey)
+    mesh.vertices.add(2)
+    for check in (bridge.check_usable, bridge.check_editable):
+        with pytest.raises(error, match="delete the shape key"):
+            check(keyed_monkey)
+    keyed_monkey.hide_set(True)
+    for check in (bridge.check_usable, bridge.check_editable):
+        with pytest.raises(error, match="is hidden"):
+            check(keyed_monkey)
+
+
+def test_what_panels_ask_reads_no_coordinates(bridge, monkey, fail_once):
+    bridge.write_mesh(monkey.data, *cubic_like(bridge.read_positions(monkey.data)))
+    for reader in ("checks.read_position", "checks.read_key", "original.fingerprint"):
+        fail_once(reader, call=1)
+    bridge.check_usable(monkey)
+    assert bridge.has_traces(monkey.data)
+    with pytest.raises(RuntimeError, match="disk on fire"):
+        bridge.check_editable(monkey)
+
+
+def _in_edit_mode(bridge):
+    obj = add_rich_monkey(keys=True)
+    bridge.write_shape_key(obj, cubic_like(bridge.read_positions(obj.data))[0])
+    bpy.ops.object.mode_set(mode="EDIT")
+    return obj
+
+
+def _without_vertices(bridge):
+    obj = add_rich_monkey(keys=True)
+    bridge.write_mesh(obj.data, *cubic_like(bridge.read_positions(obj.data)))
+    obj.data.clear_geometry()
+    return obj
+
+
+def _keys_that_do_not_fit(bridge):
+    obj = add_rich_monkey(keys=True)
+    bridge.write_shape_key(obj, cubic_like(bridge.read_positions(obj.data))[0])
+    obj.data.vertices.add(3)
+    return obj
+
+
+def _noted_without_vertices(bridge):
+    obj = add_rich_monkey(keys=False)
+    bridge.write_mesh(obj.data, *cubic_like(bridge.read_positions(obj.data)))
+    empty = bpy.data.meshes.new("Nothing")
+    for name, value in obj.data.items():
+        empty[name] = value
+    return bpy.data.objects.new("Nothing", empty)
+
+
+@pytest.mark.parametrize(
+    ("make", "has_traces"),
+    [
+        (lambda bridge: bpy.data.objects.new("Hook", None), False),
+        (lambda bridge: bpy.data.objects.new("Rope", bpy.data.curves.new("R", "CURVE")), False),
+        (lambda bridge: bpy.data.objects.new("New", bpy.data.meshes.new("New")), False),
+        (_in_edit_mode, True),
+        (_without_vertices, True),
+        (_noted_without_vertices, True),
+        (_keys_that_do_not_fit, True),
+    ],
+    ids=["hook", "rope", "new", "edited", "cleared", "noted", "unfit"],
+)
+def test_questions_never_fail(bridge, error, make, has_traces):
+    """Panels and polls ask them about whatever is selected."""
+    obj = make(bridge)
+    assert not bridge.has_original(obj.data)
+    assert bridge.has_traces(obj.data) == has_traces
+    for check in (bridge.check_usable, bridge.check_editable):
+        with pytest.raises(error, match=f"'{obj.name}'|'Monkey'"):
+            check(obj)
+
+
 def test_made_local(bridge, library):
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.make_local(type="SELECT_OBDATA")

@@ -92,4 +92,4 @@ def test_forget_a_stale_original(bridge, plain_monkey):
     mesh.vertices[0].co.x += 1
     bridge.forget(mesh)
     assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
-    assert "cubic_craft" not in mesh
+    assert "cubic_craft_note" not in mesh

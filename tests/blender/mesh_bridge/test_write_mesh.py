@@ -159,7 +159,7 @@ def test_edited_mesh_becomes_the_original(bridge, error, monkey):
     assert bridge.original_positions(mesh).tobytes() == edited.tobytes()
     bridge.restore(monkey)
     assert differences(before, snapshot_object(monkey), ignore=STORED) == []
-    assert "cubic_craft" not in mesh
+    assert "cubic_craft_note" not in mesh
 
 
 def test_added_vertex_makes_it_the_original(bridge, plain_monkey):
@@ -208,15 +208,6 @@ def test_joined_with_a_cubified_mesh(bridge, plain_monkey, into):
     bridge.restore(obj)
     assert bridge.read_positions(mesh).tobytes() == joined.tobytes()
     assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
-
-
-def test_property_of_others_under_our_name_is_no_original(bridge, plain_monkey):
-    mesh = plain_monkey.data
-    for value in (3, "text", "[]", '{"version": 0, "mesh": {}}', {"mesh": 1}):
-        mesh["cubic_craft"] = value
-        assert not bridge.has_original(mesh)
-        bridge.forget(mesh)
-        assert "cubic_craft" in mesh
 
 
 @pytest.mark.parametrize(

@@ -85,6 +85,53 @@ def test_collections(bridge, plain_monkey):
     assert set(new.users_collection) == set(rooms)
 
 
+def test_rigid_body(bridge, plain_monkey):
+    """Copying one links the copy to the collection of the rigid body world by itself."""
+    bpy.ops.rigidbody.object_add()
+    assert len(plain_monkey.users_collection) == 2
+    result = cubic_like(bridge.read_positions(plain_monkey.data))
+    new = bridge.write_new_object(plain_monkey, *result)
+    assert set(new.users_collection) == set(plain_monkey.users_collection)
+    assert new.rigid_body is not None
+
+
+@pytest.mark.parametrize("place", [0, 2, 5])
+def test_active_key_of_a_source_with_our_key(bridge, keyed_monkey, place):
+    """Our key is not in the copy; those behind it move up there, and the active one with them."""
+    keys = keyed_monkey.data.shape_keys.key_blocks
+    bridge.write_shape_key(keyed_monkey, cubic_like(bridge.read_positions(keyed_monkey.data))[0])
+    keyed_monkey.active_shape_key_index = keys.find("Cubic")
+    for _ in range(3):
+        bpy.ops.object.shape_key_move(type="UP")
+    assert keys.find("Cubic") == 2
+    keyed_monkey.active_shape_key_index = place
+    name = keys[place].name if place != 2 else keys[1].name  # the one before ours instead of ours
+    result = cubic_like(bridge.original_positions(keyed_monkey.data))
+    new = bridge.write_new_object(keyed_monkey, *result)
+    assert "Cubic" not in new.data.shape_keys.key_blocks
+    assert new.active_shape_key.name == name
+
+
+@pytest.mark.parametrize("painted", ["source", "another"])
+def test_mode_other_than_object_mode(bridge, plain_monkey, painted):
+    """An object can leave its mode only while it is active: so it stays that."""
+    source = plain_monkey
+    if painted == "another":
+        bpy.ops.object.select_all(action="DESELECT")
+        bpy.ops.mesh.primitive_cube_add()
+    active = bpy.context.object
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    selected = source.select_get()
+    result = cubic_like(bridge.read_positions(source.data))
+    new = bridge.write_new_object(source, *result)
+    assert list(new.users_collection) == list(source.users_collection)
+    assert bpy.context.view_layer.objects.active == active
+    assert (source.select_get(), new.select_get()) == (selected, False)
+    assert (active.mode, new.mode) == ("WEIGHT_PAINT", "OBJECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert active.mode == "OBJECT"
+
+
 def test_object_of_another_scene(bridge, plain_monkey):
     """It is in no view layer at hand: the copy is made, and nothing is selected."""
     other = bpy.data.scenes.new("Other")
