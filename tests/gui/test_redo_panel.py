@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Change the cubeness in the redo panel: Cubify runs again, from the original, as one undo step."""
+
+import bpy
+import guidrive as gui
+import numpy as np
+
+NAME = "Suzanne"
+
+
+def settings():
+    return getattr(bpy.data.objects[NAME], "cubic_craft")  # noqa: B009
+
+
+def positions():
+    vertices = bpy.data.meshes[NAME].vertices
+    values = np.empty(3 * len(vertices), dtype=np.float32)
+    vertices.foreach_get("co", values)
+    return values.tobytes()
+
+
+def add_monkey():
+    with gui.in_region():
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.ops.ed.undo_push(message="Add the monkey")
+
+
+def cubify():
+    button = yield from gui.find_button("cubic_craft.cubify")
+    before = positions()
+    yield from gui.click(button)
+    yield from gui.wait_until(lambda: positions() != before, timeout=120.0, what="a new shape")
+
+
+def test():
+    add_monkey()
+    original = positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    yield from cubify()
+    first = positions()
+
+    # Open the panel "Adjust Last Operation" by its header; its first row is the cubeness.
+    panel = gui.region("HUD")
+    yield from gui.click((panel.x + panel.width // 2, panel.y + panel.height - 14))
+    yield from gui.wait_until(lambda: gui.region("HUD").height > 100, what="the open panel")
+    yield from gui.screenshot("redo_panel.png")
+    panel = gui.region("HUD")
+    row = gui.Button("", panel.x + panel.width // 2, 0, panel.x + panel.width - 20, 0)
+    top = panel.y + panel.height - 44
+    slider = gui.Button("cubeness", row.left, top - 10, row.right, top + 10)
+    yield from gui.enter_value(slider, 0.9)
+    yield from gui.wait_until(lambda: positions() != first, timeout=120.0, what="another shape")
+    yield from gui.screenshot("redone.png")
+    assert abs(settings().cubeness - 0.9) < 1e-6
+    redone = positions()
+
+    # It started from the original, and there is one step to undo.
+    yield from gui.undo()
+    assert positions() == original
+    settings().cubeness = 0.9
+    yield from cubify()
+    assert positions() == redone
+
+
+gui.run(test)
