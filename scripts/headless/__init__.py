@@ -1,0 +1,1 @@
+"""The rooms of ``headless_render.py``: read, cubify, save, picture and report."""

@@ -1,0 +1,238 @@
+"""The command line: options, their ranges, and what does not go together."""
+
+import argparse
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import NoReturn
+
+from .errors import InputError
+from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
+from .output_files import check_writable, numbered, per_cubeness
+
+__all__ = ("parse",)
+
+EPILOG = """\
+The picture shows the original beside one result per cubeness. With --turntable it becomes a
+sequence name_0001.png ... in which every object turns once about its vertical axis.
+Orientation 0 0 0 means the axes of the object, which for an .obj are those of the file.
+In Blender: blender -b -P scripts/headless_render.py -- [options]
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """An ArgumentParser whose errors are one line, like all others."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(message.removeprefix("argument "))
+
+
+def parse(arguments: list[str]) -> argparse.Namespace:
+    """Read the command line and check everything that can be checked without Blender.
+
+    Returns
+    -------
+    argparse.Namespace
+        One attribute per option; ``output``, ``save_mesh`` and ``report`` are paths or None,
+        ``input`` is a path or None for the monkey.
+
+    Raises
+    ------
+    InputError
+        An option, the input or an output path cannot be used.
+    """
+    options = _parser().parse_args(arguments)
+    options.cubeness = list(dict.fromkeys(options.cubeness))
+    if options.no_render and (options.output or options.turntable):
+        raise InputError("--no-render: does not go together with --output or --turntable; drop one")
+    if options.no_render and not (options.save_mesh or options.report):
+        raise InputError("--no-render: nothing to write; add --save-mesh FILE or --report FILE")
+    if not options.no_render and options.output is None:
+        options.output = Path("cubic_craft.png")
+    if options.input is not None:
+        _check_input(options.input)
+    _check_outputs(options)
+    return options
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="headless_render.py",
+        description="Turn meshes into cubic sculptures: pictures, meshes and a report.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "input",
+        nargs="?",
+        type=Path,
+        metavar="INPUT",
+        help=f"{listing(READABLE)}; without it, Blender's monkey, subdivided",
+    )
+    parser.add_argument("--object", metavar="NAME", help="this mesh object only (default: all)")
+    _add_method(parser)
+    _add_outputs(parser)
+    _add_picture(parser)
+    parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
+    return parser
+
+
+def _add_method(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("the cubic style")
+    group.add_argument(
+        "--cubeness",
+        nargs="+",
+        type=_number(0.0, 10.0),
+        default=[0.4],
+        metavar="L",
+        help="0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
+    )
+    group.add_argument(
+        "--orientation",
+        nargs=3,
+        type=_number(-36000.0, 36000.0),
+        default=[0.0, 0.0, 0.0],
+        metavar=("X", "Y", "Z"),
+        help="Euler angles of the cube in degrees, relative to the object",
+    )
+    group.add_argument(
+        "--pin", nargs="+", default=[], metavar="GROUP", help="vertex groups that stay in place"
+    )
+    group.add_argument(
+        "--map", default="", metavar="GROUP", help="vertex group that scales the cubeness"
+    )
+    group.add_argument(
+        "--rotation",
+        choices=["auto", "keep", "free"],
+        default="auto",
+        help="whether each part is turned back as a whole by its best-fit rotation"
+        " (default: auto, where there are several parts)",
+    )
+    group.add_argument("--max-iterations", type=_integer(1, 1_000_000), default=1000, metavar="N")
+    group.add_argument(
+        "--tolerance", type=_number(1e-12, 1.0), default=1e-3, metavar="T", help="(default: 0.001)"
+    )
+    group.add_argument("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+
+
+def _add_outputs(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("what is written")
+    group.add_argument(
+        "--output", type=Path, metavar="PICTURE.png", help="(default: cubic_craft.png)"
+    )
+    group.add_argument("--no-render", action="store_true", help="no picture")
+    group.add_argument(
+        "--save-mesh",
+        type=Path,
+        metavar="FILE",
+        help=f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with several "
+        "cubeness values one file each (name_0.4.obj)",
+    )
+    group.add_argument("--report", type=Path, metavar="FILE.json", help="numbers of the run")
+
+
+def _add_picture(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("the picture")
+    group.add_argument("--engine", choices=("cycles", "workbench"), default="cycles")
+    group.add_argument(
+        "--samples",
+        type=_integer(1, 65536),
+        default=16,
+        metavar="N",
+        help="of cycles; denoised (default: 16)",
+    )
+    group.add_argument(
+        "--resolution",
+        nargs=2,
+        type=_integer(16, 16384),
+        default=[1600, 540],
+        metavar=("W", "H"),
+        help="(default: 1600 540)",
+    )
+    group.add_argument(
+        "--turn",
+        nargs=3,
+        type=_number(-36000.0, 36000.0),
+        default=[0.0, 0.0, 0.0],
+        metavar=("X", "Y", "Z"),
+        help="degrees that stand the objects upright, for files with another idea of up; the "
+        "result does not change",
+    )
+    group.add_argument(
+        "--turntable",
+        type=_integer(1, 9999),
+        default=0,
+        metavar="FRAMES",
+        help="a picture sequence name_0001.png ..., each object turning about its vertical axis",
+    )
+
+
+def _number(low: float, high: float) -> Callable[[str], float]:
+    def number(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            hint = " (put the input file first)" if Path(text).suffix in READABLE else ""
+            raise argparse.ArgumentTypeError(f"{text!r} is not a number{hint}") from None
+        if not math.isfinite(value) or not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not between {low:g} and {high:g}")
+        return value
+
+    return number
+
+
+def _integer(low: int, high: int) -> Callable[[str], int]:
+    def integer(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")
+        return value
+
+    return integer
+
+
+def _check_input(path: Path) -> None:
+    if path.suffix.lower() not in READABLE:
+        kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
+        raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
+    try:
+        with path.open("rb") as file:
+            is_empty = not file.read(1)
+    except FileNotFoundError:
+        raise InputError(f"{path}: there is no such file; check the path") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    if is_empty:
+        raise InputError(f"{path}: the file is empty; export it again")
+
+
+def _check_outputs(options: argparse.Namespace) -> None:
+    """Refuse output paths of the wrong kind, that cannot be written, or that collide."""
+    outputs: dict[str, list[Path]] = {}
+    if options.output:
+        _check_suffix("--output", options.output, (".png",))
+        outputs["--output"] = numbered(options.output, options.turntable)
+    if options.save_mesh:
+        if options.save_mesh.suffix.lower() in LOSE_VERTICES:
+            raise InputError(
+                f"--save-mesh {options.save_mesh}: this format cannot keep vertex order and "
+                f"count; give {listing(KEEP_VERTICES)}"
+            )
+        _check_suffix("--save-mesh", options.save_mesh, KEEP_VERTICES)
+        outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
+    if options.report:
+        _check_suffix("--report", options.report, (".json",))
+        outputs["--report"] = [options.report]
+    for option, paths in outputs.items():
+        check_writable(option, paths)
+        if options.input is not None and options.input.resolve() in (p.resolve() for p in paths):
+            raise InputError(f"{option} {options.input}: this is the input; give another name")
+
+
+def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
+    if path.suffix.lower() not in allowed:
+        raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")

@@ -1,0 +1,32 @@
+"""Blender's importers and exporters, which a Blender may have been built without."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .errors import InputError
+
+__all__ = ("operator", "reason")
+
+
+def operator(name: str, path: Path) -> Callable[..., Any]:
+    """Return an operator by its name, such as "wm.obj_import".
+
+    Raises
+    ------
+    InputError
+        This Blender does not have it; ``path`` is the file that it was meant for.
+    """
+    group, _, verb = name.partition(".")
+    if verb not in dir(getattr(bpy.ops, group)):
+        message = f"{path}: this Blender was built without support for {path.suffix} files"
+        raise InputError(f"{message}; choose another format")
+    return getattr(getattr(bpy.ops, group), verb)
+
+
+def reason(error: RuntimeError) -> str:
+    """Return the first line of what an operator reported when it failed."""
+    lines = str(error).strip().splitlines() or ["no reason given"]
+    return lines[0].removeprefix("Error: ").rstrip(". ")

@@ -1,0 +1,105 @@
+"""Cubify every mesh at every cubeness; nothing is written to any mesh here."""
+
+import math
+from argparse import Namespace
+from dataclasses import dataclass, replace
+from typing import Any
+
+import bpy
+
+from .errors import InputError
+from .extension import Extension
+from .progress import ProgressBar
+
+__all__ = ("Sculpture", "cubify_all")
+
+
+@dataclass
+class Sculpture:
+    """One mesh, the objects that show it, and its cubic versions."""
+
+    users: list[bpy.types.Object]
+    """the first of them was solved"""
+    prepared: Any
+    """cubic_craft_addon.cubify.Prepared"""
+    solutions: list[Any]
+    """cubic_craft_addon.cubify.Solution, one per cubeness"""
+
+    @property
+    def object(self) -> bpy.types.Object:
+        """The object that was solved."""
+        return self.users[0]
+
+
+def cubify_all(
+    objects: list[bpy.types.Object], options: Namespace, extension: Extension, bar: ProgressBar
+) -> list[Sculpture]:
+    """Solve each mesh once per cubeness; objects that share a mesh share the results.
+
+    Raises
+    ------
+    InputError
+        No object has a vertex group that was named.
+    CubicCraftError
+        An object, or an option for it, cannot be used.
+    """
+    _check_groups(objects, options)
+    by_mesh: dict[str, list[bpy.types.Object]] = {}
+    for obj in objects:
+        by_mesh.setdefault(obj.data.name_full, []).append(obj)
+    all_settings = [_settings(users[0], options, extension) for users in by_mesh.values()]
+    # All checks of all objects come first, so that a refusal costs no solve.
+    all_prepared = [
+        extension.cubify.prepare(users[0], settings)
+        for users, settings in zip(by_mesh.values(), all_settings, strict=True)
+    ]
+    sculptures = []
+    for users, settings, prepared in zip(by_mesh.values(), all_settings, all_prepared, strict=True):
+        solutions = []
+        for cubeness in options.cubeness:
+            progress = extension.solver.Progress(options.max_iterations, options.tolerance)
+            with bar.task(f"{users[0].name}, cubeness {cubeness!r}") as task:
+                solution = extension.cubify.solve(
+                    prepared,
+                    replace(settings, cubeness=cubeness),
+                    lambda state, task=task, progress=progress: task.advance_to(
+                        progress.update(state)
+                    ),
+                )
+                task.finish(_summary(solution))
+            solutions.append(solution)
+        sculptures.append(Sculpture(users, prepared, solutions))
+    return sculptures
+
+
+def _settings(obj: bpy.types.Object, options: Namespace, extension: Extension) -> Any:
+    """Return the Settings for one object; a group that only others have does not concern it."""
+    pins = tuple(group for group in options.pin if group in obj.vertex_groups)
+    return extension.settings.Settings(
+        orientation=tuple(math.radians(angle) for angle in options.orientation),
+        pin_groups=pins,
+        map_group=options.map if options.map in obj.vertex_groups else "",
+        rotation=options.rotation.upper(),
+        device=options.device.upper(),
+        max_iterations=options.max_iterations,
+        tolerance=options.tolerance,
+    )
+
+
+def _check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
+    there = dict.fromkeys(group.name for obj in objects for group in obj.vertex_groups)
+    wanted = [("--pin", group) for group in options.pin]
+    wanted += [("--map", options.map)] if options.map else []
+    for option, group in wanted:
+        if group not in there:
+            has = ", ".join(repr(name) for name in there) or "no vertex group at all"
+            raise InputError(f"{option} {group}: no such vertex group; the input has {has}")
+
+
+def _summary(solution: Any) -> str:
+    result = solution.result
+    end = "converged" if result.converged else "not converged"
+    return (
+        f"{result.iterations} iterations, {end}, energy {result.energy.total:.4g}, "
+        f"{solution.seconds:.1f} s on {result.device}"
+    )

@@ -1,0 +1,58 @@
+"""Copies that carry a result, independent of everything else in the file."""
+
+import bpy
+import numpy as np
+
+from .extension import Extension
+
+__all__ = ("detached_copy", "remove_copy", "write_positions")
+
+
+def detached_copy(
+    obj: bpy.types.Object, positions: np.ndarray, extension: Extension, keep_modifiers: bool
+) -> bpy.types.Object:
+    """Copy an object and its mesh, place it where the object is, and give it other positions.
+
+    The copy has no parent, animation, constraints or shape keys, and it is in no collection yet.
+
+    Parameters
+    ----------
+    positions : (n,3) numpy float32 array, object space
+    keep_modifiers : bool
+        Keep those that need no other object; without them the mesh is what is exported.
+    """
+    place = obj.matrix_world.copy()
+    copy, mesh = obj.copy(), obj.data.copy()
+    copy.data = mesh
+    copy.animation_data_clear()
+    copy.constraints.clear()
+    copy.parent = None
+    copy.matrix_world = place
+    copy.hide_render = False
+    for modifier in list(copy.modifiers):
+        if not keep_modifiers or _needs_object(modifier):
+            copy.modifiers.remove(modifier)
+    if mesh.shape_keys is not None:
+        copy.shape_key_clear()
+    extension.mesh_bridge.forget(mesh)
+    write_positions(mesh, positions)
+    return copy
+
+
+def write_positions(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
+    """Write (n,3) float32 positions to a mesh without shape keys."""
+    mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(positions).ravel())
+    mesh.update()
+
+
+def remove_copy(copy: bpy.types.Object) -> None:
+    """Remove a copy and its mesh."""
+    bpy.data.meshes.remove(copy.data)  # takes the object along
+
+
+def _needs_object(modifier: bpy.types.Modifier) -> bool:
+    """Tell whether a modifier refers to another object, whose place the copy does not share."""
+    return any(
+        prop.type == "POINTER" and isinstance(getattr(modifier, prop.identifier), bpy.types.Object)
+        for prop in modifier.bl_rna.properties
+    )

@@ -1,0 +1,10 @@
+"""The one error that ends a run with exit code 2."""
+
+__all__ = ("InputError",)
+
+
+class InputError(ValueError):
+    """Something the user gave cannot be used.
+
+    The message is one line: it names the option or file, the reason and the cure.
+    """

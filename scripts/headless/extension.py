@@ -1,0 +1,54 @@
+"""Load the extension from its source tree, under the name that Blender gives it."""
+
+import contextlib
+import importlib
+import importlib.util
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+from .errors import InputError
+
+__all__ = ("Extension", "registered")
+
+PACKAGE = "cubic_craft"
+
+
+class Extension:
+    """The rooms of the loaded extension that the scripts use."""
+
+    def __init__(self, root: Path) -> None:
+        self.cubify = _room("cubic_craft_addon.cubify")
+        self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
+        self.settings = _room("cubic_craft_addon.settings")
+        self.solver = _room("solver")
+        manifest = tomllib.loads((root / "blender_manifest.toml").read_text(encoding="utf-8"))
+        self.version: str = manifest["version"]
+
+
+@contextlib.contextmanager
+def registered(root: Path) -> Iterator[Extension]:
+    """Import the repository root as the package ``cubic_craft``, and register it for the block.
+
+    The root may have any folder name; inside, all imports are relative to the package. Blender 4.2
+    as a Python module crashes at its end if anything is still registered then.
+    """
+    spec = importlib.util.spec_from_file_location(
+        PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
+    )
+    if spec is None or spec.loader is None:
+        raise InputError(f"{root}: there is no CubicCraft extension here; run the script in place")
+    package = importlib.util.module_from_spec(spec)
+    sys.modules[PACKAGE] = package
+    spec.loader.exec_module(package)
+    package.register()
+    try:
+        yield Extension(root)
+    finally:
+        package.unregister()
+
+
+def _room(name: str) -> ModuleType:
+    return importlib.import_module(f"{PACKAGE}.{name}")

@@ -1,0 +1,22 @@
+"""Which formats can be read, and which can be written with vertex order and count kept."""
+
+__all__ = ("KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "listing")
+
+READABLE = (
+    (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
+    + (".usd", ".usdc", ".usda", ".usdz")
+    + (".abc", ".blend")
+)
+
+# Each comes back with the same vertices in the same order: tests/scripts proves it.
+KEEP_VERTICES = (".obj", ".ply", ".usd", ".usdc", ".usda", ".usdz", ".abc", ".blend")
+
+# STL stores triangle corners only, glTF splits vertices at seams, FBX rounds on the way through
+# its own units and axes.
+LOSE_VERTICES = (".stl", ".glb", ".gltf", ".fbx")
+
+
+def listing(suffixes: tuple[str, ...]) -> str:
+    """Suffixes as readable text: ``".obj, .ply or .blend"``."""
+    *others, last = suffixes
+    return f"{', '.join(others)} or {last}" if others else last

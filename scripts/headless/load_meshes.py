@@ -1,0 +1,149 @@
+"""Bring a file's mesh objects into an otherwise empty Blender."""
+
+import functools
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .blender_operator import operator, reason
+from .errors import InputError
+from .finite_check import refuse_infinite
+from .obj_layout import ObjLayout, match_objects, read_layout
+from .quiet import captured
+from .weld import weld
+
+__all__ = ("Loaded", "empty_blender", "load")
+
+LEVELS_OF_MONKEY = 2
+IMPORTERS = {
+    ".ply": "wm.ply_import",
+    ".stl": "wm.stl_import",
+    ".abc": "wm.alembic_import",
+    ".fbx": "wm.fbx_import",
+    **dict.fromkeys((".glb", ".gltf"), "import_scene.gltf"),
+    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), "wm.usd_import"),
+}
+OGAWA_HEADER = b"Ogawa\xff"
+"""first bytes of an Alembic file that was closed properly"""
+
+
+@dataclass
+class Loaded:
+    """The mesh objects to work on."""
+
+    objects: list[bpy.types.Object]
+    obj_layout: ObjLayout | None = None
+    """the vertices of the file, if it was an .obj"""
+    is_whole: bool = True
+    """not just one object that was named"""
+
+
+def empty_blender() -> None:
+    """Start from factory settings: no user add-on, and nothing in the scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+def load(path: Path | None, name: str | None, verbose: bool) -> Loaded:
+    """Load the mesh objects of a file, or the subdivided monkey.
+
+    Parameters
+    ----------
+    path : the file, or None for the monkey
+    name : only the object of this name
+    verbose : show what Blender prints
+
+    Returns
+    -------
+    Loaded
+        At least one object, each with faces, in the order of the file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or holds no such object.
+    """
+    if path is None:
+        return Loaded(_choose([_monkey()], name, "Blender's monkey"))
+    layout = read_layout(path) if path.suffix.lower() == ".obj" else None
+    with captured(verbose):
+        _import(path, layout)
+        bpy.context.view_layer.update()
+    found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+    if layout is not None:
+        match_objects(layout, found)
+    if path.suffix.lower() in (".glb", ".gltf"):
+        for mesh in {obj.data for obj in found}:
+            weld(mesh)
+    return Loaded(_choose(found, name, str(path)), layout, is_whole=name is None)
+
+
+def _monkey() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_monkey_add()
+    monkey = bpy.context.object
+    modifier = monkey.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = LEVELS_OF_MONKEY
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_smooth()
+    return monkey
+
+
+def _import(path: Path, layout: ObjLayout | None) -> None:
+    """Run Blender's importer for the file."""
+    if path.suffix.lower() in (".ply", ".stl"):
+        refuse_infinite(path)
+    if path.suffix.lower() == ".abc":
+        _refuse_broken_alembic(path)
+    importer = _importer(path, layout)
+    try:
+        result = importer(filepath=str(path.resolve()))
+    except RuntimeError as error:
+        raise InputError(f"{path}: cannot be read ({reason(error)}); export it again") from error
+    if "FINISHED" not in result:
+        raise InputError(f"{path}: cannot be read (not a {path.suffix} file); export it again")
+
+
+def _importer(path: Path, layout: ObjLayout | None) -> Callable[..., Any]:
+    suffix = path.suffix.lower()
+    if suffix == ".obj":
+        is_split = layout is None or layout.is_split
+        importer = operator("wm.obj_import", path)
+        return functools.partial(importer, use_split_objects=is_split, import_vertex_groups=True)
+    if suffix == ".blend":
+        importer = operator("wm.open_mainfile", path)
+        return functools.partial(importer, load_ui=False, use_scripts=False)
+    if suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
+        return operator("import_scene.fbx", path)
+    return operator(IMPORTERS[suffix], path)
+
+
+def _refuse_broken_alembic(path: Path) -> None:
+    """Raise InputError for an Alembic file that was cut off: reading it would abort Blender."""
+    with path.open("rb") as file:
+        header = file.read(16)
+        file.seek(0, 2)
+        size = file.tell()
+    root = int.from_bytes(header[8:16], "little")
+    if not header.startswith(OGAWA_HEADER) or len(header) < 16 or not 16 <= root <= size - 8:
+        raise InputError(f"{path}: cannot be read (cut off, or no Alembic file); export it again")
+
+
+def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> list[bpy.types.Object]:
+    """Take the object of that name, or all that can be cubified."""
+    if name is not None:
+        chosen = [obj for obj in found if obj.name == name]
+        if not chosen:
+            there = ", ".join(repr(obj.name) for obj in found[:8]) or "no mesh object at all"
+            raise InputError(f"--object {name}: {source} has no such mesh object; it has {there}")
+        return chosen
+    chosen = [obj for obj in found if obj.data.polygons and obj.visible_get()]
+    if not chosen:
+        what = "only hidden meshes or meshes without faces" if found else "no mesh"
+        raise InputError(f"{source}: holds {what}; export it again with a visible mesh with faces")
+    for obj in found:
+        if obj not in chosen:
+            print(f"{obj.name!r} is left out: it is hidden or has no faces", file=sys.stderr)
+    return chosen

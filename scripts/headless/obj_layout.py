@@ -1,0 +1,166 @@
+"""Which vertex of an .obj file is which vertex in Blender.
+
+Blender's importer drops vertices that no face or edge uses and deals the others out to the objects
+of the file. To give a result back with the vertices of the file, in its order, the text is read
+once more for the indices alone; the loose vertices are put back into the meshes.
+"""
+
+import contextlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+from .errors import InputError
+
+__all__ = ("ObjLayout", "match_objects", "read_layout")
+
+
+@dataclass
+class ObjLayout:
+    """The vertices of an .obj file and who uses them."""
+
+    positions: np.ndarray
+    """(n,3) float32, in the order of the file"""
+    used: list[np.ndarray]
+    """per object of the file the indices that its faces and lines use, ascending"""
+    loose: list[np.ndarray]
+    """per object the indices that lie in its part of the file and that nothing uses"""
+    is_split: bool
+    """whether Blender may split the file into objects: none shares a vertex with another"""
+    rows: dict[str, np.ndarray] = field(default_factory=dict)
+    """for each Blender object, by name, the index in the file of each of its vertices"""
+    library: Path | None = None
+    """the material library, if the file has one"""
+
+
+def read_layout(path: Path) -> ObjLayout:
+    """Read positions and indices of an .obj file; faces that make no sense are passed over.
+
+    Raises
+    ------
+    InputError
+        A vertex without three finite coordinates, which Blender would read as zeros.
+    """
+    coordinates: list[list[str]] = []
+    sections: list[tuple[set[int], list[int]]] = [(set(), [])]  # used vertices, own vertices
+    library = None
+    for line in _logical_lines(path):
+        words = line.split()
+        if not words:
+            continue
+        keyword = words[0]
+        if keyword == "v":
+            sections[-1][1].append(len(coordinates))
+            coordinates.append(words[1:4])
+        elif keyword in ("f", "l"):
+            sections[-1][0].update(_indices(words[1:], len(coordinates)))
+        elif keyword == "o":
+            sections.append((set(), []))
+        elif keyword == "mtllib":
+            library = path.parent / line.partition("mtllib")[2].strip()
+    positions = _positions(coordinates, path)
+    layout = _assemble(positions, sections)
+    layout.library = library
+    return layout
+
+
+def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
+    """Find each Blender object in the file, give it back its loose vertices, and fill ``rows``.
+
+    An object that is not what the file says (invalid faces, curves) gets no row.
+    """
+    unmatched = list(objects)
+    for used, loose in zip(layout.used, layout.loose, strict=True):
+        for obj in unmatched:
+            if _has_positions(obj.data, layout.positions[used]):
+                rows = np.union1d(used, loose)
+                if len(loose):
+                    _add_loose(obj.data, used, rows, layout.positions)
+                layout.rows[obj.name] = rows
+                unmatched.remove(obj)
+                break
+
+
+def _logical_lines(path: Path) -> Iterator[str]:
+    """Lines of the file without comments, those that end in a backslash joined."""
+    pending = ""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        for line in file:
+            line = pending + line.partition("#")[0].rstrip()
+            if line.endswith("\\"):
+                pending = line[:-1] + " "
+                continue
+            pending = ""
+            yield line
+
+
+def _indices(words: list[str], count: int) -> Iterator[int]:
+    """Vertex indices, from 0, of the corners "v/vt/vn" of a face or line."""
+    for word in words:
+        try:
+            number = int(word.partition("/")[0])
+        except ValueError:
+            continue
+        index = number - 1 if number > 0 else count + number
+        if number and 0 <= index < count:
+            yield index
+
+
+def _positions(coordinates: list[list[str]], path: Path) -> np.ndarray:
+    positions = np.full((len(coordinates), 3), np.nan, np.float32)
+    for number, words in enumerate(coordinates):
+        with contextlib.suppress(ValueError):
+            positions[number] = [float(word) for word in words]
+    broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+    if len(broken):
+        message = f"{path}: vertex {broken[0] + 1} has no three finite coordinates"
+        raise InputError(f"{message} ({' '.join(coordinates[broken[0]])}); repair the file")
+    return positions
+
+
+def _assemble(positions: np.ndarray, sections: list[tuple[set[int], list[int]]]) -> ObjLayout:
+    used = [np.array(sorted(section[0]), np.int64) for section in sections if section[0]]
+    everything = np.concatenate(used) if used else np.empty(0, np.int64)
+    is_loose = np.ones(len(positions), dtype=bool)
+    is_loose[everything] = False
+    loose: list[list[int]] = []
+    waiting: list[int] = []  # from parts without faces before the first object
+    for is_used, own in sections:
+        if is_used:
+            loose.append(waiting)
+            waiting = []
+        (loose[-1] if loose else waiting).extend(index for index in own if is_loose[index])
+    arrays = [np.array(indices, np.int64) for indices in loose]
+    if len(np.unique(everything)) == len(everything):
+        return ObjLayout(positions, used, arrays, is_split=True)
+    return ObjLayout(positions, [np.unique(everything)], [np.concatenate(arrays)], is_split=False)
+
+
+def _has_positions(mesh: bpy.types.Mesh, wanted: np.ndarray) -> bool:
+    if len(mesh.vertices) != len(wanted):
+        return False
+    found = np.empty(wanted.size, np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", found)
+    # Reading decimals by way of float64 may round the last bit otherwise than Blender does.
+    return np.allclose(found, wanted.ravel(), rtol=1e-6, atol=0.0, equal_nan=True)
+
+
+def _add_loose(
+    mesh: bpy.types.Mesh, used: np.ndarray, rows: np.ndarray, positions: np.ndarray
+) -> None:
+    """Insert the vertices that are in ``rows`` but not in ``used``, in the order of ``rows``."""
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(mesh)
+        for vertex, place in zip(edited.verts, np.searchsorted(rows, used), strict=True):
+            vertex.index = int(place)
+        for place in np.flatnonzero(~np.isin(rows, used)):
+            edited.verts.new(positions[rows[place]].tolist()).index = int(place)
+        edited.verts.sort()
+        edited.to_mesh(mesh)
+    finally:
+        edited.free()

@@ -1,0 +1,81 @@
+"""The whole run: load, cubify, save, picture, report."""
+
+import contextlib
+import time
+from argparse import Namespace
+from collections.abc import Iterator
+from pathlib import Path
+
+from .cubify_all import Sculpture, cubify_all
+from .errors import InputError
+from .extension import Extension, registered
+from .gallery import build_gallery
+from .load_meshes import empty_blender, load
+from .output_files import numbered, per_cubeness
+from .progress import ProgressBar
+from .render import render
+from .report import write_report
+from .save_meshes import check_exporter, save_meshes
+from .studio import furnish
+
+__all__ = ("run",)
+
+
+def run(options: Namespace, root: Path, begin: float) -> None:
+    """Do what the command line says.
+
+    Parameters
+    ----------
+    options : from `arguments.parse`
+    root : folder of the extension
+    begin : `time.perf_counter` at the start of the script, for the report
+
+    Raises
+    ------
+    InputError
+        The input, an option or an output cannot be used.
+    """
+    empty_blender()
+    if options.save_mesh:
+        check_exporter(options.save_mesh)
+    with registered(root) as extension:
+        _run(options, extension, begin)
+
+
+def _run(options: Namespace, extension: Extension, begin: float) -> None:
+    bar = ProgressBar()
+    seconds: dict[str, float] = {}
+    with _timed("load", seconds):
+        loaded = load(options.input, options.object, options.verbose)
+    try:
+        sculptures = cubify_all(loaded.objects, options, extension, bar)
+    except extension.solver.CubicCraftError as error:
+        raise InputError(f"{options.input or 'monkey'}: {error}") from error
+    with _timed("write", seconds):
+        if options.save_mesh:
+            paths = per_cubeness(options.save_mesh, options.cubeness)
+            save_meshes(paths, sculptures, loaded, extension, options.verbose)
+            bar.say(f"wrote {', '.join(map(str, paths))}")
+    with _timed("render", seconds):
+        if options.output:
+            _picture(sculptures, options, extension, bar)
+    seconds["total"] = time.perf_counter() - begin
+    if options.report:
+        write_report(options.report, sculptures, options, extension, seconds)
+        bar.say(f"wrote {options.report}")
+
+
+def _picture(
+    sculptures: list[Sculpture], options: Namespace, extension: Extension, bar: ProgressBar
+) -> None:
+    gallery = build_gallery(sculptures, options, extension)
+    furnish(gallery, options.resolution[0] / options.resolution[1])
+    for path in render(gallery, numbered(options.output, options.turntable), options):
+        bar.say(f"wrote {path}")
+
+
+@contextlib.contextmanager
+def _timed(name: str, seconds: dict[str, float]) -> Iterator[None]:
+    begin = time.perf_counter()
+    yield
+    seconds[name] = time.perf_counter() - begin

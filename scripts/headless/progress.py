@@ -1,0 +1,58 @@
+"""Tell the terminal how far the run is: a bar where there is one, else a plain line per step.
+
+Everything goes to standard error; standard output stays empty.
+"""
+
+import contextlib
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+__all__ = ("ProgressBar", "Task")
+
+
+class Task:
+    """One step of the run, as `ProgressBar.task` gives it."""
+
+    def __init__(self, bar: Any = None, number: Any = None) -> None:
+        self._bar, self._number = bar, number
+        self.summary = "done"
+
+    def advance_to(self, fraction: float) -> None:
+        """Show how much is done, from 0 to 1."""
+        if self._bar is not None:
+            self._bar.update(self._number, completed=fraction)
+
+    def finish(self, summary: str) -> None:
+        """Set what the line says that remains of the step."""
+        self.summary = summary
+
+
+class ProgressBar:
+    """Shows steps; with rich (which comes with Taichi) and a terminal as moving bars."""
+
+    def __init__(self) -> None:
+        self._rich = None
+        if sys.stderr.isatty():
+            with contextlib.suppress(ImportError):
+                import rich.console
+                import rich.progress
+
+                self._rich = rich
+
+    @contextlib.contextmanager
+    def task(self, title: str) -> Iterator[Task]:
+        """Show one step while the block runs; one line of it remains."""
+        if self._rich is None:
+            task = Task()
+            yield task
+        else:
+            console = self._rich.console.Console(stderr=True)
+            with self._rich.progress.Progress(console=console, transient=True) as bar:
+                task = Task(bar, bar.add_task(title, total=1.0))
+                yield task
+        self.say(f"{title}: {task.summary}")
+
+    def say(self, line: str) -> None:
+        """Print one line."""
+        print(line, file=sys.stderr, flush=True)

@@ -1,0 +1,42 @@
+"""Keep Blender's own chatter away from the terminal.
+
+Blender prints from C to the file descriptors 1 and 2, past ``sys.stdout`` and ``sys.stderr``, so
+it is caught there.
+"""
+
+import contextlib
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+
+__all__ = ("captured", "mute_stdout")
+
+
+def mute_stdout(verbose: bool) -> None:
+    """Send all later standard output to nowhere, or to standard error if ``verbose``."""
+    sys.stdout.flush()
+    if verbose:
+        os.dup2(2, 1)
+        return
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.close(nowhere)
+
+
+@contextlib.contextmanager
+def captured(verbose: bool) -> Iterator[None]:
+    """Swallow standard error during the block, or let it through if ``verbose``."""
+    if verbose:
+        yield
+        return
+    sys.stderr.flush()
+    terminal = os.dup(2)
+    with tempfile.TemporaryFile() as sink:
+        os.dup2(sink.fileno(), 2)
+        try:
+            yield
+        finally:
+            sys.stderr.flush()
+            os.dup2(terminal, 2)
+            os.close(terminal)

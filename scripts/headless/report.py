@@ -1,0 +1,90 @@
+"""The report: versions, and the numbers of every run."""
+
+import importlib.metadata
+import json
+import platform
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .cubify_all import Sculpture
+from .extension import Extension
+from .output_files import replacing
+
+__all__ = ("write_report",)
+
+OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy")
+
+
+def write_report(
+    path: Path,
+    sculptures: list[Sculpture],
+    options: Namespace,
+    extension: Extension,
+    seconds: dict[str, float],
+) -> None:
+    """Write the report as JSON.
+
+    Parameters
+    ----------
+    seconds : what "load", "write", "render" and "total" took
+    """
+    report = {
+        "versions": _versions(extension),
+        "device": sculptures[0].solutions[0].result.device,
+        "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
+        "seconds": seconds,
+    }
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
+
+def _versions(extension: Extension) -> dict[str, str | None]:
+    versions: dict[str, str | None] = {
+        "cubic_craft": extension.version,
+        "blender": bpy.app.version_string,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+    }
+    for package in OPTIONAL_PACKAGES:
+        try:
+            versions[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            versions[package] = None
+    return versions
+
+
+def _object(sculpture: Sculpture, cubeness: list[float]) -> dict[str, Any]:
+    prepared = sculpture.prepared
+    return {
+        "name": sculpture.object.name,
+        "vertices": prepared.vertices,
+        "triangles": prepared.triangles,
+        "components": prepared.components,
+        "runs": [
+            _run(value, solution, prepared)
+            for value, solution in zip(cubeness, sculpture.solutions, strict=True)
+        ],
+    }
+
+
+def _run(cubeness: float, solution: Any, prepared: Any) -> dict[str, Any]:
+    result = solution.result
+    return {
+        "cubeness": cubeness,
+        "iterations": result.iterations,
+        "converged": result.converged,
+        "energy": {
+            "total": result.energy.total,
+            "arap": result.energy.arap,
+            "cubic": result.energy.cubic,
+        },
+        "seconds": {
+            "setup": prepared.seconds,
+            "solve": solution.seconds,
+            "compile": result.compile_seconds,
+        },
+    }

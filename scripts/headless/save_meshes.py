@@ -1,0 +1,184 @@
+"""Save results as mesh files that have the vertices of the input, in the same order."""
+
+import contextlib
+import os
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from .blender_operator import operator, reason
+from .cubify_all import Sculpture
+from .detached import detached_copy, remove_copy
+from .errors import InputError
+from .extension import Extension
+from .load_meshes import Loaded
+from .obj_layout import ObjLayout
+from .output_files import replacing
+from .quiet import captured
+from .write_obj import ObjPart, write_obj
+
+__all__ = ("check_exporter", "save_meshes")
+
+TO_Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+"""Blender's Z-up space to that of .obj files, as Blender's own exporter has it"""
+
+
+def save_meshes(
+    paths: list[Path],
+    sculptures: list[Sculpture],
+    loaded: Loaded,
+    extension: Extension,
+    verbose: bool,
+) -> None:
+    """Save one file per cubeness.
+
+    A .blend holds the whole input file with the results on its meshes, each with its original to
+    restore. All other formats hold the base meshes alone, without modifiers and shape keys.
+
+    Raises
+    ------
+    InputError
+        A file cannot be written, or the vertices of an .obj cannot be told apart.
+    """
+    for number, path in enumerate(paths):
+        if path.suffix.lower() == ".blend":
+            _save_blend(path, sculptures, number, extension, verbose)
+            continue
+        with _copies(sculptures, number, extension) as copies:
+            if path.suffix.lower() == ".obj":
+                _save_obj(path, copies, loaded)
+            else:
+                _export(path, copies, verbose)
+
+
+def check_exporter(path: Path) -> None:
+    """Raise InputError if this Blender cannot write the format."""
+    if path.suffix.lower() not in (".obj", ".blend"):
+        _exporter(path)
+
+
+def _save_blend(
+    path: Path, sculptures: list[Sculpture], number: int, extension: Extension, verbose: bool
+) -> None:
+    for sculpture in sculptures:
+        extension.cubify.write(sculpture.object, sculpture.solutions[number], "MESH")
+    with captured(verbose), replacing(path) as temporary:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(temporary.resolve()), copy=True)
+        except RuntimeError as error:
+            raise _cannot_write(path, error) from error
+
+
+@contextlib.contextmanager
+def _copies(
+    sculptures: list[Sculpture], number: int, extension: Extension
+) -> Iterator[list[bpy.types.Object]]:
+    """Give copies with the results, under the names of the originals, and remove them again."""
+    copies = []
+    renamed = []
+    try:
+        for sculpture in sculptures:
+            shape = sculpture.solutions[number].positions
+            for user in sculpture.users:
+                copy = detached_copy(user, shape, extension, keep_modifiers=False)
+                bpy.context.scene.collection.objects.link(copy)
+                copies.append(copy)
+                for original, twin in ((user, copy), (user.data, copy.data)):
+                    name = original.name
+                    original.name = f"{name} original"
+                    twin.name = name
+                    renamed.append((original, name))
+        bpy.context.view_layer.update()
+        yield copies
+    finally:
+        for copy in copies:
+            remove_copy(copy)
+        for original, name in reversed(renamed):
+            original.name = name
+
+
+def _save_obj(path: Path, copies: list[bpy.types.Object], loaded: Loaded) -> None:
+    layout = loaded.obj_layout
+    parts = []
+    offset = 0
+    for copy in copies:
+        rows = offset + np.arange(len(copy.data.vertices))
+        offset += len(rows)
+        if layout is not None and loaded.is_whole:
+            rows = _rows_in_file(path, layout, copy.name)
+        parts.append(ObjPart(copy.name, copy.data, _placed_positions(copy), rows))
+    positions = np.zeros((offset, 3), np.float32)
+    library = ""
+    if layout is not None and loaded.is_whole:
+        positions = layout.positions
+    if layout is not None and layout.library is not None and layout.library.is_file():
+        library = _relative(layout.library, path.parent)
+    with replacing(path) as temporary:
+        write_obj(temporary, parts, positions, library)
+
+
+def _rows_in_file(path: Path, layout: ObjLayout, name: str) -> np.ndarray:
+    if name not in layout.rows:
+        message = f"{path}: Blender has changed the vertices of {name!r} on reading"
+        raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
+    return layout.rows[name]
+
+
+def _relative(target: Path, folder: Path) -> str:
+    """Path of the target as seen from the folder, with forward slashes."""
+    try:
+        return Path(os.path.relpath(target.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return target.resolve().as_posix()
+
+
+def _placed_positions(copy: bpy.types.Object) -> np.ndarray:
+    """Return (n,3) positions in the space of an .obj; if one was read, bit for bit as in it."""
+    positions = np.empty((len(copy.data.vertices), 3), np.float32)
+    copy.data.attributes["position"].data.foreach_get("vector", positions.ravel())
+    to_file = np.array(TO_Y_UP @ copy.matrix_world)
+    if np.allclose(to_file, np.eye(4), rtol=0.0, atol=1e-6):
+        return positions
+    return positions.astype(np.float64) @ to_file[:3, :3].T + to_file[:3, 3]
+
+
+def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
+    """Run Blender's exporter for the copies, and for them only."""
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj in copies)
+    with captured(verbose), replacing(path) as temporary:
+        try:
+            _exporter(path)(filepath=str(temporary.resolve()))
+        except RuntimeError as error:
+            raise _cannot_write(path, error) from error
+
+
+def _exporter(path: Path) -> Callable[..., Any]:
+    suffix = path.suffix.lower()
+    if suffix == ".ply":
+        # A .ply knows one UV per vertex: seams would split vertices.
+        return partial(
+            operator("wm.ply_export", path),
+            export_selected_objects=True,
+            apply_modifiers=False,
+            export_uv=False,
+        )
+    if suffix == ".abc":
+        return partial(operator("wm.alembic_export", path), selected=True, start=1, end=1)
+    usd_export: Any = operator("wm.usd_export", path)
+    wanted = {"convert_world_material": False}
+    if suffix != ".usdz":
+        wanted |= {"export_textures_mode": "KEEP"}  # no folder of textures beside the file
+    known = usd_export.get_rna_type().properties
+    options = {name: value for name, value in wanted.items() if name in known}
+    return partial(usd_export, selected_objects_only=True, **options)
+
+
+def _cannot_write(path: Path, error: RuntimeError) -> InputError:
+    message = f"{path}: cannot be written ({reason(error)})"
+    return InputError(f"{message}; choose another path or format")

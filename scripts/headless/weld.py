@@ -1,0 +1,42 @@
+"""Join the vertices that glTF had to split.
+
+glTF keeps one normal and one UV per vertex, so every sharp edge and every seam is cut open in the
+file. Cubified like that, a mesh would fall apart along them. (The importer's own merging leaves
+vertices apart whose normals differ.)
+"""
+
+import bmesh
+import bpy
+import numpy as np
+
+__all__ = ("weld",)
+
+
+def weld(mesh: bpy.types.Mesh) -> None:
+    """Join vertices with bit-identical coordinates; UVs and normals of the faces stay."""
+    positions = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.attributes["position"].data.foreach_get("vector", positions.ravel())
+    keys = (positions + np.float32(0.0)).view("V12").ravel()  # no -0.0, which has other bits
+    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
+    if len(first) == len(positions):
+        return
+    normals = np.empty((len(mesh.loops), 3), np.float32)
+    mesh.corner_normals.foreach_get("vector", normals.ravel())
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(mesh)
+        edited.verts.ensure_lookup_table()
+        targets = first[place.ravel()].tolist()
+        bmesh.ops.weld_verts(
+            edited,
+            targetmap={
+                edited.verts[number]: edited.verts[target]
+                for number, target in enumerate(targets)
+                if number != target
+            },
+        )
+        edited.to_mesh(mesh)
+    finally:
+        edited.free()
+    if len(mesh.loops) == len(normals):  # no face has collapsed
+        mesh.normals_split_custom_set(normals.tolist())

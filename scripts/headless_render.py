@@ -1,0 +1,57 @@
+"""Cubify meshes without a window: pictures, meshes and a report.
+
+Runs under the ``bpy`` module and in Blender alike::
+
+    python scripts/headless_render.py bunny.obj --cubeness 0.2 0.4
+    blender -b -P scripts/headless_render.py -- bunny.obj --cubeness 0.2 0.4
+"""
+
+import signal
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+if str(ROOT / "scripts") not in sys.path:  # Blender does not put a script's folder there
+    sys.path.insert(0, str(ROOT / "scripts"))
+
+from headless.arguments import parse  # noqa: E402
+from headless.errors import InputError  # noqa: E402
+from headless.quiet import mute_stdout  # noqa: E402
+
+INTERRUPTED = 130
+"""exit code after Ctrl-C, as shells have it"""
+
+
+def arguments_of_script() -> list[str]:
+    """Return the script's own arguments; in Blender those behind ``--``."""
+    if "--" in sys.argv:
+        return sys.argv[sys.argv.index("--") + 1 :]
+    is_inside_blender = "bpy" in sys.modules
+    return [] if is_inside_blender else sys.argv[1:]
+
+
+def main() -> int:
+    """Run once and return the exit code."""
+    if signal.getsignal(signal.SIGINT) is None:
+        # In Blender Ctrl-C is Blender's, which only heeds it while it renders.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        begin = time.perf_counter()
+        options = parse(arguments_of_script())
+        mute_stdout(options.verbose)
+        # Late, because it takes Blender a second to start: --help and mistyped options need none.
+        from headless.pipeline import run
+
+        run(options, ROOT, begin)
+    except InputError as error:
+        print(f"headless_render.py: error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("headless_render.py: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

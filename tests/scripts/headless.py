@@ -1,0 +1,38 @@
+"""Run the script as a user does, in a process of its own."""
+
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "headless_render.py"
+
+
+def headless(*arguments, cwd):
+    """Run headless_render.py and return the completed process."""
+    return subprocess.run(
+        [sys.executable, str(SCRIPT), *map(str, arguments)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+
+
+def headless_ok(*arguments, cwd):
+    """Run headless_render.py, which must succeed and leave standard output empty."""
+    process = headless(*arguments, cwd=cwd)
+    assert process.returncode == 0, process.stderr
+    assert process.stdout == ""
+    return process
+
+
+def read_files(*paths, folder):
+    """Return what `read_files.py` finds in each file, in a list."""
+    target = folder / "read.pickle"
+    script = Path(__file__).with_name("read_files.py")
+    names = [str(path) for path in paths]
+    subprocess.run([sys.executable, script, target, *names], check=True, capture_output=True)
+    found = pickle.loads(target.read_bytes())
+    return [found[name] for name in names]

@@ -1,0 +1,98 @@
+"""Pictures, and what is left when the artist presses Ctrl-C."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from headless import SCRIPT, headless_ok, read_files
+
+WIDTH, HEIGHT = 240, 80
+
+
+@pytest.fixture(scope="module")
+def pictures(inputs, tmp_path_factory):
+    """Folder and pixels of one picture and of a turntable of two frames."""
+    folder = tmp_path_factory.mktemp("pictures")
+    common = ("--device", "numpy", "--max-iterations", 20, "--samples", 2)
+    size = ("--resolution", WIDTH, HEIGHT)
+    headless_ok(inputs / "awkward.obj", "--cubeness", 0.3, 1.0, *common, *size, cwd=folder)
+    headless_ok(
+        *(inputs / "awkward.usdc", *common, *size, "--turntable", 2, "--output", "turn.png"),
+        cwd=folder,
+    )
+    names = ["cubic_craft.png", "turn_0001.png", "turn_0002.png"]
+    return folder, read_files(*(folder / name for name in names), folder=folder)
+
+
+def columns(pixels, more, less):
+    """Numbers of the picture's columns that have much of one channel more than of another."""
+    is_colourful = pixels[..., more] > pixels[..., less] + 0.1
+    return np.flatnonzero(is_colourful.mean(axis=0) > 0.2)
+
+
+def test_picture_shows_the_original_and_each_result(pictures):
+    """A mesh of 1e-5 units fills its place as any other: clay, then teal, then teal."""
+    _, (picture, *_) = pictures
+    assert picture.shape == (HEIGHT, WIDTH, 4)
+    red, blue = 0, 2
+    clay, teal = columns(picture, red, blue), columns(picture, blue, red)
+    assert len(clay) > WIDTH / 20
+    assert clay.max() < teal.min()
+    assert (np.diff(clay) > 1).sum() == 0
+    assert (np.diff(teal) > 1).sum() == 1
+
+
+def test_turntable_turns(pictures):
+    folder, (_, first, second) = pictures
+    assert not (folder / "turn.png").exists()
+    assert np.abs(first - second).max() > 0.2
+
+
+def interrupt(arguments, line, delay, cwd):
+    """Start a run, send Ctrl-C some time after a line on standard error, and wait for the end."""
+    process = subprocess.Popen(
+        [sys.executable, str(SCRIPT), *map(str, arguments)],
+        cwd=cwd,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A test run in the background may have SIGINT ignored, which children would inherit.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert process.stderr is not None
+    for text in process.stderr:
+        if line in text:
+            break
+    time.sleep(delay)
+    process.send_signal(signal.SIGINT)
+    _, rest = process.communicate(timeout=60)
+    return process.returncode, rest
+
+
+def test_interrupted_solve_writes_nothing(tmp_path):
+    endless = ("--tolerance", 1e-12, "--max-iterations", 1000000, "--device", "numpy")
+    code, rest = interrupt(
+        ["--cubeness", 0.0, 1.0, *endless, "--save-mesh", "a.obj", "--report", "a.json"],
+        line="cubeness 0.0",
+        delay=1.0,
+        cwd=tmp_path,
+    )
+    assert code == 130
+    assert rest == "headless_render.py: interrupted\n"
+    assert not list(tmp_path.iterdir())
+
+
+def test_interrupted_render_keeps_the_old_picture(tmp_path):
+    old = tmp_path / "a.png"
+    old.write_bytes(b"old")
+    code, _ = interrupt(
+        ["--max-iterations", 1, "--samples", 65536, "--resolution", 4000, 4000, "--output", old],
+        line="cubeness 0.4",
+        delay=3.0,
+        cwd=tmp_path,
+    )
+    assert code in (130, -signal.SIGINT)
+    assert list(tmp_path.iterdir()) == [old]
+    assert old.read_bytes() == b"old"
