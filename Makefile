@@ -30,10 +30,10 @@ $(VENV)/.done: requirements/*.txt
 	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/blender-newest.txt
 	@touch $@
 
-render: setup ## Picture of a mesh beside its cubic versions; MESH=file for your own
+render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=options
 	@mkdir -p build
 	$(PY) scripts/headless_render.py $(if $(MESH),"$(MESH)") --cubeness 0.2 0.4 1.0 \
-		--output build/render.png
+		--output build/render.png $(ARGS)
 	@echo "Look at build/render.png"
 
 test: test-solver test-blender ## All tests that need no window

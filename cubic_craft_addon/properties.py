@@ -2,6 +2,7 @@
 """The settings as Blender properties: on every object, and on the operator."""
 
 import math
+from typing import Any
 
 import bpy
 from bpy.props import (
@@ -40,7 +41,7 @@ _DEVICES = (
 
 
 _NAME = "cubic_craft"  # of the property of objects
-_OPTIONS = {"SKIP_SAVE", "ANIMATABLE"}
+_OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
 
 
 class RunProperties:

@@ -40,7 +40,7 @@ def for_each_original(operator, context, action, done):
             _log.exception("%s failed", operator.bl_label)
             problems.append(f'"{obj.name}" is unchanged, because of an error ({error})')
             continue
-        for user in bpy.data.user_map(subset={obj.data})[obj.data]:
+        for user in bpy.data.user_map(subset=[obj.data])[obj.data]:
             if isinstance(user, bpy.types.Object) and user.library is None:
                 object_properties(user).status = ""
         names.append(obj.name)
