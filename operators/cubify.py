@@ -56,7 +56,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     def execute(self, context):
         """Solve all objects, then write all results."""
         objects = selected_meshes(context)
-        adopt_settings(self, objects[0])
+        adopt_settings(self, objects)
         try:
             frame = frame_of(self, objects[0])
         except CubicCraftError as error:
@@ -85,8 +85,14 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         layout.prop(self, "space")
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
-        for name in ("orientation", "rotation", "result"):
-            layout.prop(self, name)
+        layout.prop(self, "orientation")
+        layout.prop(self, "rotation")
+        groups = context.active_object
+        if groups is not None:
+            layout.prop_search(self, "pin_group", groups, "vertex_groups")
+            layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
+            layout.prop(self, "map_invert")
+        layout.prop(self, "result")
         for name in ("device", "max_iterations", "tolerance"):
             layout.prop(self, name)
 

@@ -2,8 +2,8 @@
 """From the properties of the Cubify operator to the settings of each object, and back.
 
 What the caller has not set is taken from the active object, for all objects; so the redo panel
-shows what was used. Vertex groups belong to the mesh: each object keeps its own unless the caller
-sets them.
+shows what was used. Vertex groups belong to the mesh: of several objects, each keeps its own unless
+the caller sets them.
 """
 
 from dataclasses import fields, replace
@@ -19,11 +19,13 @@ _OF_EACH_OBJECT = ("pin_group", "map_group", "map_invert")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 
-def adopt_settings(operator, active):
-    """Take what the caller has not set from the active object."""
-    source = object_properties(active)
+def adopt_settings(operator, objects):
+    """Take what the caller has not set from the first object, which is the active one."""
+    source = object_properties(objects[0])
     for name in _ALL:
-        if name not in _OF_EACH_OBJECT and not operator.properties.is_property_set(name):
+        if name in _OF_EACH_OBJECT and len(objects) > 1:
+            continue
+        if not operator.properties.is_property_set(name):
             setattr(operator, name, getattr(source, name))
     is_framed = operator.space == "FRAME" and source.frame is not None
     if is_framed and not operator.properties.is_property_set("frame"):
