@@ -17,7 +17,7 @@ from importlib import metadata
 from pathlib import Path
 
 import numpy as np
-import pymeshlab
+import pymeshlab  # pyright: ignore[reportMissingImports]
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
