@@ -85,11 +85,8 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
         The object or a setting cannot be used; the message names the object and the cure.
     """
     begin = time.perf_counter()
-    check_requirements()
-    mesh_bridge.check_editable(obj)
-    mesh = mesh_bridge.mesh_of(obj)
-    original = mesh_bridge.original_positions(mesh)
     stretch, orientation = stretch_and_orientation(obj, settings)
+    original, rest = rest_shape(obj, stretch)
     pinned = np.zeros(len(original), dtype=bool)
     for group in settings.pin_groups:
         pinned |= mesh_bridge.group_weights(obj, group) >= PIN_THRESHOLD
@@ -99,9 +96,6 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
         if settings.map_invert:
             map_weights = 1.0 - map_weights
     try:
-        rest = solver.rest_mesh(
-            original.astype(np.float64) @ stretch.T, mesh_bridge.triangles(mesh, original)
-        )
         setup = solver.Setup(rest, np.flatnonzero(pinned))
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
@@ -114,6 +108,25 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
         map_weights,
         time.perf_counter() - begin,
     )
+
+
+def rest_shape(obj: bpy.types.Object, stretch):
+    """Read the original positions (n,3) float32 and build the RestMesh of the stretched shape.
+
+    Raises
+    ------
+    CubicCraftError
+        The object cannot be used; the message names it and the cure.
+    """
+    check_requirements()
+    mesh_bridge.check_editable(obj)
+    mesh = mesh_bridge.mesh_of(obj)
+    original = mesh_bridge.original_positions(mesh)
+    triangles = mesh_bridge.triangles(mesh, original)
+    try:
+        return original, solver.rest_mesh(original.astype(np.float64) @ stretch.T, triangles)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
 
 
 def solve(

@@ -3,8 +3,9 @@
 
 import bpy
 import numpy as np
-from mathutils import Euler
+from mathutils import Euler, Matrix
 
+from .. import solver
 from ..solver import CubicCraftError
 from .settings import Settings
 
@@ -31,26 +32,46 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     CubicCraftError
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
+    turn, stretch = _turn_and_stretch(obj)
+    axes = np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
+    return stretch, _proper(axes.T @ _into_space(obj, settings, turn))
+
+
+def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
+    """Return the Euler angles (radians) that give the orientation, the inverse of the above.
+
+    Of the 24 that are the same for a cube, these are the smallest.
+    """
+    turn, _ = _turn_and_stretch(obj)
+    axes = _proper(_into_space(obj, settings, turn) @ orientation.T)
+    return Matrix(solver.nearest_to_identity(axes.T).T).to_euler()
+
+
+def _turn_and_stretch(obj):
     world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
     if not np.isfinite(world).all():
         raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
     U, sizes, Vt = np.linalg.svd(world)
     if sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30):
-        turn = U @ Vt
-        stretch = Vt.T @ np.diag(sizes) @ Vt
-    else:
-        turn = np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64)
-        stretch = np.eye(3)
-    axes = np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
+        return U @ Vt, Vt.T @ np.diag(sizes) @ Vt
+    return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
+
+
+def _into_space(obj, settings, turn):
+    """Return the matrix from stretched object coordinates into what the angles are relative to."""
     if settings.space == "OBJECT":
-        return stretch, axes.T
-    if settings.space == "FRAME":
-        if settings.frame is None:
-            raise CubicCraftError(
-                f'"{obj.name}" takes its orientation from a frame object, but none is set;'
-                " pick one or choose another space"
-            )
-        frame = settings.frame.matrix_world.to_quaternion().to_matrix()
-        axes = np.array(frame, dtype=np.float64) @ axes
-    Q = axes.T @ turn
-    return stretch, Q if np.linalg.det(Q) > 0.0 else -Q  # the cube is the same seen in a mirror
+        return np.eye(3)
+    if settings.space == "WORLD":
+        return turn
+    if settings.frame is None:
+        raise CubicCraftError(
+            f'"{obj.name}" takes its orientation from a frame object, but none is set;'
+            " pick one or choose another space"
+        )
+    frame = settings.frame.matrix_world.to_quaternion().to_matrix()
+    return np.array(frame, dtype=np.float64).T @ turn
+
+
+def _proper(matrix):
+    """Return the rotation that is the same for a cube, which looks alike in a mirror."""
+    return matrix if np.linalg.det(matrix) > 0.0 else -matrix

@@ -58,6 +58,7 @@ def _draw_orientation(layout, obj):
     if properties.space == "FRAME":
         layout.prop(properties, "frame")
     layout.prop(properties, "orientation")
+    layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
     layout.prop(properties, "rotation")
 
 

@@ -4,9 +4,15 @@
 import bpy
 
 from .apply import CUBIC_CRAFT_OT_apply
+from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .restore import CUBIC_CRAFT_OT_restore
 
 register, unregister = bpy.utils.register_classes_factory(
-    (CUBIC_CRAFT_OT_cubify, CUBIC_CRAFT_OT_restore, CUBIC_CRAFT_OT_apply)
+    (
+        CUBIC_CRAFT_OT_cubify,
+        CUBIC_CRAFT_OT_restore,
+        CUBIC_CRAFT_OT_apply,
+        CUBIC_CRAFT_OT_auto_orient,
+    )
 )

@@ -10,11 +10,11 @@ import logging
 import bpy
 from bpy.props import StringProperty
 
-from ..cubic_craft_addon import cubify, mesh_bridge
+from ..cubic_craft_addon import cubify
 from ..cubic_craft_addon.properties import RunProperties, object_properties
 from ..solver import CubicCraftError
 from .run_settings import adopt_settings, frame_of, remember_settings
-from .selection import poll_meshes, report_all, selected_meshes
+from .selection import poll_usable, report_all, selected_meshes
 from .tasks import plan, solve_all
 
 _log = logging.getLogger(__name__)
@@ -40,18 +40,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """There is a mesh that can be cubified."""
-        if not poll_meshes(cls, context):
-            return False
-        problems = []
-        for obj in selected_meshes(context):
-            try:
-                mesh_bridge.check_usable(obj)
-            except CubicCraftError as error:
-                problems.append(str(error))
-            else:
-                return True
-        cls.poll_message_set(problems[0])
-        return False
+        return poll_usable(cls, context)
 
     def execute(self, context):
         """Solve all objects, then write all results."""

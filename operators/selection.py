@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
+from ..cubic_craft_addon import mesh_bridge
+from ..solver import CubicCraftError
+
 _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
 
 
@@ -22,6 +25,22 @@ def poll_meshes(operator_class, context):
         operator_class.poll_message_set("Select a mesh object first")
         return False
     return True
+
+
+def poll_usable(operator_class, context):
+    """Tell whether there is a mesh that can be cubified, and say what is wrong with the first."""
+    if not poll_meshes(operator_class, context):
+        return False
+    problems = []
+    for obj in selected_meshes(context):
+        try:
+            mesh_bridge.check_usable(obj)
+        except CubicCraftError as error:
+            problems.append(str(error))
+        else:
+            return True
+    operator_class.poll_message_set(problems[0])
+    return False
 
 
 def report_all(operator, done, problems):

@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING
 from .errors import CubicCraftError
 
 if TYPE_CHECKING:
+    from .auto_orientation import auto_orient, nearest_to_identity
     from .backends import DEVICES, set_cache_folder
     from .progress import Progress
     from .rest import RestMesh, rest_mesh
+    from .rest_measures import triangle_areas_and_normals
     from .rotation_fit import svd_rotations
     from .runner import Result, run, stylize
     from .setup import Setup
@@ -30,11 +32,14 @@ __all__ = [
     "Setup",
     "StopRule",
     "Stylization",
+    "auto_orient",
+    "nearest_to_identity",
     "rest_mesh",
     "run",
     "set_cache_folder",
     "stylize",
     "svd_rotations",
+    "triangle_areas_and_normals",
 ]
 
 _MODULES = {
@@ -46,11 +51,14 @@ _MODULES = {
     "Setup": "setup",
     "StopRule": "stop_rule",
     "Stylization": "stylization",
+    "auto_orient": "auto_orientation",
+    "nearest_to_identity": "auto_orientation",
     "rest_mesh": "rest",
     "run": "runner",
     "set_cache_folder": "backends",
     "stylize": "runner",
     "svd_rotations": "rotation_fit",
+    "triangle_areas_and_normals": "rest_measures",
 }
 
 

@@ -4,6 +4,13 @@
 import numpy as np
 
 
+def triangle_areas_and_normals(V, F):
+    """Return the areas (m,) and unit normals (m,3), zero where undefined, of the triangles."""
+    cross = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    lengths = np.linalg.norm(cross, axis=1)
+    return lengths / 2.0, cross / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+
+
 def areas_and_normals(V, F):
     """Return barycentric vertex areas and area-weighted unit vertex normals.
 

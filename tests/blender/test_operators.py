@@ -287,50 +287,6 @@ def test_the_map_scales_cubeness_and_inverts():
     np.testing.assert_allclose(shapes["None", False], before, atol=1e-6)
 
 
-def test_world_orientation_equals_turning_the_cube_against_the_object():
-    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
-    cubify(space="WORLD")
-    by_world = position_of(obj.data)
-    bpy.ops.cubic_craft.restore()
-    inverse = obj.matrix_world.to_3x3().inverted().to_euler()
-    cubify(space="OBJECT", orientation=tuple(inverse))
-    np.testing.assert_allclose(position_of(obj.data), by_world, atol=1e-4)
-
-
-def test_the_frame_object_gives_the_orientation():
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
-    frame.rotation_euler = (0.2, -0.3, 0.4)
-    obj = add_monkey()
-    cubify(space="FRAME", frame="Frame")
-    by_frame = position_of(obj.data)
-    assert obj.cubic_craft.frame == frame
-    cubify(space="WORLD", orientation=(0.2, -0.3, 0.4))
-    np.testing.assert_allclose(position_of(obj.data), by_frame, atol=1e-4)
-
-
-def test_a_scaled_object_is_solved_as_it_is_seen():
-    obj = add_triangles()
-    obj.scale = (1.0, 2.0, -0.5)
-    bpy.context.view_layer.update()
-    cubify()
-    seen = position_of(obj.data) * np.array(obj.scale)
-    modelled = add_triangles()
-    positions = position_of(modelled.data) * np.array((1.0, 2.0, 0.5))
-    modelled.data.vertices.foreach_set("co", positions.astype(np.float32).ravel())
-    modelled.data.update()
-    cubify()
-    np.testing.assert_allclose(position_of(modelled.data), seen * [1.0, 1.0, -1.0], atol=1e-4)
-
-
-def test_a_flat_scale_is_no_obstacle():
-    obj = add_monkey()
-    obj.scale = (1.0, 1.0, 0.0)
-    bpy.context.view_layer.update()
-    assert cubify() == {"FINISHED"}
-    assert np.isfinite(position_of(obj.data)).all()
-
-
 def test_rotation_changes_only_how_the_shape_stands():
     obj = add_triangles()
     shapes = {}

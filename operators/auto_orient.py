@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Auto Orient: turn the cube of each selected mesh to where its shape fits best."""
+
+import bpy
+
+from .. import solver
+from ..cubic_craft_addon.cubify import rest_shape
+from ..cubic_craft_addon.object_frame import angles_of, stretch_and_orientation
+from ..cubic_craft_addon.properties import object_properties, settings_of
+from ..solver import CubicCraftError
+from .selection import poll_usable, report_all, selected_meshes
+
+
+class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
+    """Turn the cube to where the shape fits it best."""
+
+    bl_idname = "cubic_craft.auto_orient"
+    bl_label = "Auto Orient"
+    bl_description = (
+        "Turn the cube of each selected mesh so that as much of its original surface as possible"
+        " faces a side of the cube"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh that can be cubified."""
+        return poll_usable(cls, context)
+
+    def execute(self, context):
+        """Find the orientation of each mesh, then set all."""
+        found, problems = [], []
+        for obj in selected_meshes(context):
+            try:
+                settings = settings_of(obj)
+                stretch, _ = stretch_and_orientation(obj, settings)
+                _, rest = rest_shape(obj, stretch)
+                areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)
+                orientation = solver.auto_orient(normals, areas)
+                found.append((obj, angles_of(obj, settings, orientation)))
+            except CubicCraftError as error:
+                problems.append(str(error))
+        for obj, angles in found:
+            object_properties(obj).orientation = angles
+        names = ", ".join(obj.name for obj, _ in found)
+        return report_all(self, f"Oriented {names}" if names else "", problems)

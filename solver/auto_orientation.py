@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The orientation of the cube that fits a shape best."""
+
+import numpy as np
+from scipy.optimize import minimize
+from scipy.spatial.transform import Rotation
+
+SAMPLES = 100_000
+"""rotations over SO(3), of which a 24th is distinct for a cube: about 5 degrees apart"""
+CANDIDATES = 12
+"""samples that are refined"""
+BINS = 14
+"""per unit; normals are gathered in cells of the sphere for the search"""
+SMOOTHING = 1e-4
+"""of the absolute value, radians; only the refinement needs a derivative"""
+
+
+def auto_orient(normals, areas):
+    """Return the orientation whose axes fit the normals best.
+
+    It minimises ``sum_i a_i |Q n_i|_1`` over all rotations: a search over evenly spread samples,
+    then descent from the best of them. Of the 24 rotations that are the same for a cube it is the
+    one nearest to the identity.
+
+    Parameters
+    ----------
+    normals : (n,3) float array
+        Unit normals, or zero. Those of the triangles: vertex normals of a coarse mesh, such as a
+        box of eight vertices, do not face the way its surface does.
+    areas : (n,) float array
+        Their weights, not negative.
+
+    Returns
+    -------
+    Q : (3,3) float array
+        Rotation that maps a vector into the frame of the cube; its rows are the cube's axes.
+
+    Notes
+    -----
+    The samples are super-Fibonacci spirals (Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy
+    Sampling of SO(3)", CVPR 2022).
+    """
+    directions, weights = _binned(normals, areas)
+    if not len(directions):
+        return np.eye(3)
+    samples = _distinct(_super_fibonacci(SAMPLES))
+    costs = np.concatenate(
+        [_costs(part, directions, weights) for part in np.array_split(samples, 32)]
+    )
+    starts = samples[np.argsort(costs, kind="stable")[:CANDIDATES]]
+    refined = [_refined(Q, directions, weights) for Q in starts]
+    refined.sort(key=lambda Q: _cost(Q, directions, weights))
+    best = min(
+        (_refined(Q, normals, areas) for Q in (*refined[:2], np.eye(3))),
+        key=lambda Q: _cost(Q, normals, areas),
+    )
+    return nearest_to_identity(best)
+
+
+def nearest_to_identity(Q):
+    """Return the rotation nearest to the identity that is the same as Q (3,3) for a cube."""
+    same = Rotation.create_group("O").as_matrix() @ Q
+    return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
+
+
+def _cost(Q, normals, areas):
+    return float(areas @ np.abs(normals @ Q.T).sum(axis=1))
+
+
+def _costs(Qs, normals, areas):
+    return np.abs(np.einsum("kij,nj->kin", Qs, normals)).sum(axis=1) @ areas
+
+
+def _refined(Q, normals, areas):
+    """Descend from Q; the absolute value is smoothed so that there is a gradient."""
+    scale = areas.sum()
+
+    def objective(w):
+        R = Rotation.from_rotvec(w).as_matrix() @ Q
+        x = normals @ R.T
+        smooth = np.sqrt(x * x + SMOOTHING**2)
+        # d/dw at w of sum smooth(x): x turns by dw x x, so the gradient is sum x x (x / smooth)
+        torque = np.cross(x, x / smooth)
+        return areas @ smooth.sum(axis=1) / scale, areas @ torque / scale
+
+    for _ in range(4):  # the gradient is exact at w = 0 only, so start again from the result
+        result = minimize(objective, np.zeros(3), jac=True, method="L-BFGS-B")
+        Q = Rotation.from_rotvec(result.x).as_matrix() @ Q
+    return Q
+
+
+def _binned(normals, areas):
+    """Return mean directions (k,3) of the cells of the sphere and their areas (k,)."""
+    is_there = (areas > 0.0) & (np.abs(normals).max(axis=1) > 0.0)
+    n, a = normals[is_there], areas[is_there]
+    _, cell = np.unique(np.round(BINS * n).astype(np.int64), axis=0, return_inverse=True)
+    cell = cell.ravel()
+    sums = np.stack([np.bincount(cell, a * n[:, c]) for c in range(3)], axis=1)
+    return sums / np.linalg.norm(sums, axis=1, keepdims=True), np.bincount(cell, a)
+
+
+def _super_fibonacci(count):
+    """Return evenly spread unit quaternions (count,4), scalar last."""
+    s = np.arange(count) + 0.5
+    a, b = 2 * np.pi * s / np.sqrt(2), 2 * np.pi * s / 1.533751168755204288
+    r, t = np.sqrt(s / count), np.sqrt(1 - s / count)
+    return np.stack([r * np.sin(a), r * np.cos(a), t * np.sin(b), t * np.cos(b)], axis=1)
+
+
+def _distinct(quaternions):
+    """Return the matrices (k,3,3) of those that are nearest to the identity of their 24."""
+    size = np.abs(quaternions)
+    imaginary, real = size[:, :3], size[:, 3]
+    others = np.maximum(
+        np.maximum(imaginary.max(axis=1), size.sum(axis=1) / 2),
+        np.maximum(real + imaginary.max(axis=1), np.sort(imaginary, axis=1)[:, 1:].sum(axis=1))
+        / np.sqrt(2),
+    )
+    return Rotation.from_quat(quaternions[real >= others]).as_matrix()

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which way the cube stands: spaces, the object's scale, and Auto Orient."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Euler
+from rich_mesh import position_of
+from scene import add_monkey, add_triangles, cubify
+from snapshot import differences, snapshot_mesh
+
+
+def test_world_orientation_equals_turning_the_cube_against_the_object():
+    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
+    cubify(space="WORLD")
+    by_world = position_of(obj.data)
+    bpy.ops.cubic_craft.restore()
+    inverse = obj.matrix_world.to_3x3().inverted().to_euler()
+    cubify(space="OBJECT", orientation=tuple(inverse))
+    np.testing.assert_allclose(position_of(obj.data), by_world, atol=1e-4)
+
+
+def test_the_frame_object_gives_the_orientation():
+    frame = bpy.data.objects.new("Frame", None)
+    bpy.context.collection.objects.link(frame)
+    frame.rotation_euler = (0.2, -0.3, 0.4)
+    obj = add_monkey()
+    cubify(space="FRAME", frame="Frame")
+    by_frame = position_of(obj.data)
+    assert obj.cubic_craft.frame == frame
+    cubify(space="WORLD", orientation=(0.2, -0.3, 0.4))
+    np.testing.assert_allclose(position_of(obj.data), by_frame, atol=1e-4)
+
+
+def test_a_scaled_object_is_solved_as_it_is_seen():
+    obj = add_triangles()
+    obj.scale = (1.0, 2.0, -0.5)
+    bpy.context.view_layer.update()
+    cubify()
+    seen = position_of(obj.data) * np.array(obj.scale)
+    modelled = add_triangles()
+    positions = position_of(modelled.data) * np.array((1.0, 2.0, 0.5))
+    modelled.data.vertices.foreach_set("co", positions.astype(np.float32).ravel())
+    modelled.data.update()
+    cubify()
+    np.testing.assert_allclose(position_of(modelled.data), seen * [1.0, 1.0, -1.0], atol=1e-4)
+
+
+def test_a_flat_scale_is_no_obstacle():
+    obj = add_monkey()
+    obj.scale = (1.0, 1.0, 0.0)
+    bpy.context.view_layer.update()
+    assert cubify() == {"FINISHED"}
+    assert np.isfinite(position_of(obj.data)).all()
+
+
+def add_turned_box(space, **where):
+    """Add a box whose sides are turned against its own axes."""
+    bpy.ops.mesh.primitive_cube_add(**where)
+    obj = bpy.context.object
+    obj.data.transform(Euler((0.3, 0.2, -0.4)).to_matrix().to_4x4())
+    obj.cubic_craft.space = space
+    return obj
+
+
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror):
+    frame = bpy.data.objects.new("Frame", None)
+    bpy.context.collection.objects.link(frame)
+    frame.rotation_euler = (0.5, 0.1, 0.2)
+    obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3))
+    obj.scale.x = mirror
+    obj.cubic_craft.frame = frame
+    bpy.context.view_layer.update()
+    before = snapshot_mesh(obj.data)
+    assert bpy.ops.cubic_craft.auto_orient() == {"FINISHED"}
+    assert differences(before, snapshot_mesh(obj.data)) == []
+    assert max(abs(angle) for angle in obj.cubic_craft.orientation) < 1.1
+    room = f"{extension.__name__}.cubic_craft_addon"
+    settings = importlib.import_module(f"{room}.properties").settings_of(obj)
+    frame_of = importlib.import_module(f"{room}.object_frame").stretch_and_orientation
+    stretch, Q = frame_of(obj, settings)
+    corners = position_of(obj.data) @ stretch.T @ Q.T  # as the cube sees them
+    np.testing.assert_allclose(np.abs(corners), np.abs(corners[0]) * np.ones((8, 3)), atol=1e-3)
+
+
+def test_auto_orient_is_of_each_object_and_starts_from_the_original():
+    obj = add_monkey()
+    bpy.ops.cubic_craft.auto_orient()
+    first = tuple(obj.cubic_craft.orientation)
+    cubify(cubeness=0.9, orientation=(0.5, 0.4, 0.3))
+    bpy.ops.cubic_craft.auto_orient()
+    assert tuple(obj.cubic_craft.orientation) == pytest.approx(first, abs=1e-6)
