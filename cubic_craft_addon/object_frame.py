@@ -37,6 +37,19 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     return stretch, _proper(axes.T @ _into_space(obj, settings, turn))
 
 
+def world_axes(obj: bpy.types.Object, settings: Settings):
+    """Return the axes of the cube in world space, as the columns of a (3,3) array.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    turn, _ = _turn_and_stretch(obj)
+    _, orientation = stretch_and_orientation(obj, settings)
+    return turn @ orientation.T
+
+
 def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
     """Return the Euler angles (radians) that give the orientation, the inverse of the above.
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import mesh_bridge
+from . import mesh_bridge, overlay
 from .properties import object_properties
 from .requirements import check_requirements
 
@@ -54,6 +54,7 @@ def _draw_cubify(layout, obj):
 
 def _draw_orientation(layout, obj):
     properties = object_properties(obj)
+    layout.prop(bpy.context.window_manager, overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
         layout.prop(properties, "frame")

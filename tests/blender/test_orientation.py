@@ -94,3 +94,32 @@ def test_auto_orient_is_of_each_object_and_starts_from_the_original():
     cubify(cubeness=0.9, orientation=(0.5, 0.4, 0.3))
     bpy.ops.cubic_craft.auto_orient()
     assert tuple(obj.cubic_craft.orientation) == pytest.approx(first, abs=1e-6)
+
+
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
+def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3), location=(5, 6, 7))
+    obj.cubic_craft.frame = obj
+    bpy.context.view_layer.update()
+    bpy.ops.cubic_craft.auto_orient()
+    points, colors = overlay.lines_of(obj)
+    assert points.shape == (30, 3) and len(colors) == 30
+    # The sides of the box face along the axes of the overlay.
+    axes = points[1:6:2] - points[0:6:2]
+    np.testing.assert_allclose(points[0], (5, 6, 7), atol=1e-5)
+    world = np.array(obj.matrix_world.to_3x3())
+    normals = np.array([world @ np.array(p.normal) for p in obj.data.polygons])
+    along = np.abs(normals @ (axes / np.linalg.norm(axes, axis=1, keepdims=True)).T)
+    np.testing.assert_allclose(along.max(axis=1), 1.0, atol=1e-4)
+    lengths = np.linalg.norm(points[7::2] - points[6::2], axis=1)
+    np.testing.assert_allclose(lengths, 2 * np.linalg.norm(axes[0]), rtol=1e-5)
+
+
+def test_the_overlay_leaves_no_handler_behind(extension):
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    bpy.ops.preferences.addon_disable(module=extension.__name__)
+    assert overlay._handle is None
+    assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)
+    bpy.ops.preferences.addon_enable(module=extension.__name__)
+    assert hasattr(bpy.types.WindowManager, overlay.PROPERTY)
