@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .rest import RestMesh, rest_mesh
     from .rest_measures import triangle_areas_and_normals
     from .rotation_fit import svd_rotations
-    from .runner import Result, run, stylize
+    from .runner import Result, Run, run, stylize
     from .setup import Setup
     from .stop_rule import StopRule
     from .stylization import Energy, Stylization
@@ -29,6 +29,7 @@ __all__ = [
     "Progress",
     "RestMesh",
     "Result",
+    "Run",
     "Setup",
     "StopRule",
     "Stylization",
@@ -48,6 +49,7 @@ _MODULES = {
     "Progress": "progress",
     "RestMesh": "rest",
     "Result": "runner",
+    "Run": "runner",
     "Setup": "setup",
     "StopRule": "stop_rule",
     "Stylization": "stylization",

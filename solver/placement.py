@@ -6,7 +6,7 @@ import numpy as np
 from .rotation_fit import svd_rotations
 
 
-def keep_rotation(rest, U, R, has_pin):
+def keep_rotation(rest, U, has_pin):
     """Turn each free component back by its best-fit rotation about its centroid.
 
     Parameters
@@ -14,14 +14,14 @@ def keep_rotation(rest, U, R, has_pin):
     rest : RestMesh
     U : (n,3) float array
         Positions in the unit box.
-    R : (n,3,3) float array
-        Rotations of the vertices.
     has_pin : (component_count,) bool array
         Components with a pinned vertex stay as they are.
 
     Returns
     -------
-    U, R : arrays of the same shapes
+    U : (n,3) float array
+    back : (component_count,3,3) float array
+        The rotation of each component.
     """
     weight = rest.areas + 1e-300
     label, count = rest.component, rest.component_count
@@ -39,4 +39,4 @@ def keep_rotation(rest, U, R, has_pin):
     back[has_pin] = np.eye(3)
     turned = np.einsum("nij,nj->ni", back[label], centred) + now[label]
     turned[has_pin[label]] = U[has_pin[label]]
-    return turned, back[label] @ R
+    return turned, back

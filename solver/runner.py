@@ -111,30 +111,87 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
     CubicCraftError
         The tolerance is not positive, or there is no iteration to do.
     """
-    if not (np.isfinite(tolerance) and tolerance > 0.0):
-        raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
-    if not max_iterations >= 1:
-        raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
-    begin = time.perf_counter()
-    rule = StopRule(tolerance, stylization.resolution)
-    reason = "max_iterations"
-    while stylization.iteration < max_iterations and reason == "max_iterations":
-        stylization.step()
-        if on_iteration is not None and on_iteration(stylization):
-            reason = "cancelled"
-        elif rule.is_converged(
-            stylization.energy.total, stylization.displacement, stylization.distance
-        ):
-            reason = "converged"
-    energy = stylization.finish()
-    positions, rotations = stylization.placed(keep_rotation)
-    return Result(
-        positions,
-        rotations,
-        energy,
-        stylization.iteration,
-        reason,
-        stylization.device,
-        stylization.compile_seconds,
-        time.perf_counter() - begin,
-    )
+    run = Run(stylization, max_iterations, tolerance, keep_rotation)
+    while run.reason is None:
+        iteration = stylization.iteration
+        run.advance()
+        is_new = stylization.iteration > iteration
+        if is_new and on_iteration is not None and on_iteration(stylization):
+            run.cancel()
+    return run.result()
+
+
+class Run:
+    """A run that is advanced phase by phase, for those who have something else to do in between.
+
+    However it is sliced, the result is that of `run`, bit for bit.
+
+    Parameters
+    ----------
+    stylization, max_iterations, tolerance, keep_rotation
+        As in `run`.
+
+    Attributes
+    ----------
+    reason : str or None
+        None while there is more to do, then as in `Result`.
+
+    Raises
+    ------
+    CubicCraftError
+        As `run`.
+    """
+
+    def __init__(self, stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False):
+        if not (np.isfinite(tolerance) and tolerance > 0.0):
+            raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
+        if not max_iterations >= 1:
+            raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
+        self.stylization = stylization
+        self.reason = None
+        self._max_iterations = max_iterations
+        self._keep_rotation = keep_rotation
+        self._rule = StopRule(tolerance, stylization.resolution)
+        self._is_local_next = True
+        self._seconds = 0.0
+
+    def advance(self):
+        """Do one phase: a local or a global step. At the end, `reason` is set."""
+        begin = time.perf_counter()
+        state = self.stylization
+        if self._is_local_next:
+            state.local_step()
+        else:
+            state.global_step()
+            if self._rule.is_converged(state.energy.total, state.displacement, state.distance):
+                self.reason = "converged"
+            elif state.iteration >= self._max_iterations:
+                self.reason = "max_iterations"
+        self._is_local_next = not self._is_local_next
+        self._seconds += time.perf_counter() - begin
+
+    def cancel(self):
+        """Do no more than has been done."""
+        self.reason = "cancelled"
+
+    def positions(self):
+        """Return the positions (n,3) as they are now, in the unit of the input."""
+        return self.stylization.placed_positions(self._keep_rotation)
+
+    def result(self):
+        """Return the Result of what has been done; the iteration cannot go on after it."""
+        begin = time.perf_counter()
+        state = self.stylization
+        energy = state.finish()
+        positions, rotations = state.placed(self._keep_rotation)
+        seconds = self._seconds + time.perf_counter() - begin
+        return Result(
+            positions,
+            rotations,
+            energy,
+            state.iteration,
+            self.reason or "cancelled",
+            state.device,
+            state.compile_seconds,
+            seconds,
+        )

@@ -27,6 +27,8 @@ class Setup:
         The pinned vertices, loose ones included.
     pinned : (j,) int array
         Those that are not loose, as indices into ``rest.V``.
+    has_pin : (component_count,) bool array
+        Components with a pinned vertex.
     """
 
     def __init__(self, rest, pinned=()):
@@ -40,4 +42,6 @@ class Setup:
         self.rest = rest
         self.pinned_input = pinned
         self.pinned = np.flatnonzero(np.isin(rest.used, pinned))
+        self.has_pin = np.zeros(rest.component_count, dtype=bool)
+        self.has_pin[rest.component[self.pinned]] = True
         self.global_step = GlobalStep(rest, self.pinned)

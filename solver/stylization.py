@@ -96,7 +96,15 @@ class Stylization:
 
     def step(self):
         """Do one local and one global step."""
+        self.local_step()
+        self.global_step()
+
+    def local_step(self):
+        """Fit the rotations to the positions."""
         self.energy = Energy(*self._local.update(self._U))
+
+    def global_step(self):
+        """Move the positions toward the rotations of the local step before."""
         U = self._setup.global_step.positions(self._local.right_hand_side(), self._U)
         self.displacement = float(np.abs(U - self._U).max())
         self.distance = float(np.abs(U - self.rest.V).max())
@@ -105,7 +113,7 @@ class Stylization:
 
     def finish(self):
         """Fit the rotations to the last positions and return the Energy of both."""
-        self.energy = Energy(*self._local.update(self._U))
+        self.local_step()
         return self.energy
 
     def energy_of(self, positions, steps=20):
@@ -127,19 +135,29 @@ class Stylization:
 
         Loose vertices have exactly their given positions, pinned ones their targets.
         """
-        rest, pinned = self.rest, self._setup.pinned
+        rest = self.rest
         U, R = self._U, self._local.R.astype(np.float64, copy=False)
         if with_rotation_kept:
-            has_pin = np.zeros(rest.component_count, dtype=bool)
-            has_pin[rest.component[pinned]] = True
-            U, R = keep_rotation(rest, U, R, has_pin)
+            U, back = keep_rotation(rest, U, self._setup.has_pin)
+            R = back[rest.component] @ R
+        rotations = np.tile(np.eye(3), (len(rest.input_positions), 1, 1))
+        rotations[rest.used] = R
+        return self._placed_positions(U), rotations
+
+    def placed_positions(self, with_rotation_kept=False):
+        """Return the positions alone, for those who look on while it runs."""
+        U = self._U
+        if with_rotation_kept:
+            U, _ = keep_rotation(self.rest, U, self._setup.has_pin)
+        return self._placed_positions(U)
+
+    def _placed_positions(self, U):
+        rest = self.rest
         positions = rest.input_positions.copy()
         positions[rest.used] = rest.box.from_unit(U)
         held = self._setup.pinned_input
         positions[held] = self._targets[held]
-        rotations = np.tile(np.eye(3), (len(positions), 1, 1))
-        rotations[rest.used] = R
-        return positions, rotations
+        return positions
 
 
 def _orientation(Q, rest):
