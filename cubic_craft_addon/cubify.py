@@ -14,26 +14,35 @@ import bpy
 import numpy as np
 
 from .. import solver
-from . import mesh_bridge
+from . import handles, mesh_bridge
 from .kernel_cache import use_extension_folder
 from .object_frame import stretch_and_orientation
 from .requirements import check_requirements
 from .settings import Settings
 
-PIN_THRESHOLD = 0.5
-"""least weight in a pin group that pins a vertex"""
+
+@dataclass(frozen=True)
+class Shape:
+    """What is read once from a mesh: the original shape and its virtual triangulation."""
+
+    original: np.ndarray
+    """(n,3) float32 positions, object space"""
+    triangles: np.ndarray
+    """(m,3) int"""
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """What is done once per mesh and pins."""
+    """What is done once per mesh, scale and handles."""
 
     name: str
-    setup: solver.Setup
+    shape: Shape
+    settings: Settings
     stretch: np.ndarray
     orientation: np.ndarray
-    original: np.ndarray
-    """(n,3) float32 original positions, object space"""
+    setup: solver.Setup
+    handle_of: np.ndarray
+    """(n,) int, the number of the handle that holds each vertex, or -1"""
     map_weights: np.ndarray | float
     """(n,) factors of the cubeness, or 1"""
     seconds: float
@@ -41,7 +50,7 @@ class Prepared:
     @property
     def vertices(self):
         """Number of vertices."""
-        return len(self.original)
+        return len(self.shape.original)
 
     @property
     def triangles(self):
@@ -76,8 +85,22 @@ class Solution:
         return self.setup_seconds + self.seconds + self.result.compile_seconds
 
 
-def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
+def prepare(
+    obj: bpy.types.Object,
+    settings: Settings,
+    earlier: Prepared | None = None,
+    *,
+    weights_changed: bool = False,
+) -> Prepared:
     """Read and check the object, and factorise.
+
+    Parameters
+    ----------
+    obj, settings
+    earlier : Prepared, optional
+        Of the same object: what has not changed since is taken from it. The shape never has.
+    weights_changed : bool
+        The weights of vertex groups may have.
 
     Raises
     ------
@@ -86,32 +109,35 @@ def prepare(obj: bpy.types.Object, settings: Settings) -> Prepared:
     """
     begin = time.perf_counter()
     stretch, orientation = stretch_and_orientation(obj, settings)
-    original, rest = rest_shape(obj, stretch)
-    pinned = np.zeros(len(original), dtype=bool)
-    for group in settings.pin_groups:
-        pinned |= mesh_bridge.group_weights(obj, group) >= PIN_THRESHOLD
-    map_weights = 1.0
-    if settings.map_group:
-        map_weights = mesh_bridge.group_weights(obj, settings.map_group)
-        if settings.map_invert:
-            map_weights = 1.0 - map_weights
+    shape = earlier.shape if earlier else read_shape(obj)
+    known = None if weights_changed else earlier
+    handle_of = _handle_of(obj, settings, known)
+    map_weights = _map_weights(obj, settings, known)
     try:
-        setup = solver.Setup(rest, np.flatnonzero(pinned))
+        if earlier and np.array_equal(earlier.stretch, stretch):
+            setup = earlier.setup
+            if not np.array_equal(earlier.handle_of >= 0, handle_of >= 0):
+                setup = solver.Setup(setup.rest, np.flatnonzero(handle_of >= 0))
+        else:
+            rest = stretched_rest(obj, shape, stretch)
+            setup = solver.Setup(rest, np.flatnonzero(handle_of >= 0))
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
     return Prepared(
         obj.name,
-        setup,
+        shape,
+        settings,
         stretch,
         orientation,
-        original,
+        setup,
+        handle_of,
         map_weights,
         time.perf_counter() - begin,
     )
 
 
-def rest_shape(obj: bpy.types.Object, stretch):
-    """Read the original positions (n,3) float32 and build the RestMesh of the stretched shape.
+def read_shape(obj: bpy.types.Object) -> Shape:
+    """Read the original shape of an object.
 
     Raises
     ------
@@ -122,19 +148,26 @@ def rest_shape(obj: bpy.types.Object, stretch):
     mesh_bridge.check_editable(obj)
     mesh = mesh_bridge.mesh_of(obj)
     original = mesh_bridge.original_positions(mesh)
-    triangles = mesh_bridge.triangles(mesh, original)
+    return Shape(original, mesh_bridge.triangles(mesh, original))
+
+
+def stretched_rest(obj: bpy.types.Object, shape: Shape, stretch):
+    """Build the RestMesh of the shape as it is seen.
+
+    Raises
+    ------
+    CubicCraftError
+        The shape cannot be used; the message names the object and the cure.
+    """
+    positions = shape.original.astype(np.float64) @ stretch.T
     try:
-        return original, solver.rest_mesh(original.astype(np.float64) @ stretch.T, triangles)
+        return solver.rest_mesh(positions, shape.triangles)
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
 
 
-def solve(
-    prepared: Prepared,
-    settings: Settings,
-    on_iteration: Callable[[solver.Stylization], bool] | None = None,
-) -> Solution:
-    """Solve; `on_iteration` is called after each iteration, a true value cancels the run.
+def start(prepared: Prepared, settings: Settings) -> solver.Run:
+    """Start a run from the original shape.
 
     Raises
     ------
@@ -142,27 +175,47 @@ def solve(
         A setting cannot be used, or the device is not there.
     """
     use_extension_folder()
+    targets = handles.targets(prepared.shape.original, prepared.handle_of, settings.handles)
     try:
         stylization = solver.Stylization(
             prepared.setup,
             settings.cubeness * prepared.map_weights,
             prepared.orientation,
+            targets @ prepared.stretch.T,
             device=settings.device.lower(),
         )
-        result = solver.run(
-            stylization,
-            settings.max_iterations,
-            settings.tolerance,
-            _keeps_rotation(prepared, settings),
-            on_iteration,
-        )
+        keep_rotation = _keeps_rotation(prepared, settings)
+        return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_rotation)
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{prepared.name}": {error}') from error
-    unstretch = np.linalg.inv(prepared.stretch)
-    positions = (result.positions @ unstretch.T).astype(np.float32)
-    # What the solver holds must not move by a rounding of the stretch.
-    is_still = (result.positions == prepared.setup.rest.input_positions).all(axis=1)
-    positions[is_still] = prepared.original[is_still]
+
+
+def solve(
+    prepared: Prepared,
+    settings: Settings,
+    on_iteration: Callable[[solver.Stylization], bool] | None = None,
+) -> Solution:
+    """Run to the end; `on_iteration` is called after each iteration, a true value cancels the run.
+
+    Raises
+    ------
+    CubicCraftError
+        As `start`.
+    """
+    run = start(prepared, settings)
+    run.complete(on_iteration)
+    return solution_of(prepared, run)
+
+
+def positions_of(prepared: Prepared, run: solver.Run) -> np.ndarray:
+    """Return the positions (n,3) float32, object space, that a run has come to."""
+    return _unstretched_positions(prepared, run.positions())
+
+
+def solution_of(prepared: Prepared, run: solver.Run) -> Solution:
+    """Return what a run has come to; it cannot go on after that."""
+    result = run.result()
+    positions = _unstretched_positions(prepared, result.positions)
     rotations = _unstretched(result.rotations, prepared.stretch)
     return Solution(positions, rotations, result, prepared.seconds)
 
@@ -186,6 +239,31 @@ def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.O
         return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations)
     mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
     return obj
+
+
+def _handle_of(obj, settings, known):
+    groups = [handle.members for handle in settings.handles]
+    if known and groups == [handle.members for handle in known.settings.handles]:
+        return known.handle_of
+    return handles.handle_of(obj, settings.handles)
+
+
+def _map_weights(obj, settings, known):
+    if not settings.map_group:
+        return 1.0
+    choice = (settings.map_group, settings.map_invert)
+    if known and choice == (known.settings.map_group, known.settings.map_invert):
+        return known.map_weights
+    weights = mesh_bridge.group_weights(obj, settings.map_group)
+    return 1.0 - weights if settings.map_invert else weights
+
+
+def _unstretched_positions(prepared, stretched):
+    positions = (stretched @ np.linalg.inv(prepared.stretch).T).astype(np.float32)
+    # What the solver holds must not move by a rounding of the stretch.
+    is_still = (stretched == prepared.setup.rest.input_positions).all(axis=1)
+    positions[is_still] = prepared.shape.original[is_still]
+    return positions
 
 
 def _keeps_rotation(prepared, settings):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
 
+import math
+
 import bpy
 import numpy as np
 from mathutils import Euler, Matrix
@@ -9,7 +11,8 @@ from .. import solver
 from ..solver import CubicCraftError
 from .settings import Settings
 
-_SMALLEST_STRETCH = 1e-6  # relative; an object flatter than this is solved as if it were not scaled
+_SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
+_DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -66,8 +69,14 @@ def _turn_and_stretch(obj):
         raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
     U, sizes, Vt = np.linalg.svd(world)
     if sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30):
-        return U @ Vt, Vt.T @ np.diag(sizes) @ Vt
+        return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
     return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
+
+
+def _rounded(stretch):
+    """Drop the last digits, so that turning the object alone leaves the stretch bit for bit."""
+    unit = 10.0 ** (math.floor(math.log10(np.abs(stretch).max())) - _DIGITS)
+    return np.round(stretch / unit) * unit
 
 
 def _into_space(obj, settings, turn):

@@ -15,6 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from .handles import Handle
 from .settings import Settings
 
 _SPACES = (
@@ -162,7 +163,7 @@ def settings_of(obj: bpy.types.Object) -> Settings:
         orientation=tuple(p.orientation),
         space=p.space,
         frame=p.frame,
-        pin_groups=(p.pin_group,) if p.pin_group else (),
+        handles=(Handle(p.pin_group),) if p.pin_group else (),
         map_group=p.map_group,
         map_invert=p.map_invert,
         result=p.result,

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import bpy
 
+from .handles import Handle
+
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
@@ -17,8 +19,8 @@ class Settings:
     """what the angles are relative to: OBJECT, WORLD or FRAME"""
     frame: bpy.types.Object | None = None
     """the object that is the FRAME"""
-    pin_groups: tuple[str, ...] = ()
-    """names of vertex groups that stay in place"""
+    handles: tuple[Handle, ...] = ()
+    """where they overlap, the first counts"""
     map_group: str = ""
     """name of the vertex group that scales the cubeness, or empty"""
     map_invert: bool = False

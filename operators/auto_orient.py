@@ -4,7 +4,7 @@
 import bpy
 
 from .. import solver
-from ..cubic_craft_addon.cubify import rest_shape
+from ..cubic_craft_addon.cubify import read_shape, stretched_rest
 from ..cubic_craft_addon.object_frame import angles_of, stretch_and_orientation
 from ..cubic_craft_addon.properties import object_properties, settings_of
 from ..solver import CubicCraftError
@@ -34,7 +34,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
             try:
                 settings = settings_of(obj)
                 stretch, _ = stretch_and_orientation(obj, settings)
-                _, rest = rest_shape(obj, stretch)
+                rest = stretched_rest(obj, read_shape(obj), stretch)
                 areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)
                 orientation = solver.auto_orient(normals, areas)
                 found.append((obj, angles_of(obj, settings, orientation)))

@@ -10,6 +10,7 @@ from dataclasses import fields, replace
 
 import bpy
 
+from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.properties import RunProperties, object_properties, settings_of
 from ..cubic_craft_addon.settings import Settings
 from ..solver import CubicCraftError
@@ -57,7 +58,7 @@ def settings_for(operator, obj, frame):
     changes = {name: getattr(operator, name) for name in _ALL if is_set(name) and name in _PLAIN}
     changes["orientation"] = tuple(operator.orientation)
     if is_set("pin_group"):
-        changes["pin_groups"] = (operator.pin_group,) if operator.pin_group else ()
+        changes["handles"] = (Handle(operator.pin_group),) if operator.pin_group else ()
     if operator.space == "FRAME":
         changes["frame"] = frame
     return replace(settings_of(obj), **changes)

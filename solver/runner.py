@@ -112,12 +112,7 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
         The tolerance is not positive, or there is no iteration to do.
     """
     run = Run(stylization, max_iterations, tolerance, keep_rotation)
-    while run.reason is None:
-        iteration = stylization.iteration
-        run.advance()
-        is_new = stylization.iteration > iteration
-        if is_new and on_iteration is not None and on_iteration(stylization):
-            run.cancel()
+    run.complete(on_iteration)
     return run.result()
 
 
@@ -170,9 +165,14 @@ class Run:
         self._is_local_next = not self._is_local_next
         self._seconds += time.perf_counter() - begin
 
-    def cancel(self):
-        """Do no more than has been done."""
-        self.reason = "cancelled"
+    def complete(self, on_iteration=None):
+        """Advance to the end; `on_iteration` as in `run`."""
+        while self.reason is None:
+            before = self.stylization.iteration
+            self.advance()
+            is_new = self.stylization.iteration > before
+            if is_new and on_iteration is not None and on_iteration(self.stylization):
+                self.reason = "cancelled"
 
     def positions(self):
         """Return the positions (n,3) as they are now, in the unit of the input."""

@@ -74,10 +74,11 @@ def cubify_all(
 
 def _settings(obj: bpy.types.Object, options: Namespace, extension: Extension) -> Any:
     """Return the Settings for one object; a group that only others have does not concern it."""
-    pins = tuple(group for group in options.pin if group in obj.vertex_groups)
+    handle = extension.handles.Handle
+    pins = tuple(handle(group) for group in options.pin if group in obj.vertex_groups)
     return extension.settings.Settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
-        pin_groups=pins,
+        handles=pins,
         map_group=options.map if options.map in obj.vertex_groups else "",
         rotation=options.rotation.upper(),
         device=options.device.upper(),

@@ -21,6 +21,7 @@ class Extension:
 
     def __init__(self, root: Path) -> None:
         self.cubify = _room("cubic_craft_addon.cubify")
+        self.handles = _room("cubic_craft_addon.handles")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.settings = _room("cubic_craft_addon.settings")
         self.solver = _room("solver")

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Handles: the vertices that are held, and where."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..solver.errors import CubicCraftError
+from . import mesh_bridge
+
+THRESHOLD = 0.5
+"""least weight in a vertex group that makes a vertex part of a handle, by default"""
+IDENTITY = tuple(np.eye(4).ravel().tolist())
+
+
+@dataclass(frozen=True)
+class Handle:
+    """A set of vertices that is held in place, or moved as one, and the rest follows."""
+
+    group: str = ""
+    """name of a vertex group"""
+    vertices: tuple[int, ...] | None = None
+    """in place of the group: numbers of vertices"""
+    threshold: float = THRESHOLD
+    matrix: tuple[float, ...] = IDENTITY
+    """4x4, row by row: affine map of original positions, in object space"""
+
+    @property
+    def members(self):
+        """All that decides which vertices belong to it."""
+        return self.group, self.vertices, self.threshold
+
+
+def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
+    """Return the number (n,) int of the handle that holds each vertex, -1 for free ones.
+
+    Raises
+    ------
+    CubicCraftError
+        A vertex group or a vertex that is not there.
+    """
+    count = len(mesh_bridge.mesh_of(obj).vertices)
+    result = np.full(count, -1)
+    for number, handle in reversed(list(enumerate(handles))):  # so that the first one counts
+        result[_holds(obj, handle, count)] = number
+    return result
+
+
+def _holds(obj, handle, count):
+    if handle.vertices is None:
+        return mesh_bridge.group_weights(obj, handle.group) >= handle.threshold
+    vertices = np.asarray(handle.vertices, dtype=np.int64)
+    if vertices.size and not (vertices.min() >= 0 and vertices.max() < count):
+        raise CubicCraftError(
+            f'a handle of "{obj.name}" lists vertex {vertices.max()}, but there are only {count}'
+        )
+    return vertices
+
+
+def targets(original: np.ndarray, holder: np.ndarray, handles: Sequence[Handle]) -> np.ndarray:
+    """Return where the handles want their vertices.
+
+    Parameters
+    ----------
+    original : (n,3) float32 array
+    holder : (n,) int array
+        From `handle_of`.
+    handles : sequence of Handle
+
+    Returns
+    -------
+    (n,3) float64 array; free vertices and those of handles that do not move keep their bits
+    """
+    result = original.astype(np.float64)
+    for number, handle in enumerate(handles):
+        if handle.matrix != IDENTITY:
+            matrix = np.reshape(handle.matrix, (4, 4))
+            held = holder == number
+            result[held] = result[held] @ matrix[:3, :3].T + matrix[:3, 3]
+    return result
