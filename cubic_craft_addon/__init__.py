@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import overlay, panel, preferences, properties
+from . import handle_properties, handles_panel, overlay, panel, preferences, properties
 
-_modules = (properties, preferences, overlay, panel)
+_modules = (handle_properties, properties, preferences, overlay, handles_panel, panel)
 
 
 def register():

@@ -15,6 +15,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ..solver import CubicCraftError
+from .handle_owner import panel_object
 from .object_frame import world_axes
 from .properties import settings_of
 
@@ -44,7 +45,7 @@ def lines_of(obj: bpy.types.Object):
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    axes = world_axes(obj, settings_of(obj))  # columns
+    axes = world_axes(obj, settings_of(obj, handles=()))  # columns
     along = (corners - centre) @ axes
     half = max(np.abs(along).max() * _MARGIN, 1e-6) * axes
     points, colors = [], []
@@ -60,8 +61,10 @@ def lines_of(obj: bpy.types.Object):
 
 def _draw():
     context = bpy.context
-    obj = context.active_object
-    if not getattr(context.window_manager, PROPERTY) or obj is None or obj.type != "MESH":
+    if not getattr(context.window_manager, PROPERTY):
+        return
+    obj = panel_object(context)
+    if obj is None:
         return
     if not context.space_data.overlay.show_overlays:
         return

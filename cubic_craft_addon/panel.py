@@ -4,7 +4,9 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import mesh_bridge, overlay
+from . import handles_panel, mesh_bridge, overlay
+from .handle_owner import panel_object
+from .handle_pose import object_handles
 from .properties import object_properties
 from .requirements import check_requirements
 
@@ -20,17 +22,21 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_category = DEFAULT_TAB
 
     def draw(self, context):
-        """Draw all sections for the active object."""
+        """Draw all sections for the active object, or the mesh that it poses."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        obj = context.active_object
-        if obj is None or obj.type != "MESH":
+        obj = panel_object(context)
+        if obj is None:
             layout.label(text="Select a mesh to make cubic", icon="INFO")
             return
+        if obj != context.active_object:
+            layout.label(text=obj.name, icon="MESH_DATA")
         _draw_cubify(layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
+            if identifier == handles_panel.SECTION:
+                handles_panel.draw_switch(header, obj)
             header.label(text=title)
             if body is not None:
                 draw(body, obj)
@@ -63,10 +69,6 @@ def _draw_orientation(layout, obj):
     layout.prop(properties, "rotation")
 
 
-def _draw_pins(layout, obj):
-    layout.prop_search(object_properties(obj), "pin_group", obj, "vertex_groups")
-
-
 def _draw_map(layout, obj):
     properties = object_properties(obj)
     layout.prop_search(properties, "map_group", obj, "vertex_groups")
@@ -88,7 +90,7 @@ def _draw_solver(layout, obj):
 
 _SECTIONS = (
     ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
-    ("CUBIC_PT_pins", "Pins", _draw_pins, False),
+    (handles_panel.SECTION, "Handles", handles_panel.draw, False),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
     ("CUBIC_PT_result", "Result", _draw_result, False),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),
@@ -100,11 +102,12 @@ def _problem(obj, properties):
     try:
         check_requirements()
         mesh_bridge.check_usable(obj)
+        object_handles(obj)
     except CubicCraftError as error:
         return str(error)
-    for group in (properties.pin_group, properties.map_group):
-        if group and group not in obj.vertex_groups:
-            return f'"{obj.name}" has no vertex group "{group}"; pick another one'
+    group = properties.map_group
+    if group and group not in obj.vertex_groups:
+        return f'"{obj.name}" has no vertex group "{group}"; pick another one'
     if properties.space == "FRAME" and properties.frame is None:
         return "No frame object is set; pick one or choose another space"
     return ""

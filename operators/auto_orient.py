@@ -32,7 +32,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         found, problems = [], []
         for obj in selected_meshes(context):
             try:
-                settings = settings_of(obj)
+                settings = settings_of(obj, handles=())
                 stretch, _ = stretch_and_orientation(obj, settings)
                 rest = stretched_rest(obj, read_shape(obj), stretch)
                 areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)

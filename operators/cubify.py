@@ -8,9 +8,11 @@ way, nothing has changed.
 import logging
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import CollectionProperty, StringProperty
 
 from ..cubic_craft_addon import cubify
+from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handle_properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.properties import RunProperties, object_properties
 from ..solver import CubicCraftError
 from .run_settings import adopt_settings, frame_of, remember_settings
@@ -34,6 +36,12 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     frame: StringProperty(
         name="Frame",
         description="Name of the object whose axes are those of the cube",
+        options={"SKIP_SAVE"},
+    )
+    handles: CollectionProperty(
+        name="Handles",
+        description="Handles in place of those of the objects",
+        type=CubicCraftGivenHandle,
         options={"SKIP_SAVE"},
     )
 
@@ -76,9 +84,9 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
         layout.prop(self, "rotation")
-        groups = context.active_object
+        layout.prop(self, "use_handles")
+        groups = panel_object(context)
         if groups is not None:
-            layout.prop_search(self, "pin_group", groups, "vertex_groups")
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
             layout.prop(self, "map_invert")
         layout.prop(self, "result")

@@ -2,21 +2,23 @@
 """From the properties of the Cubify operator to the settings of each object, and back.
 
 What the caller has not set is taken from the active object, for all objects; so the redo panel
-shows what was used. Vertex groups belong to the mesh: of several objects, each keeps its own unless
-the caller sets them.
+shows what was used. Vertex groups and handles belong to the mesh: of several objects, each keeps
+its own unless the caller sets them.
 """
 
+import math
 from dataclasses import fields, replace
 
 import bpy
 
+from ..cubic_craft_addon.handle_pose import posed_handles
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.properties import RunProperties, object_properties, settings_of
 from ..cubic_craft_addon.settings import Settings
 from ..solver import CubicCraftError
 
 _ALL = tuple(RunProperties.__annotations__)
-_OF_EACH_OBJECT = ("pin_group", "map_group", "map_invert")
+_OF_EACH_OBJECT = ("use_handles", "map_group", "map_invert")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 
@@ -53,15 +55,42 @@ def frame_of(operator, active):
 
 
 def settings_for(operator, obj, frame):
-    """Return the settings with which the operator is to cubify the object."""
+    """Return the settings with which the operator is to cubify the object.
+
+    Raises
+    ------
+    CubicCraftError
+        The handles, those of the object or those given, cannot be used.
+    """
     is_set = operator.properties.is_property_set
     changes = {name: getattr(operator, name) for name in _ALL if is_set(name) and name in _PLAIN}
     changes["orientation"] = tuple(operator.orientation)
-    if is_set("pin_group"):
-        changes["handles"] = (Handle(operator.pin_group),) if operator.pin_group else ()
+    handles = None
+    if is_set("handles"):
+        handles = _given_handles(operator)
+    elif is_set("use_handles"):
+        handles = posed_handles(obj) if operator.use_handles else ()
     if operator.space == "FRAME":
         changes["frame"] = frame
-    return replace(settings_of(obj), **changes)
+    return replace(settings_of(obj, handles), **changes)
+
+
+def _given_handles(operator):
+    return tuple(
+        Handle(item.name, threshold=item.threshold, matrix=_affine(item))
+        for item in operator.handles
+    )
+
+
+def _affine(item):
+    """Return the item's matrix as 16 numbers, row by row."""
+    matrix = tuple(value for row in item.matrix for value in row)
+    if matrix[12:] != (0.0, 0.0, 0.0, 1.0) or not all(map(math.isfinite, matrix)):
+        raise CubicCraftError(
+            f'the matrix of handle "{item.name}" is no affine map; give it as a mathutils.Matrix'
+            " (Blender takes a plain list by its columns)"
+        )
+    return matrix
 
 
 def remember_settings(operator, target, settings):

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an object keeps its settings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+if TYPE_CHECKING:
+    from .properties import CubicCraftProperties
+
+PROPERTY = "cubic_craft"
+"""name of the property of objects"""
+
+
+def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
+    """Return the settings of the object."""
+    return getattr(obj, PROPERTY)
