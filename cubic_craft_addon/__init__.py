@@ -1,9 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import handle_properties, handles_panel, overlay, panel, preferences, properties
+from . import (
+    group_renames,
+    handle_properties,
+    handles_panel,
+    overlay,
+    panel,
+    preferences,
+    properties,
+)
 
-_modules = (handle_properties, properties, preferences, overlay, handles_panel, panel)
+_modules = (
+    handle_properties,
+    properties,
+    preferences,
+    overlay,
+    handles_panel,
+    panel,
+    group_renames,
+)
 
 
 def register():

@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from .object_properties import object_properties
+from .object_properties import has_properties, object_properties
 
 
 def posed_mesh(context: bpy.types.Context, target: bpy.types.Object) -> Any:
@@ -19,7 +19,7 @@ def posed_mesh(context: bpy.types.Context, target: bpy.types.Object) -> Any:
 
     Cheap for objects that are no target, as it runs at every redraw.
     """
-    if not object_properties(target).is_target:
+    if not has_properties(target) or not object_properties(target).is_target:
         return None
     parent = target.parent
     if parent is not None and _follows(parent, target):
@@ -36,7 +36,7 @@ def panel_object(context: bpy.types.Context) -> Any:
 
 
 def _follows(obj, target):
-    return obj.type == "MESH" and any(
-        handle.mode == "FOLLOW" and handle.target == target
-        for handle in object_properties(obj).handles
-    )
+    if obj.type != "MESH" or not has_properties(obj):
+        return False
+    handles = object_properties(obj).handles
+    return any(handle.mode == "FOLLOW" and handle.target == target for handle in handles)

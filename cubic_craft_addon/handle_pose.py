@@ -21,7 +21,7 @@ from mathutils import Matrix
 
 from ..solver.errors import CubicCraftError
 from .handles import IDENTITY, Handle
-from .object_properties import object_properties
+from .object_properties import has_properties, object_properties
 
 if TYPE_CHECKING:
     from .handle_properties import CubicCraftHandle
@@ -68,9 +68,21 @@ def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
     if target == obj:
         return  # refused when it is used, so that the panel can say it
     bpy.context.view_layer.update()
-    relation, _ = _relation(obj, handle)
-    if np.isfinite(relation).all():
-        handle.rest = Matrix(relation.tolist())
+    handle.is_baked = False
+    matrix = relation(obj, handle)
+    if np.isfinite(matrix).all():
+        handle.rest = Matrix(matrix.tolist())
+
+
+def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
+    """Return the matrix (4,4) of the handle's target in the coordinates of the object.
+
+    Raises
+    ------
+    CubicCraftError
+        The object has a transform that cannot be used.
+    """
+    return _relation(obj, handle)[0]
 
 
 def reset(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
@@ -163,7 +175,9 @@ def _reference(obj, handle):
     tell the pose of both, wherever the copy is put.
     """
     parent = handle.target.parent
-    if handle.is_foreign or parent is None or parent == obj or parent.type != "MESH":
+    if handle.is_foreign or parent is None or parent == obj:
+        return obj
+    if parent.type != "MESH" or not has_properties(parent):
         return obj
     is_handle_there = any(h.target == handle.target for h in object_properties(parent).handles)
     return parent if is_handle_there else obj

@@ -71,6 +71,17 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
         subtype="MATRIX",
         default=_IDENTITY,
     )
+    baked: FloatVectorProperty(
+        name="Baked",
+        description="Matrix of the target, relative to the object, when the mesh was written",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
+    is_baked: BoolProperty(
+        name="Is Baked",
+        description="The mesh has been written with this handle's pose",
+    )
     is_foreign: BoolProperty(
         name="Foreign Target",
         description="The target belonged to another mesh when it was picked",

@@ -17,3 +17,12 @@ PROPERTY = "cubic_craft"
 def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
     """Return the settings of the object."""
     return getattr(obj, PROPERTY)
+
+
+def has_properties(obj: bpy.types.Object) -> bool:
+    """Tell whether the object has settings of its own.
+
+    Before Blender 5, reading the settings stores them on the object. So whoever looks at objects
+    that the artist has not brought to us asks here first.
+    """
+    return obj.is_property_set(PROPERTY)

@@ -11,11 +11,12 @@ import bpy
 from bpy.props import CollectionProperty, StringProperty
 
 from ..cubic_craft_addon import cubify
+from ..cubic_craft_addon.baked_pose import remember_pose, settle
 from ..cubic_craft_addon.handle_owner import panel_object
 from ..cubic_craft_addon.handle_properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.properties import RunProperties, object_properties
 from ..solver import CubicCraftError
-from .run_settings import adopt_settings, frame_of, remember_settings
+from .run_settings import adopt_settings, frame_of, remember_settings, uses_own_handles
 from .selection import poll_usable, report_all, selected_meshes
 from .tasks import plan, solve_all
 
@@ -53,6 +54,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     def execute(self, context):
         """Solve all objects, then write all results."""
         objects = selected_meshes(context)
+        settle(objects)
         adopt_settings(self, objects)
         try:
             frame = frame_of(self, objects[0])
@@ -66,6 +68,8 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
             for task in solved:
                 target = cubify.write(task.obj, task.solution, task.settings.result)
                 written.append(task.solution)
+                is_posed = task.settings.result != "SHAPE_KEY" and uses_own_handles(self, task.obj)
+                remember_pose(target, is_posed=is_posed)
                 remember_settings(self, target, task.settings)
                 object_properties(target).status = _status(task.solution)
         except Exception as error:

@@ -65,11 +65,10 @@ def settings_for(operator, obj, frame):
     is_set = operator.properties.is_property_set
     changes = {name: getattr(operator, name) for name in _ALL if is_set(name) and name in _PLAIN}
     changes["orientation"] = tuple(operator.orientation)
-    handles = None
     if is_set("handles"):
         handles = _given_handles(operator)
-    elif is_set("use_handles"):
-        handles = posed_handles(obj) if operator.use_handles else ()
+    else:
+        handles = posed_handles(obj) if uses_own_handles(operator, obj) else ()
     if operator.space == "FRAME":
         changes["frame"] = frame
     return replace(settings_of(obj, handles), **changes)
@@ -91,6 +90,13 @@ def _affine(item):
             " (Blender takes a plain list by its columns)"
         )
     return matrix
+
+
+def uses_own_handles(operator, obj):
+    """Tell whether the operator cubifies the object with the object's own handles."""
+    is_set = operator.properties.is_property_set
+    settings = operator if is_set("use_handles") else object_properties(obj)
+    return settings.use_handles and not is_set("handles")
 
 
 def remember_settings(operator, target, settings):

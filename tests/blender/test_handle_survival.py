@@ -6,7 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
-from posing import add_posable, mapped, pose
+from posing import LEFT, RIGHT, add_posable, mapped, pose
 from rich_mesh import position_of
 from scene import cubify, select
 
@@ -164,3 +164,65 @@ def test_an_empty_with_a_constraint_goes_where_that_puts_it(posed):
     matrix = np.reshape(posed(obj)[1].matrix, (4, 4))
     rest = np.array(obj.cubic_craft.handles[1].rest)
     np.testing.assert_allclose((matrix @ rest)[:3, 3], (3, 2, 1), atol=1e-4)
+
+
+def test_renaming_a_vertex_group(posed):
+    obj, left, _ = add_posable()
+    pose(obj)
+    obj.cubic_craft.map_group = RIGHT
+    before = position_of(obj.data)
+    bpy.context.view_layer.update()
+    for old, new in ((LEFT, "Foot"), (RIGHT, "Hand"), ("Foot", "Paw")):
+        obj.vertex_groups[old].name = new
+        bpy.context.view_layer.update()
+    assert [handle.group for handle in obj.cubic_craft.handles] == ["Paw", "Hand"]
+    assert obj.cubic_craft.map_group == "Hand"
+    assert solved(obj)[left].tobytes() == before[left].tobytes()
+
+
+def test_renaming_a_vertex_group_after_loading(tmp_path):
+    obj, _, _ = add_posable()
+    pose(obj)
+    path = str(tmp_path / "posed.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Body"]
+    obj.vertex_groups[LEFT].name = "Foot"
+    bpy.context.view_layer.update()
+    assert [handle.group for handle in obj.cubic_craft.handles] == ["Foot", RIGHT]
+
+
+def test_undo_and_redo_of_a_rename():
+    obj, _, _ = add_posable()
+    pose(obj)
+    bpy.ops.ed.undo_push(message="Posed")
+    bpy.context.view_layer.update()
+    obj.vertex_groups[LEFT].name = "Foot"
+    bpy.ops.ed.undo_push(message="Renamed")  # before the add-on can see it, as in a window
+    bpy.context.view_layer.update()
+    bpy.data.objects["Body"].location.x = 1
+    bpy.ops.ed.undo_push(message="Moved")
+    for undo, name in (
+        (bpy.ops.ed.undo, "Foot"),
+        (bpy.ops.ed.undo, LEFT),
+        (bpy.ops.ed.redo, "Foot"),
+    ):
+        undo()
+        bpy.context.view_layer.update()
+        obj = bpy.data.objects["Body"]
+        assert obj.cubic_craft.handles[0].group == name
+        assert name in obj.vertex_groups
+
+
+def test_other_changes_of_the_vertex_groups_are_no_rename():
+    obj, _, _ = add_posable()
+    pose(obj)
+    bpy.context.view_layer.update()
+    obj.vertex_groups.new(name="More")
+    obj.vertex_groups.active_index = 2
+    bpy.ops.object.select_all(action="DESELECT")
+    select(obj)
+    bpy.ops.object.vertex_group_move(direction="UP")
+    obj.vertex_groups.remove(obj.vertex_groups[LEFT])
+    bpy.context.view_layer.update()
+    assert [handle.group for handle in obj.cubic_craft.handles] == [LEFT, RIGHT]

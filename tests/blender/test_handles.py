@@ -284,3 +284,58 @@ def test_one_object_with_a_missing_group_does_not_stop_the_others():
     select(good, bad)
     assert '"Bad" has no vertex group "Gone"' in reports_of(cubify)
     assert position_of(good.data).tobytes() != before.tobytes()
+
+
+@pytest.mark.parametrize("way", ["apply", "edit"])
+@pytest.mark.parametrize("result", ["MESH", "NEW_OBJECT"])
+def test_a_pose_that_is_part_of_the_original_is_not_done_twice(posed, way, result):
+    obj, _, right = add_posable(location=(3, 2, 1))
+    empty = pose(obj)
+    cubify(cubeness=0.2, result=result)
+    obj = bpy.context.object if result == "NEW_OBJECT" else obj
+    select(obj)
+    once = position_of(obj.data)
+    if way == "apply":
+        bpy.ops.cubic_craft.apply()
+    else:
+        obj.data.vertices[int(right[0])].co.z += 0.01
+        obj.data.update()
+        once = position_of(obj.data)
+    empty.location.z += 0.5  # since it was written
+    cubify(cubeness=0.0, result="MESH")
+    np.testing.assert_allclose(
+        position_of(obj.data)[right], once[right] + [0, 0, 0.5], rtol=0, atol=2e-6
+    )
+
+
+@pytest.mark.parametrize("how", ["restored", "key", "switched off", "given"])
+def test_a_pose_that_is_not_in_the_mesh_is_still_done_after_apply(posed, how):
+    obj, _, _ = add_posable()
+    pose(obj)
+    before = posed(obj)
+    cubify()
+    if how == "restored":
+        bpy.ops.cubic_craft.restore()
+    options = {
+        "restored": {"use_handles": False},
+        "key": {"result": "SHAPE_KEY"},
+        "switched off": {"use_handles": False},
+        "given": {"handles": [given(LEFT)]},
+    }
+    cubify(**options[how])
+    bpy.ops.cubic_craft.apply()
+    obj.cubic_craft.use_handles = True
+    assert posed(obj) == before
+
+
+def test_apply_counts_for_all_objects_that_share_the_mesh(posed):
+    obj, _, _ = add_posable()
+    pose(obj)
+    twin = obj.copy()
+    bpy.context.collection.objects.link(twin)
+    twin.location.x = 5
+    select(obj)
+    cubify()
+    bpy.ops.cubic_craft.apply()
+    assert [handle.matrix for handle in posed(obj)] == [IDENTITY] * 2
+    assert posed(twin) == posed(obj)
