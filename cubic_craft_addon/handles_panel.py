@@ -8,7 +8,8 @@ from .handle_pose import live_target
 from .object_properties import object_properties
 
 SECTION = "CUBIC_PT_handles"
-_ROWS = 5  # as high as the buttons beside the list
+_ROWS = 5  # as high as the buttons beside the list; without those that change the order, less
+_ROWS_OF_NONE = 3
 
 
 class CUBIC_UL_handles(bpy.types.UIList):
@@ -19,7 +20,7 @@ class CUBIC_UL_handles(bpy.types.UIList):
         obj = item.id_data
         row = layout.row(align=True)
         row.alert = item.group not in obj.vertex_groups
-        row.prop_search(item, "group", obj, "vertex_groups", text="", icon="GROUP_VERTEX")
+        row.prop(item, "group", text="", emboss=False, icon="GROUP_VERTEX")
         row.prop(item, "mode", text="", icon_only=True)
 
 
@@ -43,6 +44,7 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
 def draw_switch(layout, obj):
     """Draw the switch of all handles, which stands in the header of the section."""
+    layout.use_property_split = False
     layout.prop(object_properties(obj), "use_handles", text="")
 
 
@@ -51,28 +53,31 @@ def draw(layout, obj):
     properties = object_properties(obj)
     layout = layout.column()
     layout.active = properties.use_handles
+    handles = properties.handles
+    rows = _ROWS if handles else _ROWS_OF_NONE
     row = layout.row()
     row.template_list(
-        "CUBIC_UL_handles", "", properties, "handles", properties, "active_handle", rows=_ROWS
+        "CUBIC_UL_handles", "", properties, "handles", properties, "active_handle", rows=rows
     )
     buttons = row.column(align=True)
     buttons.operator("cubic_craft.handle_add", icon="ADD", text="").group = ""
     buttons.operator("cubic_craft.handle_remove", icon="REMOVE", text="")
     buttons.menu("CUBIC_MT_handle_groups", icon="DOWNARROW_HLT", text="")
-    buttons.separator()
-    buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
-    buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"
+    if handles:
+        buttons.separator()
+        buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
+        buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"
     layout.operator("cubic_craft.handle_pin_selection", icon="PINNED")
-    handles = properties.handles
     if properties.active_handle < len(handles):
-        _draw_active(layout, handles[properties.active_handle])
+        _draw_active(layout, obj, handles[properties.active_handle])
     if len(handles) > 1:
         layout.label(text="Where they overlap, the first counts", icon="INFO")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 
 
-def _draw_active(layout, handle):
+def _draw_active(layout, obj, handle):
     column = layout.column()
+    column.prop_search(handle, "group", obj, "vertex_groups")
     column.prop(handle, "threshold", slider=True)
     if handle.mode == "FOLLOW":
         column.prop(handle, "target")
