@@ -60,17 +60,24 @@ def posed_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
 
 
 def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
-    """Make the place that the target has now the one in which nothing moves."""
+    """Make the place that the target has now the one in which nothing moves.
+
+    Where the transform of the object or the target cannot be used, the handle gets no target.
+    """
     target = handle.target
     object_properties(target).is_target = True
+    handle.is_baked = False
     parent = target.parent
     handle.is_foreign = parent is not None and parent != obj and parent.type == "MESH"
     if target == obj:
         return  # refused when it is used, so that the panel can say it
     bpy.context.view_layer.update()
-    handle.is_baked = False
-    matrix = relation(obj, handle)
-    if np.isfinite(matrix).all():
+    try:
+        matrix = relation(obj, handle)
+        _check_invertible(matrix, obj, target)
+    except CubicCraftError:
+        handle.target = None
+    else:
         handle.rest = Matrix(matrix.tolist())
 
 

@@ -29,7 +29,7 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """There is a mesh with a vertex group."""
-        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT", "EDIT_MESH")):
+        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
             return False
         if not panel_object(context).vertex_groups:
             cls.poll_message_set("The mesh has no vertex group; add one, or use Pin Selection")

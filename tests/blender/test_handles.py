@@ -225,6 +225,17 @@ def test_a_scale_of_zero_is_refused_with_the_cure(posed, culprit):
         cubify()
 
 
+def test_a_target_of_zero_scale_is_not_taken(posed):
+    obj, _, _ = add_posable()
+    target = bpy.data.objects.new("Target", None)
+    bpy.context.collection.objects.link(target)
+    target.scale.x = 0
+    handle = pin(obj, RIGHT)
+    handle.target = target
+    assert handle.target is None
+    assert posed(obj)[0].matrix == IDENTITY
+
+
 def test_an_object_that_is_flat_can_still_be_posed_by_its_own_empties(posed):
     obj, _, _ = add_posable()
     pose(obj)
