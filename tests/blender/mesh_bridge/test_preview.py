@@ -66,7 +66,8 @@ def test_keys_that_do_not_turn(bridge, error, keyed_monkey):
     bridge.write_mesh(copy, positions, unturned)
     preview = bridge.Preview(mesh)
     preview.show(mesh, positions)
-    for name in mesh.shape_keys.key_blocks.keys():
+    key_names = mesh.shape_keys.key_blocks.keys()
+    for name in key_names:
         assert points_of(mesh, name).tobytes() == points_of(copy, name).tobytes()
 
 

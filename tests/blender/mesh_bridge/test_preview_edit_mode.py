@@ -16,9 +16,9 @@ _OF_EDIT_MODE = ("*attributes/order", "*attributes/active", "*attributes/active 
 @pytest.fixture
 def mode():
     def set_mode(obj, name):
-        bpy.ops.object.select_all(action="DESELECT")
+        for other in bpy.context.view_layer.objects:  # all selected ones enter Edit Mode
+            other.select_set(other == obj)
         bpy.context.view_layer.objects.active = obj
-        obj.select_set(True)
         bpy.ops.object.mode_set(mode=name)
 
     yield set_mode
