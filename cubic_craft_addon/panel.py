@@ -4,7 +4,7 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import mesh_bridge, overlay
+from . import live, mesh_bridge, overlay
 from .properties import object_properties
 from .requirements import check_requirements
 
@@ -37,38 +37,72 @@ class CUBIC_PT_main(bpy.types.Panel):
 
 
 def _draw_cubify(layout, obj):
-    properties = object_properties(obj)
-    problem = _problem(obj, properties)
+    session = live.current()
+    problem = "; ".join(session.all_problems) if session else _problem(obj)
     if problem:
         _draw_text(layout.box(), problem, "ERROR")
-    layout.prop(properties, "cubeness", slider=True)
+    layout.prop(_shared(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5
     row.operator("cubic_craft.cubify", icon="MESH_CUBE")
+    row = row.row(align=True)
+    row.operator(
+        "cubic_craft.live",
+        icon="CHECKMARK" if session else "PLAY",
+        text="Confirm" if session else "Live",
+        depress=session is not None,
+    )
+    if session:
+        row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
     row.operator("cubic_craft.restore", icon="LOOP_BACK")
     row.operator("cubic_craft.apply", icon="CHECKMARK")
-    if properties.status:
-        _draw_text(layout, properties.status, "INFO")
+    if session:
+        _draw_live(layout, obj, session)
+    elif object_properties(obj).status:
+        _draw_text(layout, object_properties(obj).status, "INFO")
+
+
+def _draw_live(layout, obj, session):
+    mesh = session.mesh_of(obj)
+    if mesh is None:
+        layout.label(text="Another mesh is live", icon="INFO")
+        return
+    text, progress = mesh.status
+    layout.progress(text=text, factor=progress)
+
+
+def _shared(obj):
+    """Return what holds the settings that all objects of a run have in common."""
+    return live.live_properties() if live.current() else object_properties(obj)
+
+
+def _own(obj):
+    """Return what holds the settings that each object of a run keeps."""
+    session = live.current()
+    return live.live_properties() if session and session.is_single else object_properties(obj)
 
 
 def _draw_orientation(layout, obj):
-    properties = object_properties(obj)
+    properties = _shared(obj)
     layout.prop(bpy.context.window_manager, overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
-        layout.prop(properties, "frame")
+        if live.current():
+            layout.prop_search(properties, "frame", bpy.data, "objects")
+        else:
+            layout.prop(properties, "frame")
     layout.prop(properties, "orientation")
     layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
     layout.prop(properties, "rotation")
 
 
 def _draw_pins(layout, obj):
-    layout.prop_search(object_properties(obj), "pin_group", obj, "vertex_groups")
+    layout.prop_search(_own(obj), "pin_group", obj, "vertex_groups")
 
 
 def _draw_map(layout, obj):
-    properties = object_properties(obj)
+    properties = _own(obj)
     layout.prop_search(properties, "map_group", obj, "vertex_groups")
     row = layout.row()
     row.active = bool(properties.map_group)
@@ -76,11 +110,11 @@ def _draw_map(layout, obj):
 
 
 def _draw_result(layout, obj):
-    layout.prop(object_properties(obj), "result")
+    layout.prop(_shared(obj), "result")
 
 
 def _draw_solver(layout, obj):
-    properties = object_properties(obj)
+    properties = _shared(obj)
     layout.prop(properties, "device")
     layout.prop(properties, "max_iterations")
     layout.prop(properties, "tolerance")
@@ -95,13 +129,14 @@ _SECTIONS = (
 )
 
 
-def _problem(obj, properties):
+def _problem(obj):
     """Return what would make Cubify refuse the object, or an empty text."""
     try:
         check_requirements()
         mesh_bridge.check_usable(obj)
     except CubicCraftError as error:
         return str(error)
+    properties = object_properties(obj)
     for group in (properties.pin_group, properties.map_group):
         if group and group not in obj.vertex_groups:
             return f'"{obj.name}" has no vertex group "{group}"; pick another one'

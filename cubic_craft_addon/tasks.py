@@ -2,12 +2,13 @@
 """What there is to solve: one task per mesh, or per new object. And how all results are written."""
 
 import logging
+from dataclasses import replace
 
 import bpy
 import numpy as np
 
 from ..solver import CubicCraftError
-from . import cubify
+from . import cubify, mesh_bridge
 from .choice import Choice
 from .object_frame import stretch_and_orientation
 from .properties import object_properties
@@ -19,10 +20,15 @@ class Task:
     """An object to be cubified with its settings; `solution` is there once it is solved."""
 
     def __init__(self, obj: bpy.types.Object, choice: Choice):
-        self.obj, self.mesh = obj, obj.data
+        self.obj, self.mesh = obj, mesh_bridge.mesh_of(obj)
         self.settings = choice.settings_for(obj)
         self.solution: cubify.Solution | None = None
         self._frame = stretch_and_orientation(obj, self.settings)
+
+    @property
+    def key(self):
+        """All that decides the solution beside the mesh; free of references to Blender's data."""
+        return replace(self.settings, frame=None), *(part.tobytes() for part in self._frame)
 
     def is_like(self, other: "Task") -> bool:
         """Tell whether both have the same solution."""
