@@ -4,7 +4,6 @@
 from typing import Any
 
 import bpy
-import numpy as np
 from rich_mesh import add_rich_monkey, cubic_like
 
 NOTE = "cubic_craft_note"
@@ -39,8 +38,3 @@ def live_attributes(mesh: Any) -> list[str]:
 def mesh_named(name: str) -> Any:
     """Look a mesh up anew, as one must after an undo or a load."""
     return bpy.data.meshes[name]
-
-
-def same_values(one: np.ndarray, other: np.ndarray) -> bool:
-    """Tell whether two arrays have the same bits, but for the sign of zeros."""
-    return (one + np.float32(0)).tobytes() == (other + np.float32(0)).tobytes()

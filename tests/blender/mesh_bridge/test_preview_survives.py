@@ -57,18 +57,18 @@ def test_file(bridge, state, tmp_path):
     path = str(tmp_path / "saved.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects[obj_name()]
+    obj = the_monkey()
     before = snapshot_object(obj)
     show_some(bridge, obj.data)
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects[obj_name()]
+    obj = the_monkey()
     assert bridge.end_all_previews() == [obj.data.name]
     assert differences(before, snapshot_object(obj)) == []
 
 
-def obj_name():
-    return next(obj.name for obj in bpy.data.objects if obj.type == "MESH")
+def the_monkey():
+    return next(obj for obj in bpy.data.objects if obj.type == "MESH")
 
 
 def test_linked_mesh_is_left_alone(bridge, plain_monkey, tmp_path):
@@ -112,7 +112,7 @@ def test_vertex_added(bridge, plain_monkey):
     assert position_of(mesh).tobytes() == shape.tobytes()
 
 
-def test_other_topology_with_the_same_vertices(bridge, plain_monkey):
+def test_data_added_meanwhile_stays(bridge, plain_monkey):
     mesh = plain_monkey.data
     base = position_of(mesh)
     show_some(bridge, mesh)
