@@ -38,8 +38,8 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 
 test: test-solver test-blender ## All tests that need no window
 
-test-solver: setup ## The solver without Blender
-	$(PY) $(PYTEST) tests/solver
+test-solver: setup ## The solver, and what decides in Live, without Blender
+	$(PY) $(PYTEST) tests/solver tests/live
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts

@@ -302,7 +302,9 @@ class Session:
     def _objects(self, context):
         """Return the objects that are still there, by ``session_uid``, the active one first."""
         uids = set(self._object_uids)
-        found = {o.session_uid: o for o in context.view_layer.objects if o.session_uid in uids}
+        # There is a None in it where a script has just removed an object.
+        there = [obj for obj in context.view_layer.objects if obj is not None]
+        found = {obj.session_uid: obj for obj in there if obj.session_uid in uids}
         known = {mesh.object_uid: mesh.mesh_uid for mesh in self.meshes}
         return {
             uid: found[uid]
