@@ -10,6 +10,8 @@ from ... import solver
 from .. import cubify, mesh_bridge
 from ..tasks import Task
 
+_FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles
+
 
 class LiveMesh:
     """The run of one task of `tasks.plan`.
@@ -106,6 +108,11 @@ class LiveMesh:
             self.solution = cubify.solution_of(self._prepared, self._run)
 
     @property
+    def is_seen(self):
+        """Whether the present run has been shown, as far as it is shown at all."""
+        return self._preview is None or self._shown_moment is not None
+
+    @property
     def iteration(self):
         """Number of iterations done."""
         return self._run.stylization.iteration if self._run else 0
@@ -139,6 +146,8 @@ class LiveMesh:
         """Show what the run has come to; tell whether that was anything new."""
         if self._preview is None or self._prepared is None or self._run is None:
             return False
+        if self.iteration < _FIRST_SHOWN and self.solution is None:
+            return False  # what is seen stays until there is something better
         moment = (self.iteration, self.solution is not None)
         if moment == self._shown_moment:
             return False

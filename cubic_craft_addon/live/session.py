@@ -25,6 +25,7 @@ SLICE = 0.02
 _TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and handles events
 _PANEL_STEP = 0.1  # seconds between two redraws of the panel
 _CHECK_SHARE = 0.1  # of the time, at most, goes into looking whether anything has changed
+_LEAST_LIFE = 0.1  # seconds of a run while settings are dragged
 _MODES = ("OBJECT", "WEIGHT_PAINT")
 
 
@@ -57,7 +58,7 @@ class Session:
         self._window = context.window
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
-        self._next_check = self._next_panel = 0.0
+        self._next_check = self._next_panel = self._last_restart = 0.0
         self._has_written = self._may_be_painted = False
         self._turn = 0
         self.error, self.summary = "", ""
@@ -204,17 +205,28 @@ class Session:
 
     def _check(self, objects, now):
         """Restart what has other settings, or other weights, now."""
-        before, self._values = self._values, properties.live_values()
-        self._history.record(self._values, now)
+        values = properties.live_values()
+        self._history.record(values, now)
         self._plan(objects)
-        changed = any(mesh.is_changed(self._task_of(mesh)) for mesh in self.meshes)
-        if changed:
+        is_changed = any(mesh.is_changed(self._task_of(mesh)) for mesh in self.meshes)
+        if self._is_too_young(now):
+            return
+        if is_changed:
             self.on(Event.CHANGED)
         if self._may_be_painted:
             self._may_be_painted = False
-            changed |= self._restart_painted()
-        if changed and self._values == before:
-            self._history.record_outside()
+            is_changed |= self._restart_painted()
+        if is_changed:
+            self._last_restart = now
+            if values == self._values:
+                self._history.record_outside()
+            self._values = values
+
+    def _is_too_young(self, now):
+        """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
+        working = [mesh for mesh in self.meshes if mesh.is_working]
+        is_seen = all(mesh.is_seen for mesh in working)
+        return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
 
     def _restart_changed(self):
         for mesh in self.meshes:
