@@ -2,6 +2,7 @@
 """All that is computed once per mesh, whatever the cubeness, orientation or pins."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,6 +39,14 @@ class RestMesh:
     component_count: int
     component: np.ndarray
     """(n,) int component of each vertex"""
+
+    @cached_property
+    def edge_sum(self):
+        """sum_ij w_ij |v_j - v_i|^2 over ordered pairs, w_ij the cotangent weight of the edge."""
+        matrices = self.matrices
+        rows = np.repeat(np.arange(len(self.V)), np.diff(matrices.indptr))
+        edges = self.V[matrices.indices] - self.V[rows]
+        return -float((matrices.laplacian * (edges * edges).sum(axis=1)).sum())
 
 
 def rest_mesh(V, F):

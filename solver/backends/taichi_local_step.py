@@ -55,7 +55,7 @@ class TaichiLocalStep:
         self._lam, self._Q = array(lam), array(Q)
         self._area_scale = array(area_scale(rest.areas))
         self._cubic_weight = lam * rest.areas
-        self._rest_quadratic = 0.75 * _quadratic(m, rest.V)
+        self._rest_quadratic = 0.75 * rest.edge_sum
         self.R = np.tile(np.eye(3, dtype=real), (n, 1, 1))
         self._z = array(np.einsum("nij,nj->ni", np.broadcast_to(Q, (n, 3, 3)), rest.normals))
         self._u = np.zeros((n, 3), real)
@@ -101,13 +101,6 @@ class TaichiLocalStep:
         taichi_runtime.start(self._wanted)
         self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self.R, self._rhs)
         return self._rhs.astype(np.float64, copy=False)
-
-
-def _quadratic(matrices, V):
-    """Return sum_ij w_ij |v_j - v_i|^2 over ordered pairs, for the positions V (n,3)."""
-    rows = np.repeat(np.arange(len(V)), np.diff(matrices.indptr))
-    edges = V[matrices.indices] - V[rows]
-    return -float((matrices.laplacian * (edges * edges).sum(axis=1)).sum())
 
 
 @cache
