@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import live, overlay, panel, preferences, properties
+from . import live, overlay, panel, preferences, presets, properties
 
-_modules = (properties, preferences, live, overlay, panel)
+_modules = (properties, preferences, live, overlay, presets, panel)
 
 
 def register():

@@ -5,6 +5,7 @@ import bpy
 
 from ..solver import CubicCraftError
 from . import live, mesh_bridge, overlay
+from .presets import CUBIC_PT_presets
 from .properties import object_properties
 from .requirements import check_requirements
 
@@ -18,6 +19,12 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
+
+    def draw_header_preset(self, context):
+        """Offer presets, save while Live runs, whose settings are not those of the object."""
+        obj = context.active_object
+        if obj is not None and obj.type == "MESH" and not live.current():
+            CUBIC_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         """Draw all sections for the active object."""
