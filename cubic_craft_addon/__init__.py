@@ -1,9 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import live, overlay, panel, preferences, presets, properties
+from . import (
+    group_renames,
+    handle_properties,
+    handles_panel,
+    live,
+    overlay,
+    panel,
+    preferences,
+    presets,
+    properties,
+)
 
-_modules = (properties, preferences, live, overlay, presets, panel)
+_modules = (
+    handle_properties,
+    properties,
+    preferences,
+    live,
+    overlay,
+    handles_panel,
+    presets,
+    panel,
+    group_renames,
+)
 
 
 def register():

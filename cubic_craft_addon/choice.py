@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Settings for several objects at once: what holds for all of them, and what each keeps.
 
-Vertex groups belong to the mesh: of several objects, each keeps its own unless it is told.
+Vertex groups and handles belong to the mesh: of several objects, each keeps its own unless it is
+told.
 """
 
 from collections.abc import Mapping
@@ -11,13 +12,15 @@ from typing import Any
 import bpy
 
 from ..solver import CubicCraftError
+from .handle_pose import posed_handles
 from .handles import Handle
-from .properties import RunProperties, object_properties, settings_of
+from .object_properties import object_properties
+from .properties import RunProperties, settings_of
 from .settings import Settings
 
 ALL = tuple(RunProperties.__annotations__)
 """names of the properties that the panel, the operator and Live share"""
-OF_EACH_OBJECT = ("pin_group", "map_group", "map_invert")
+OF_EACH_OBJECT = ("use_handles", "map_group", "map_invert")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 
@@ -28,16 +31,29 @@ class Choice:
     values: Mapping[str, Any]
     """of those in ALL that hold for all objects"""
     frame: bpy.types.Object | None = None
+    handles: tuple[Handle, ...] | None = None
+    """in place of those of the objects"""
 
     def settings_for(self, obj: bpy.types.Object) -> Settings:
-        """Return the settings with which an object is to be cubified."""
+        """Return the settings with which an object is to be cubified.
+
+        Raises
+        ------
+        CubicCraftError
+            The handles of the object cannot be used.
+        """
         changes = {name: value for name, value in self.values.items() if name in _PLAIN}
-        if "pin_group" in self.values:
-            group = self.values["pin_group"]
-            changes["handles"] = (Handle(group),) if group else ()
+        handles = self.handles
+        if handles is None:
+            handles = posed_handles(obj) if self.uses_own_handles(obj) else ()
         if self.values.get("space") == "FRAME":
             changes["frame"] = self.frame
-        return replace(settings_of(obj), **changes)
+        return replace(settings_of(obj, handles), **changes)
+
+    def uses_own_handles(self, obj: bpy.types.Object) -> bool:
+        """Tell whether an object is cubified with its own handles."""
+        is_on = self.values.get("use_handles", object_properties(obj).use_handles)
+        return self.handles is None and is_on
 
     def remember_on(self, target: bpy.types.Object, settings: Settings) -> None:
         """Keep what was used on the object that was made, so that its panel shows how."""

@@ -16,6 +16,7 @@ from mathutils import Vector
 
 from ..solver import CubicCraftError
 from . import live
+from .handle_owner import panel_object
 from .object_frame import world_axes
 
 PROPERTY = "cubic_craft_overlay"
@@ -60,8 +61,10 @@ def lines_of(obj: bpy.types.Object):
 
 def _draw():
     context = bpy.context
-    obj = context.active_object
-    if not getattr(context.window_manager, PROPERTY) or obj is None or obj.type != "MESH":
+    if not getattr(context.window_manager, PROPERTY):
+        return
+    obj = panel_object(context)
+    if obj is None:
         return
     if not context.space_data.overlay.show_overlays:
         return

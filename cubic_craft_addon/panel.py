@@ -4,9 +4,11 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import live, mesh_bridge, overlay
+from . import handles_panel, live, mesh_bridge, overlay
+from .handle_owner import panel_object
+from .handle_pose import object_handles
+from .object_properties import object_properties
 from .presets import CUBIC_PT_presets
-from .properties import object_properties
 from .requirements import check_requirements
 
 DEFAULT_TAB = "Cubic Craft"
@@ -22,22 +24,27 @@ class CUBIC_PT_main(bpy.types.Panel):
 
     def draw_header_preset(self, context):
         """Offer presets, save while Live runs, whose settings are not those of the object."""
+        # The preset is of the active object, which need not be the one that the panel shows.
         obj = context.active_object
         if obj is not None and obj.type == "MESH" and not live.current():
             CUBIC_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
-        """Draw all sections for the active object."""
+        """Draw all sections for the active object, or the mesh that it poses."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        obj = context.active_object
-        if obj is None or obj.type != "MESH":
+        obj = panel_object(context)
+        if obj is None:
             layout.label(text="Select a mesh to make cubic", icon="INFO")
             return
+        if obj != context.active_object:
+            layout.label(text=obj.name, icon="MESH_DATA")
         _draw_cubify(layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
+            if identifier == handles_panel.SECTION:
+                handles_panel.draw_switch(header, obj)
             header.label(text=title)
             if body is not None:
                 draw(body, obj)
@@ -48,7 +55,7 @@ def _draw_cubify(layout, obj):
     problem = "; ".join(session.all_problems) if session else _problem(obj)
     if problem:
         _draw_text(layout.box(), problem, "ERROR")
-    layout.prop(_shared(obj), "cubeness", slider=True)
+    layout.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5
     row.operator("cubic_craft.cubify", icon="MESH_CUBE")
@@ -79,19 +86,8 @@ def _draw_live(layout, obj, session):
     layout.progress(text=text, factor=progress)
 
 
-def _shared(obj):
-    """Return what holds the settings that all objects of a run have in common."""
-    return live.live_properties() if live.current() else object_properties(obj)
-
-
-def _own(obj):
-    """Return what holds the settings that each object of a run keeps."""
-    session = live.current()
-    return live.live_properties() if session and session.is_single else object_properties(obj)
-
-
 def _draw_orientation(layout, obj):
-    properties = _shared(obj)
+    properties = live.shared_properties(obj)
     layout.prop(bpy.context.window_manager, overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
@@ -104,12 +100,8 @@ def _draw_orientation(layout, obj):
     layout.prop(properties, "rotation")
 
 
-def _draw_pins(layout, obj):
-    layout.prop_search(_own(obj), "pin_group", obj, "vertex_groups")
-
-
 def _draw_map(layout, obj):
-    properties = _own(obj)
+    properties = live.own_properties(obj)
     layout.prop_search(properties, "map_group", obj, "vertex_groups")
     row = layout.row()
     row.active = bool(properties.map_group)
@@ -117,11 +109,11 @@ def _draw_map(layout, obj):
 
 
 def _draw_result(layout, obj):
-    layout.prop(_shared(obj), "result")
+    layout.prop(live.shared_properties(obj), "result")
 
 
 def _draw_solver(layout, obj):
-    properties = _shared(obj)
+    properties = live.shared_properties(obj)
     layout.prop(properties, "device")
     layout.prop(properties, "max_iterations")
     layout.prop(properties, "tolerance")
@@ -129,7 +121,7 @@ def _draw_solver(layout, obj):
 
 _SECTIONS = (
     ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
-    ("CUBIC_PT_pins", "Pins", _draw_pins, False),
+    (handles_panel.SECTION, "Handles", handles_panel.draw, False),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
     ("CUBIC_PT_result", "Result", _draw_result, False),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),
@@ -141,12 +133,13 @@ def _problem(obj):
     try:
         check_requirements()
         mesh_bridge.check_usable(obj)
+        object_handles(obj)
     except CubicCraftError as error:
         return str(error)
     properties = object_properties(obj)
-    for group in (properties.pin_group, properties.map_group):
-        if group and group not in obj.vertex_groups:
-            return f'"{obj.name}" has no vertex group "{group}"; pick another one'
+    group = properties.map_group
+    if group and group not in obj.vertex_groups:
+        return f'"{obj.name}" has no vertex group "{group}"; pick another one'
     if properties.space == "FRAME" and properties.frame is None:
         return "No frame object is set; pick one or choose another space"
     return ""

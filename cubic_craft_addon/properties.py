@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import (
     BoolProperty,
+    CollectionProperty,
     EnumProperty,
     FloatProperty,
     FloatVectorProperty,
@@ -15,7 +16,10 @@ from bpy.props import (
     StringProperty,
 )
 
+from .handle_pose import object_handles
+from .handle_properties import CubicCraftHandle
 from .handles import Handle
+from .object_properties import PROPERTY, object_properties
 from .settings import Settings
 
 _SPACES = (
@@ -41,7 +45,6 @@ _DEVICES = (
 )
 
 
-_NAME = "cubic_craft"  # of the property of objects
 _OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
 
 
@@ -78,9 +81,10 @@ class RunProperties:
         default=Settings.space,
         options=_OPTIONS,
     )
-    pin_group: StringProperty(
-        name="Pinned",
-        description="Vertex group that stays exactly in place (weights of 0.5 and more)",
+    use_handles: BoolProperty(
+        name="Handles",
+        description="Hold and pose the vertices of the object's handles",
+        default=True,
         options=_OPTIONS,
     )
     map_group: StringProperty(
@@ -104,7 +108,7 @@ class RunProperties:
     rotation: EnumProperty(
         name="Rotation",
         description="A part may turn by some degrees as a whole to fit the cube. It can be turned"
-        " back at the end; parts with pins are left as they are",
+        " back at the end; parts with handles are left as they are",
         items=_ROTATIONS,
         default=Settings.rotation,
         options=_OPTIONS,
@@ -144,26 +148,48 @@ class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
         description="Object whose axes are those of the cube",
         type=bpy.types.Object,
     )
+    handles: CollectionProperty(type=CubicCraftHandle)
+    active_handle: IntProperty(
+        name="Active Handle",
+        description="Number of the handle that the buttons are about",
+        min=0,
+        options=set(),
+    )
+    is_target: BoolProperty(
+        name="Target",
+        description="A handle follows this object, or once did",
+    )
+    is_made_target: BoolProperty(
+        name="Made as Target",
+        description="This object was made to be followed by a handle, and goes with it",
+    )
     status: StringProperty(
         name="Last Run",
         description="What the last run did",
     )
 
 
-def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
-    """Return the settings of the object."""
-    return getattr(obj, _NAME)
+def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None) -> Settings:
+    """Return the object's settings as plain values.
 
+    Parameters
+    ----------
+    obj
+    handles : tuple of Handle, optional
+        In place of the object's own.
 
-def settings_of(obj: bpy.types.Object) -> Settings:
-    """Return the object's settings as plain values."""
+    Raises
+    ------
+    CubicCraftError
+        The object's own handles cannot be used, see `object_handles`.
+    """
     p = object_properties(obj)
     return Settings(
         cubeness=p.cubeness,
         orientation=tuple(p.orientation),
         space=p.space,
         frame=p.frame,
-        handles=(Handle(p.pin_group),) if p.pin_group else (),
+        handles=object_handles(obj) if handles is None else handles,
         map_group=p.map_group,
         map_invert=p.map_invert,
         result=p.result,
@@ -177,10 +203,10 @@ def settings_of(obj: bpy.types.Object) -> Settings:
 def register():
     """Add `Object.cubic_craft`."""
     bpy.utils.register_class(CubicCraftProperties)
-    setattr(bpy.types.Object, _NAME, PointerProperty(type=CubicCraftProperties))
+    setattr(bpy.types.Object, PROPERTY, PointerProperty(type=CubicCraftProperties))
 
 
 def unregister():
     """Remove `Object.cubic_craft`; the values stay in the file."""
-    delattr(bpy.types.Object, _NAME)
+    delattr(bpy.types.Object, PROPERTY)
     bpy.utils.unregister_class(CubicCraftProperties)

@@ -9,9 +9,10 @@ import numpy as np
 
 from ..solver import CubicCraftError
 from . import cubify, mesh_bridge
+from .baked_pose import remember_pose
 from .choice import Choice
 from .object_frame import stretch_and_orientation
-from .properties import object_properties
+from .object_properties import object_properties
 
 _log = logging.getLogger(__name__)
 
@@ -80,6 +81,9 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
             assert task.solution is not None
             target = cubify.write(task.obj, task.solution, task.settings.result)
             written.append(task.solution)
+            # A shape key poses nothing: its basis is still the original.
+            is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
+            remember_pose(target, is_posed=is_posed)
             choice.remember_on(target, task.settings)
             object_properties(target).status = _status(task.solution)
     except Exception as error:

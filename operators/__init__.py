@@ -6,6 +6,12 @@ import bpy
 from .apply import CUBIC_CRAFT_OT_apply
 from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .cubify import CUBIC_CRAFT_OT_cubify
+from .handle_add import CUBIC_CRAFT_OT_handle_add
+from .handle_follow import CUBIC_CRAFT_OT_handle_follow
+from .handle_move import CUBIC_CRAFT_OT_handle_move
+from .handle_pin_selection import CUBIC_CRAFT_OT_handle_pin_selection
+from .handle_remove import CUBIC_CRAFT_OT_handle_remove
+from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
 from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
 from .preset_add import CUBIC_CRAFT_OT_preset_add
 from .restore import CUBIC_CRAFT_OT_restore
@@ -19,5 +25,11 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,
         CUBIC_CRAFT_OT_preset_add,
+        CUBIC_CRAFT_OT_handle_add,
+        CUBIC_CRAFT_OT_handle_remove,
+        CUBIC_CRAFT_OT_handle_move,
+        CUBIC_CRAFT_OT_handle_pin_selection,
+        CUBIC_CRAFT_OT_handle_follow,
+        CUBIC_CRAFT_OT_handle_reset_pose,
     )
 )

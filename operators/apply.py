@@ -4,6 +4,7 @@
 import bpy
 
 from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.baked_pose import rest_in_pose
 from .originals import for_each_original, poll_originals
 from .selection import poll_meshes
 
@@ -23,4 +24,9 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
 
     def execute(self, context):
         """Forget each mesh's original once."""
-        return for_each_original(self, context, lambda obj: mesh_bridge.forget(obj.data), "Applied")
+        return for_each_original(self, context, _apply, "Applied")
+
+
+def _apply(obj):
+    mesh_bridge.forget(obj.data)
+    rest_in_pose(obj.data)

@@ -7,7 +7,8 @@ from .. import solver
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.cubify import read_shape, stretched_rest
 from ..cubic_craft_addon.object_frame import angles_of, stretch_and_orientation
-from ..cubic_craft_addon.properties import object_properties, settings_of
+from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.properties import settings_of
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
 
@@ -39,7 +40,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         found, problems = [], []
         for obj in selected_meshes(context):
             try:
-                settings = settings_of(obj)
+                settings = settings_of(obj, handles=())
                 stretch, _ = stretch_and_orientation(obj, settings)
                 rest = stretched_rest(obj, read_shape(obj), stretch)
                 found.append((obj, _best_angles(obj, settings, rest)))

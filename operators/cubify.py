@@ -5,13 +5,20 @@ Invariant: all objects are solved before the first is written, so that whatever 
 way, nothing has changed.
 """
 
+import math
+
 import bpy
-from bpy.props import StringProperty
+from bpy.props import CollectionProperty, StringProperty
 
 from .. import solver
 from ..cubic_craft_addon import cubify
+from ..cubic_craft_addon.baked_pose import settle
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
-from ..cubic_craft_addon.properties import RunProperties, object_properties
+from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handle_properties import CubicCraftGivenHandle
+from ..cubic_craft_addon.handles import Handle
+from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.properties import RunProperties
 from ..cubic_craft_addon.tasks import plan, write_all
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
@@ -35,6 +42,12 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         description="Name of the object whose axes are those of the cube",
         options={"SKIP_SAVE"},
     )
+    handles: CollectionProperty(
+        name="Handles",
+        description="Handles in place of those of the objects",
+        type=CubicCraftGivenHandle,
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context):
@@ -44,6 +57,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     def execute(self, context):
         """Solve all objects, then write all results."""
         objects = selected_meshes(context)
+        settle(objects)
         _adopt_settings(self, objects)
         try:
             choice = _choice(self, objects[0])
@@ -64,9 +78,9 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
         layout.prop(self, "rotation")
-        groups = context.active_object
+        layout.prop(self, "use_handles")
+        groups = panel_object(context)
         if groups is not None:
-            layout.prop_search(self, "pin_group", groups, "vertex_groups")
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
             layout.prop(self, "map_invert")
         layout.prop(self, "result")
@@ -90,7 +104,26 @@ def _adopt_settings(operator, objects):
 def _choice(operator, active):
     names = tuple(name for name in ALL if operator.properties.is_property_set(name))
     frame = find_frame(operator.frame, active) if operator.space == "FRAME" else None
-    return Choice(values_of(operator, names), frame)
+    is_given = operator.properties.is_property_set("handles")
+    return Choice(values_of(operator, names), frame, _handles(operator) if is_given else None)
+
+
+def _handles(operator):
+    return tuple(
+        Handle(item.name, threshold=item.threshold, matrix=_affine(item))
+        for item in operator.handles
+    )
+
+
+def _affine(item):
+    """Return the item's matrix as 16 numbers, row by row."""
+    matrix = tuple(value for row in item.matrix for value in row)
+    if matrix[12:] != (0.0, 0.0, 0.0, 1.0) or not all(map(math.isfinite, matrix)):
+        raise CubicCraftError(
+            f'the matrix of handle "{item.name}" is no affine map; give it as a mathutils.Matrix'
+            " (Blender takes a plain list by its columns)"
+        )
+    return matrix
 
 
 def _solve_all(tasks, manager):

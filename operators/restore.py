@@ -4,6 +4,7 @@
 import bpy
 
 from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.baked_pose import remember_pose
 from .originals import for_each_original, poll_originals
 from .selection import poll_meshes
 
@@ -23,4 +24,9 @@ class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
 
     def execute(self, context):
         """Restore each mesh once."""
-        return for_each_original(self, context, mesh_bridge.restore, "Restored")
+        return for_each_original(self, context, _restore, "Restored")
+
+
+def _restore(obj):
+    mesh_bridge.restore(obj)
+    remember_pose(obj, is_posed=False)

@@ -2,17 +2,26 @@
 """Which objects an operator works on."""
 
 from ..cubic_craft_addon import live, mesh_bridge
+from ..cubic_craft_addon.handle_owner import panel_object, posed_mesh
 from ..solver import CubicCraftError
 
 _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
 
 
 def selected_meshes(context):
-    """Return the selected mesh objects, the active one first; if none is selected, the active."""
-    active = context.active_object
-    objects = [obj for obj in context.selected_objects if obj.type == "MESH"]
-    if not objects and active is not None and active.type == "MESH":
-        return [active]
+    """Return the selected mesh objects, the active one first.
+
+    If none is selected, those whose handles follow what is selected; if there are none either, the
+    active one, or the one that it poses.
+    """
+    active = panel_object(context)
+    selected = context.selected_objects
+    objects = [obj for obj in selected if obj.type == "MESH"]
+    if not objects:
+        posed = (posed_mesh(context, obj) for obj in selected)
+        objects = list(dict.fromkeys(obj for obj in posed if obj is not None))
+    if not objects:
+        return [active] if active is not None else []
     return sorted(objects, key=lambda obj: obj != active)
 
 

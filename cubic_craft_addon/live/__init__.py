@@ -5,8 +5,11 @@
 mesh; the operator in ``operators/live.py`` passes events on.
 """
 
+from dataclasses import replace
+
 import bpy
 
+from ..object_properties import object_properties
 from ..properties import settings_of
 from ..settings import Settings
 from . import healing, properties
@@ -14,7 +17,17 @@ from .machine import Event
 from .properties import live_choice, live_properties
 from .session import Session
 
-__all__ = ("Event", "begin", "current", "live_properties", "register", "settings_now", "unregister")
+__all__ = (
+    "Event",
+    "begin",
+    "current",
+    "live_properties",
+    "own_properties",
+    "register",
+    "settings_now",
+    "shared_properties",
+    "unregister",
+)
 
 _session: Session | None = None
 
@@ -38,15 +51,28 @@ def current() -> Session | None:
     return None if _session is None or _session.is_ended else _session
 
 
+def shared_properties(obj: bpy.types.Object):
+    """Return what holds the settings that all objects of a run have in common."""
+    return live_properties() if current() else object_properties(obj)
+
+
+def own_properties(obj: bpy.types.Object):
+    """Return what holds the settings that each object of a run keeps (`OF_EACH_OBJECT`)."""
+    session = current()
+    return live_properties() if session and session.is_single else object_properties(obj)
+
+
 def settings_now(obj: bpy.types.Object) -> Settings:
-    """Return the settings that the panel shows for an object.
+    """Return the settings that the panel shows for an object, its handles left out.
 
     Raises
     ------
     CubicCraftError
         As `live_choice`.
     """
-    return live_choice([obj]).settings_for(obj) if current() else settings_of(obj)
+    if current() is None:
+        return settings_of(obj, handles=())
+    return replace(live_choice([obj]), handles=()).settings_for(obj)
 
 
 def register():

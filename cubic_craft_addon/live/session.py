@@ -11,6 +11,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..baked_pose import settle
 from ..choice import Choice
 from ..tasks import Task, plan, write_all
 from . import handlers, properties, status_bar, wake
@@ -63,6 +64,7 @@ class Session:
         self._turn = 0
         self.error, self.summary = "", ""
         self.problems: list[str] = []
+        settle(objects)
         properties.adopt(objects[0])
         self._values = properties.live_values()
         self._history = History(self._values)

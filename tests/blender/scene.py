@@ -6,7 +6,7 @@ import io
 
 import bpy
 import numpy as np
-from mathutils import Euler
+from mathutils import Euler, Matrix
 from rich_mesh import position_of
 
 
@@ -38,6 +38,11 @@ def select(*objects):
 
 def cubify(**options):
     return bpy.ops.cubic_craft.cubify(**{"max_iterations": 30, **options})
+
+
+def given(group, matrix=None, threshold=0.5):
+    """Return a handle as Cubify takes it."""
+    return {"name": group, "threshold": threshold, "matrix": matrix or Matrix()}
 
 
 def reports_of(run):

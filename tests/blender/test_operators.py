@@ -241,34 +241,6 @@ def test_one_bad_object_does_not_stop_the_others():
     assert position_of(good.data).tobytes() != before.tobytes()
 
 
-def test_pins_stay_to_the_bit_and_the_rest_moves():
-    obj = add_monkey()
-    group = obj.vertex_groups.new(name="Hold")
-    group.add([3, 50, 51, 52], 0.5, "REPLACE")
-    group.add([7], 0.49, "REPLACE")
-    before = position_of(obj.data)
-    cubify(pin_group="Hold", cubeness=0.8)
-    after = position_of(obj.data)
-    held = [3, 50, 51, 52]
-    assert after[held].tobytes() == before[held].tobytes()
-    assert after[7].tobytes() != before[7].tobytes()
-
-
-def test_each_of_several_objects_keeps_its_own_pins():
-    first, second = add_monkey("First"), add_monkey("Second")
-    for obj, vertex in ((first, 3), (second, 60)):
-        obj.vertex_groups.new(name=obj.name).add([vertex], 1.0, "REPLACE")
-        obj.cubic_craft.pin_group = obj.name
-    before = position_of(first.data)
-    select(first, second)
-    cubify(cubeness=0.8)
-    for obj, vertex, other in ((first, 3, 60), (second, 60, 3)):
-        after = position_of(obj.data)
-        assert after[vertex].tobytes() == before[vertex].tobytes()
-        assert after[other].tobytes() != before[other].tobytes()
-        assert obj.cubic_craft.pin_group == obj.name
-
-
 def test_the_map_scales_cubeness_and_inverts():
     obj = add_monkey()
     everything = range(len(obj.data.vertices))

@@ -6,7 +6,7 @@ import importlib
 import bpy
 import pytest
 from rich_mesh import add_rich_monkey
-from scene import add_monkey, cubify, select
+from scene import add_monkey, cubify, given, select
 from snapshot import differences, snapshot_object
 
 # Before Blender 5 the settings appear among the object's custom properties once they are read.
@@ -33,6 +33,15 @@ def _hidden(obj):
 
 def _all_pinned(obj):
     obj.vertex_groups.new(name="All").add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    obj.cubic_craft.handles.add().group = "All"
+
+
+def _missing_group(obj):
+    obj.cubic_craft.handles.add().group = "Ears"
+
+
+def _no_group(obj):
+    obj.cubic_craft.handles.add()
 
 
 @pytest.mark.parametrize(
@@ -42,8 +51,10 @@ def _all_pinned(obj):
         (_no_faces, {}, "Suzanne.*no faces"),
         (_not_finite, {}, "Suzanne.*finite"),
         (_hidden, {}, "Suzanne.*hidden"),
-        (_all_pinned, {"pin_group": "All"}, "Suzanne.*all vertices are pinned"),
-        (None, {"pin_group": "Ears"}, "Suzanne.*Ears"),
+        (_all_pinned, {}, "Suzanne.*all vertices are pinned"),
+        (None, {"handles": [given("Ears")]}, "Suzanne.*Ears"),
+        (_missing_group, {}, "Suzanne.*no vertex group.*Ears"),
+        (_no_group, {}, "handle 1 of .*Suzanne.*no vertex group"),
         (None, {"map_group": "Ears"}, "Suzanne.*Ears"),
         (None, {"space": "FRAME"}, "Suzanne.*frame object"),
         (None, {"space": "FRAME", "frame": "Nobody"}, "no object.*Nobody"),

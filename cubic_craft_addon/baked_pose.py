@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""When the posed shape becomes the original, its pose becomes the rest.
+
+Apply makes the posed shape the original, and so does an edit by hand. The next Cubify starts from
+that, where the vertices are with their targets already; without a new rest it would move them by
+the same way once more. So each handle remembers the relation of its target (see `handle_pose`) with
+which the mesh was last written.
+"""
+
+import bpy
+from mathutils import Matrix
+
+from . import mesh_bridge
+from .handle_pose import followed, relation
+from .object_properties import has_properties, object_properties
+
+
+def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
+    """Remember the pose with which the mesh of the object has just been written.
+
+    Parameters
+    ----------
+    obj
+    is_posed : bool
+        The mesh itself has been written, with the object's own handles.
+    """
+    mesh = mesh_bridge.mesh_of(obj)
+    users = _users(mesh) if mesh.users > 1 else [obj]
+    targets = [target for _, target in followed(obj)] if is_posed else []
+    for user in users:
+        for handle in object_properties(user).handles:
+            handle.is_baked = False
+        for handle, target in followed(user):
+            if target in targets:
+                handle.baked = Matrix(relation(user, handle).tolist())
+                handle.is_baked = True
+
+
+def rest_in_pose(mesh: bpy.types.Mesh) -> None:
+    """Make the pose that the mesh was written with the rest, as its shape is the original now."""
+    for user in _users(mesh):
+        for handle in object_properties(user).handles:
+            if handle.is_baked:
+                handle.rest = handle.baked
+                handle.is_baked = False
+
+
+def settle(objects: list[bpy.types.Object]) -> None:
+    """Do so for each mesh object whose mesh was edited by hand since it was written."""
+    for obj in objects:
+        mesh = mesh_bridge.mesh_of(obj)
+        is_baked = any(handle.is_baked for handle in object_properties(obj).handles)
+        if is_baked and not mesh_bridge.has_original(mesh):
+            rest_in_pose(mesh)
+
+
+def _users(mesh):
+    """Return the objects with handles that show the mesh."""
+    users = bpy.data.user_map(subset=[mesh])[mesh]
+    return [
+        user
+        for user in users
+        if isinstance(user, bpy.types.Object) and user.is_editable and has_properties(user)
+    ]

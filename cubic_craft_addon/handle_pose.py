@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pose: where the targets of an object's handles have gone since they were bound.
+
+A target's *relation* to the object is its matrix in the object's coordinates; B is the relation
+when the handle was bound, C is the one now, and the handle's vertices are mapped by M = C B^-1.
+
+Invariant: M is the same, bit for bit, as long as object and target move together; Live starts anew
+whenever it changes. That is why the relation of a child comes from its own transform: its matrix in
+the world carries the rounding (32 bit) of wherever the object is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..solver.errors import CubicCraftError
+from .handles import IDENTITY, Handle
+from .object_properties import has_properties, object_properties
+
+if TYPE_CHECKING:
+    from .handle_properties import CubicCraftHandle
+
+_SMALLEST_SCALE = 1e-6  # relative; a flatter target or object has no inverse worth the name
+_STILL = 1e-6  # relative; a target that has moved less has not moved
+_DIGITS = 5  # of a matrix that comes by way of the world
+
+
+def object_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
+    """Return the handles of the object as they are posed now; none while they are switched off.
+
+    Raises
+    ------
+    CubicCraftError
+        As `posed_handles`.
+    """
+    return posed_handles(obj) if object_properties(obj).use_handles else ()
+
+
+def posed_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
+    """Return the handles of the object as they are posed now, switched on or off.
+
+    Cheap: it looks at no vertex. A handle whose target was deleted is pinned where it is at rest.
+
+    Raises
+    ------
+    CubicCraftError
+        A vertex group is missing, or a target or the object has a transform that cannot be used;
+        the message names the object and the cure.
+    """
+    return tuple(
+        Handle(_group(obj, number, item), threshold=item.threshold, matrix=_matrix(obj, item))
+        for number, item in enumerate(object_properties(obj).handles, start=1)
+    )
+
+
+def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
+    """Make the place that the target has now the one in which nothing moves."""
+    target = handle.target
+    object_properties(target).is_target = True
+    parent = target.parent
+    handle.is_foreign = parent is not None and parent != obj and parent.type == "MESH"
+    if target == obj:
+        return  # refused when it is used, so that the panel can say it
+    bpy.context.view_layer.update()
+    handle.is_baked = False
+    matrix = relation(obj, handle)
+    if np.isfinite(matrix).all():
+        handle.rest = Matrix(matrix.tolist())
+
+
+def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
+    """Return the matrix (4,4) of the handle's target in the coordinates of the object.
+
+    Raises
+    ------
+    CubicCraftError
+        The object has a transform that cannot be used.
+    """
+    return _relation(obj, handle)[0]
+
+
+def reset(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
+    """Put the target back to where it was when it was bound."""
+    target = handle.target
+    reference = _reference(obj, handle)
+    if _is_plain_child(target, reference):
+        target.matrix_basis = target.matrix_parent_inverse.inverted_safe() @ handle.rest
+    else:
+        target.matrix_world = reference.matrix_world @ handle.rest
+
+
+def live_target(handle: CubicCraftHandle) -> bpy.types.Object | None:
+    """Return the object that the handle follows; None if it is pinned, or the target was deleted.
+
+    The handle itself keeps a deleted object in the file, where no scene has it any more.
+    """
+    target = handle.target if handle.mode == "FOLLOW" else None
+    return target if target is not None and _is_in_a_scene(target) else None
+
+
+def followed(obj: bpy.types.Object) -> Iterator[tuple[CubicCraftHandle, bpy.types.Object]]:
+    """Give each handle of the object that follows something, with its target."""
+    for handle in object_properties(obj).handles:
+        target = live_target(handle)
+        if target is not None:
+            yield handle, target
+
+
+def _group(obj, number, handle):
+    if not handle.group:
+        raise CubicCraftError(
+            f'handle {number} of "{obj.name}" has no vertex group; pick one or remove the handle'
+        )
+    if handle.group not in obj.vertex_groups:
+        raise CubicCraftError(
+            f'"{obj.name}" has no vertex group "{handle.group}"; pick another one'
+        )
+    return handle.group
+
+
+def _matrix(obj, handle):
+    """Return M as 16 numbers, row by row."""
+    target = live_target(handle)
+    if target is None:
+        return IDENTITY
+    if target == obj:
+        raise CubicCraftError(
+            f'a handle of "{obj.name}" follows the object itself; pick another target'
+        )
+    now, noise = _relation(obj, handle)
+    rest = np.array(handle.rest, dtype=np.float64)
+    for matrix in (rest, now):
+        _check_invertible(matrix, obj, target)
+    matrix = now @ np.linalg.inv(rest)
+    size = max(noise, np.abs(now[:3, 3]).max(), np.abs(rest[:3, 3]).max())
+    if _is_identity(matrix, size):
+        return IDENTITY
+    if noise > 0.0:
+        _round(matrix[:3, :3], np.abs(matrix[:3, :3]).max())
+        _round(matrix[:3, 3], size)
+    return tuple(matrix.ravel().tolist())
+
+
+def _relation(obj, handle):
+    """Return the relation (4,4), and the size whose last bits it may be wrong by, 0 if by none."""
+    target = handle.target
+    reference = _reference(obj, handle)
+    if _is_plain_child(target, reference):
+        own, inverse = (
+            np.array(matrix, dtype=np.float64)
+            for matrix in (target.matrix_basis, target.matrix_parent_inverse)
+        )
+        return inverse @ own, 0.0
+    world = np.array(reference.matrix_world, dtype=np.float64)
+    _check_invertible(world, reference, reference)
+    place = np.array(target.matrix_world, dtype=np.float64)
+    if not np.isfinite(place).all():
+        return place, 0.0
+    distance = max(np.abs(world[:3, 3]).max(), np.abs(place[:3, 3]).max())
+    into_object = np.linalg.inv(world)
+    noise = distance * np.abs(into_object[:3, :3]).max()
+    return into_object @ place, max(noise, 1e-30)
+
+
+def _reference(obj, handle):
+    """Return the object to which the target is related.
+
+    A copy of an object has handles with the same targets, which hang on the original. There they
+    tell the pose of both, wherever the copy is put.
+    """
+    parent = handle.target.parent
+    if handle.is_foreign or parent is None or parent == obj:
+        return obj
+    if parent.type != "MESH" or not has_properties(parent):
+        return obj
+    is_handle_there = any(h.target == handle.target for h in object_properties(parent).handles)
+    return parent if is_handle_there else obj
+
+
+def _is_plain_child(target, reference):
+    """Tell whether nothing but its own transform says where the target is on the reference."""
+    return (
+        target.parent == reference
+        and target.parent_type == "OBJECT"
+        and target.rigid_body is None
+        and not any(not c.mute and c.influence > 0.0 for c in target.constraints)
+    )
+
+
+def _is_in_a_scene(target):
+    for scene in bpy.data.scenes:
+        found = scene.objects.get(target.name)
+        # Another object of that name may come from a library.
+        if found == target or (found is not None and target in tuple(scene.objects)):
+            return True
+    return False
+
+
+def _check_invertible(matrix, obj, target):
+    if np.isfinite(matrix).all():
+        sizes = np.linalg.svd(matrix[:3, :3], compute_uv=False)
+        if sizes[-1] > _SMALLEST_SCALE * sizes[0]:
+            return
+    whose = "it" if target == obj else f'"{target.name}"'
+    raise CubicCraftError(
+        f'the handles of "{obj.name}" cannot be posed, because {whose} has a scale of zero or'
+        " a transform that is not finite; clear it (Alt-S)"
+    )
+
+
+def _is_identity(matrix, size):
+    off = np.abs(matrix - np.eye(4))
+    return off[:3, :3].max() <= _STILL and off[:3, 3].max() <= _STILL * size
+
+
+def _round(values, size):
+    """Drop the last digits of the values, in place."""
+    unit = 10.0 ** (math.floor(math.log10(size)) - _DIGITS)
+    values[...] = np.round(values / unit) * unit

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The handles as Blender properties: in the list of an object, and as an option of Cubify."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from . import handle_pose
+from .handles import THRESHOLD
+
+_MODES = (
+    ("PINNED", "Pinned", "The vertices stay exactly in place", "PINNED", 0),
+    ("FOLLOW", "Follow", "The vertices go along with an object", "EMPTY_AXIS", 1),
+)
+_IDENTITY: Any = tuple(tuple(row) for row in np.eye(4).tolist())
+
+
+def _bind_target(handle, _context):
+    """Take the place that the target has now as the one in which nothing moves."""
+    if handle.target is not None:
+        handle.mode = "FOLLOW"
+        handle_pose.bind(handle.id_data, handle)
+
+
+class _MemberProperties:
+    """Mixin of what an object's handle and an operator's have in common."""
+
+    threshold: FloatProperty(
+        name="Threshold",
+        description="Least weight in the vertex group that makes a vertex part of the handle",
+        default=THRESHOLD,
+        min=0.0,
+        max=1.0,
+    )
+
+
+class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
+    """A handle of an object: a vertex group that is held, or goes along with another object."""
+
+    group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group that is held",
+    )
+    mode: EnumProperty(
+        name="Mode",
+        description="Whether the vertices stay in place or go along with an object",
+        items=_MODES,
+        default="PINNED",
+    )
+    target: PointerProperty(
+        name="Target",
+        description="Object that the vertices go along with when it is moved, turned or scaled"
+        " from where it is when it is picked",
+        type=bpy.types.Object,
+        poll=lambda handle, obj: obj != handle.id_data,
+        update=_bind_target,
+    )
+    rest: FloatVectorProperty(
+        name="Rest",
+        description="Matrix of the target, relative to the object, at which nothing moves",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
+    baked: FloatVectorProperty(
+        name="Baked",
+        description="Matrix of the target, relative to the object, when the mesh was written",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
+    is_baked: BoolProperty(
+        name="Is Baked",
+        description="The mesh has been written with this handle's pose",
+    )
+    is_foreign: BoolProperty(
+        name="Foreign Target",
+        description="The target belonged to another mesh when it was picked",
+    )
+
+
+class CubicCraftGivenHandle(_MemberProperties, bpy.types.PropertyGroup):
+    """A handle that is given to Cubify by a script; its name is that of the vertex group.
+
+    Blender wants all three in each dictionary: "name", "threshold" and "matrix".
+    """
+
+    matrix: FloatVectorProperty(
+        name="Matrix",
+        description="Affine map of the original positions, in object space (a mathutils.Matrix)",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
+
+
+register, unregister = bpy.utils.register_classes_factory((CubicCraftHandle, CubicCraftGivenHandle))

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an object keeps its settings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+if TYPE_CHECKING:
+    from .properties import CubicCraftProperties
+
+PROPERTY = "cubic_craft"
+"""name of the property of objects"""
+
+
+def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
+    """Return the settings of the object."""
+    return getattr(obj, PROPERTY)
+
+
+def has_properties(obj: bpy.types.Object) -> bool:
+    """Tell whether the object has settings of its own.
+
+    Before Blender 5, reading the settings stores them on the object. So whoever looks at objects
+    that the artist has not brought to us asks here first.
+    """
+    return obj.is_property_set(PROPERTY)

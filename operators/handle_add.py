@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add a handle: a vertex group of the mesh is held."""
+
+import bpy
+from bpy.props import StringProperty
+
+from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.object_properties import object_properties
+from .active_handle import add_handle, poll_mesh
+from .selection import report_all
+
+
+class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
+    """Hold the vertices of a vertex group."""
+
+    bl_idname = "cubic_craft.handle_add"
+    bl_label = "Add Handle"
+    bl_description = (
+        "Hold the vertices of a vertex group: of the active one, or the first that is not held yet"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group that is to be held; empty for the active one",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh with a vertex group."""
+        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT", "EDIT_MESH")):
+            return False
+        if not panel_object(context).vertex_groups:
+            cls.poll_message_set("The mesh has no vertex group; add one, or use Pin Selection")
+            return False
+        return True
+
+    def execute(self, context):
+        """Add the handle, pinned."""
+        obj = panel_object(context)
+        held = {handle.group for handle in object_properties(obj).handles}
+        groups = [group.name for group in obj.vertex_groups]
+        if not self.group:
+            candidates = [obj.vertex_groups.active.name, *groups]
+            self.group = next((name for name in candidates if name not in held), "")
+            if not self.group:
+                return report_all(self, "", ["Every vertex group has a handle already"])
+        if self.group not in groups:
+            return report_all(self, "", [f'"{obj.name}" has no vertex group "{self.group}"'])
+        if self.group in held:
+            return report_all(self, "", [f'"{self.group}" has a handle already'])
+        add_handle(obj, self.group)
+        return report_all(self, f'Added a handle for "{self.group}"', [])

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Remove a handle, and the empty that was made for it."""
+
+import bpy
+
+from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.object_properties import object_properties
+from .active_handle import active_handle, poll_handle
+
+
+class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
+    """Let go of the vertices of the active handle."""
+
+    bl_idname = "cubic_craft.handle_remove"
+    bl_label = "Remove Handle"
+    bl_description = (
+        "Let go of the vertices of the active handle. The vertex group stays; an empty that was"
+        " made for the handle is removed, unless something else uses it"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is an active handle."""
+        return poll_handle(cls, context)
+
+    def execute(self, context):
+        """Remove the handle, then its empty."""
+        obj = panel_object(context)
+        properties = object_properties(obj)
+        target = active_handle(obj).target
+        properties.handles.remove(properties.active_handle)
+        properties.active_handle = max(
+            min(properties.active_handle, len(properties.handles) - 1), 0
+        )
+        if target is not None and _is_ours_alone(target):
+            if context.view_layer.objects.active in (target, None):
+                context.view_layer.objects.active = obj
+                obj.select_set(True)
+            bpy.data.objects.remove(target)
+        return {"FINISHED"}
+
+
+def _is_ours_alone(target):
+    """Tell whether we made the object and only collections and scenes still use it."""
+    if not object_properties(target).is_made_target or target.library is not None:
+        return False
+    users = bpy.data.user_map(subset=[target])[target]
+    return all(isinstance(user, (bpy.types.Collection, bpy.types.Scene)) for user in users)

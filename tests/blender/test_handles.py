@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Handles: what is held stays or goes where it is told, and the rest follows."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from posing import LEFT, RIGHT, add_posable, follow, mapped, pin, pose
+from rich_mesh import position_of
+from scene import cubify, given, reports_of, select
+
+IDENTITY = tuple(np.eye(4).ravel())
+
+
+@pytest.fixture
+def posed(extension):
+    """Return `object_handles` of the installed extension."""
+    module = f"{extension.__name__}.cubic_craft_addon.handle_pose"
+    return importlib.import_module(module).object_handles
+
+
+@pytest.mark.parametrize("cubeness", [0.0, 0.6])
+@pytest.mark.parametrize(
+    "where",
+    [
+        {},
+        {"location": (50, -20, 3), "rotation_euler": (0.4, 1.2, -2.0)},
+        {"scale": (1.0, 2.0, -0.5), "rotation_euler": (0.4, 1.2, -2.0)},
+    ],
+)
+def test_what_is_held_is_exactly_where_it_should_be_and_the_rest_follows(posed, cubeness, where):
+    obj, left, right = add_posable(**where)
+    before = position_of(obj.data)
+    pose(obj)
+    matrix = posed(obj)[1].matrix
+    assert matrix != IDENTITY
+    assert cubify(cubeness=cubeness) == {"FINISHED"}
+    after = position_of(obj.data)
+    assert after[left].tobytes() == before[left].tobytes()
+    wanted = mapped(before[right], matrix)
+    if "scale" in where:  # the stretch of the object and back costs the last bit
+        np.testing.assert_allclose(after[right], wanted, rtol=3e-7, atol=1e-7)
+    else:
+        assert after[right].tobytes() == wanted.tobytes()
+    free = np.setdiff1d(np.arange(len(before)), [*left, *right])
+    assert np.abs(after[free] - before[free]).max() > 0.1
+    assert np.isfinite(after).all()
+
+
+def test_a_target_moves_rotates_and_scales_the_vertices_about_itself():
+    obj, _, right = add_posable(location=(3, 2, 1), rotation_euler=(0.2, 0.3, 0.4))
+    before = position_of(obj.data)
+    pin(obj, LEFT)
+    empty = follow(obj, RIGHT)
+    here = np.array(obj.matrix_world) @ np.append(empty.location, 1.0)
+    turn = Matrix.LocRotScale((0, 0, 1), Matrix.Rotation(0.5, 3, "X"), (1.5, 1.5, 1.5))
+    centre = Matrix.Translation(here[:3])
+    empty.matrix_world = centre @ turn @ centre.inverted() @ empty.matrix_world
+    cubify(cubeness=0.0)
+    world = np.array(obj.matrix_world)
+    wanted = mapped(before[right], np.array(centre @ turn @ centre.inverted()) @ world)
+    np.testing.assert_allclose(mapped(position_of(obj.data)[right], world), wanted, atol=2e-6)
+
+
+def test_handles_at_rest_with_cubeness_0_move_nothing(posed):
+    obj, _, _ = add_posable(location=(7, 8, 9), rotation_euler=(1, 2, 3))
+    before = position_of(obj.data)
+    for group in (LEFT, RIGHT):
+        follow(obj, group)
+    assert [handle.matrix for handle in posed(obj)] == [IDENTITY] * 2
+    cubify(cubeness=0.0)
+    np.testing.assert_allclose(position_of(obj.data), before, atol=2e-6)
+
+
+def test_posing_starts_from_the_original_every_time():
+    obj, _, _ = add_posable()
+    before = position_of(obj.data)
+    empty = pose(obj)
+    cubify()
+    once = position_of(obj.data)
+    cubify()
+    assert position_of(obj.data).tobytes() == once.tobytes()
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert position_of(obj.data).tobytes() == before.tobytes()
+    assert empty.location.length > 0
+
+
+def test_the_switch_turns_all_handles_off(posed):
+    obj, left, _ = add_posable()
+    before = position_of(obj.data)
+    pose(obj)
+    obj.cubic_craft.use_handles = False
+    assert posed(obj) == ()
+    cubify()
+    assert position_of(obj.data)[left].tobytes() != before[left].tobytes()
+    cubify(use_handles=True)
+    assert position_of(obj.data)[left].tobytes() == before[left].tobytes()
+    assert obj.cubic_craft.use_handles
+
+
+def test_where_handles_overlap_the_first_counts():
+    obj, left, _ = add_posable()
+    before = position_of(obj.data)
+    obj.vertex_groups.new(name="More").add(range(len(before) // 2), 1.0, "REPLACE")
+    pin(obj, LEFT)
+    empty = follow(obj, "More")
+    empty.location.z += 1
+    more = np.setdiff1d(np.arange(len(before) // 2), left)
+    cubify()
+    assert position_of(obj.data)[left].tobytes() == before[left].tobytes()
+    np.testing.assert_allclose(position_of(obj.data)[more], before[more] + [0, 0, 1], atol=1e-6)
+    assert bpy.ops.cubic_craft.handle_move(direction="UP") == {"FINISHED"}
+    both = np.intersect1d(np.arange(len(before) // 2), left)
+    cubify()
+    np.testing.assert_allclose(position_of(obj.data)[both], before[both] + [0, 0, 1], atol=1e-6)
+
+
+def test_the_threshold_says_how_much_weight_is_needed():
+    obj, _, _ = add_posable()
+    group = obj.vertex_groups.new(name="Soft")
+    for vertex, weight in ((3, 0.2), (50, 0.5), (90, 1.0)):
+        group.add([vertex], weight, "REPLACE")
+    before = position_of(obj.data)
+    handle = pin(obj, "Soft")
+    for threshold, held in ((0.5, [50, 90]), (0.1, [3, 50, 90]), (1.0, [90])):
+        handle.threshold = threshold
+        cubify(cubeness=0.8)
+        after = position_of(obj.data)
+        still = [v for v in (3, 50, 90) if after[v].tobytes() == before[v].tobytes()]
+        assert still == held
+
+
+def test_a_deleted_target_leaves_the_vertices_at_rest_and_undo_of_it_would_not(posed):
+    obj, _, right = add_posable()
+    before = position_of(obj.data)
+    empty = pose(obj)
+    select(empty)
+    bpy.ops.object.delete()
+    assert posed(obj)[1].matrix == IDENTITY
+    select(obj)
+    cubify()
+    assert position_of(obj.data)[right].tobytes() == before[right].tobytes()
+    bpy.context.collection.objects.link(empty)
+    assert posed(obj)[1].matrix != IDENTITY
+
+
+def test_any_object_can_be_the_target_of_several_meshes(posed):
+    target = bpy.data.objects.new("Target", None)
+    bpy.context.collection.objects.link(target)
+    target.location = (1, 2, 3)
+    objects = [add_posable(name, location=(n, 0, 0))[0] for n, name in enumerate("AB")]
+    for obj in objects:
+        pin(obj, RIGHT).target = target
+        assert obj.cubic_craft.handles[0].mode == "FOLLOW"
+        assert posed(obj)[0].matrix == IDENTITY
+    target.location.z += 2
+    bpy.context.view_layer.update()
+    for obj in objects:
+        np.testing.assert_allclose(posed(obj)[0].matrix, mapped_z(2), atol=1e-4)
+
+
+def mapped_z(height):
+    return np.array(Matrix.Translation((0, 0, height))).ravel()
+
+
+def test_a_target_on_another_mesh_moves_each_in_its_own_coordinates(posed):
+    """The lashes share the handle of the body, and are modelled in other coordinates."""
+    body, _, _ = add_posable("Body")
+    empty = follow(body, RIGHT)
+    lashes, _, _ = add_posable("Lashes", rotation_euler=(0, np.pi / 2, 0))
+    pin(lashes, RIGHT).target = empty
+    empty.location.z += 1
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(posed(body)[0].matrix, mapped_z(1), atol=1e-5)
+    wanted = np.array(Matrix.Translation((-1, 0, 0))).ravel()
+    np.testing.assert_allclose(posed(lashes)[0].matrix, wanted, atol=1e-4)
+
+
+def move_about(obj):
+    """Give every kind of place that an object may have."""
+    rng = np.random.default_rng(3)
+    for distance in (1.0, 100.0, 1e5):
+        obj.location = rng.normal(size=3) * distance
+        obj.rotation_euler = rng.normal(size=3)
+        obj.scale = rng.uniform(0.5, 2.0, size=3)
+        bpy.context.view_layer.update()
+        yield
+
+
+def test_moving_the_object_with_its_empty_changes_no_bit(posed):
+    obj, _, _ = add_posable()
+    pose(obj)
+    before = posed(obj)
+    for _ in move_about(obj):
+        assert posed(obj) == before
+
+
+def test_moving_object_and_free_target_together_keeps_a_still_handle_exactly_still(posed):
+    obj, _, _ = add_posable(location=(10, 20, 30))
+    target = bpy.data.objects.new("Target", None)
+    bpy.context.collection.objects.link(target)
+    target.location = (11, 20, 30)
+    pin(obj, RIGHT).target = target
+    parent = bpy.data.objects.new("Both", None)
+    bpy.context.collection.objects.link(parent)
+    for child in (obj, target):
+        child.parent = parent
+    for _ in move_about(parent):
+        assert posed(obj)[0].matrix == IDENTITY
+
+
+@pytest.mark.parametrize("culprit", ["target", "object"])
+def test_a_scale_of_zero_is_refused_with_the_cure(posed, culprit):
+    obj, _, _ = add_posable()
+    target = bpy.data.objects.new("Target", None)
+    bpy.context.collection.objects.link(target)
+    pin(obj, RIGHT).target = target
+    (target if culprit == "target" else obj).scale = (0, 1, 1)
+    bpy.context.view_layer.update()
+    with pytest.raises(ValueError, match=r"Body.*scale of zero.*Alt-S"):
+        posed(obj)
+    with pytest.raises(RuntimeError, match=r"Body.*scale of zero.*Alt-S"):
+        cubify()
+
+
+def test_an_object_that_is_flat_can_still_be_posed_by_its_own_empties(posed):
+    obj, _, _ = add_posable()
+    pose(obj)
+    obj.scale.z = 0.0
+    bpy.context.view_layer.update()
+    assert cubify() == {"FINISHED"}
+
+
+def test_an_object_cannot_follow_itself(posed):
+    obj, _, _ = add_posable()
+    pin(obj, RIGHT).target = obj
+    with pytest.raises(ValueError, match="follows the object itself"):
+        posed(obj)
+
+
+def test_scripts_give_handles_in_place_of_the_objects_own():
+    obj, left, right = add_posable()
+    before = position_of(obj.data)
+    pin(obj, RIGHT)
+    up = Matrix.Translation((0, 0, 1))
+    assert cubify(handles=[given(LEFT), given(RIGHT, up)]) == {"FINISHED"}
+    after = position_of(obj.data)
+    assert after[left].tobytes() == before[left].tobytes()
+    np.testing.assert_allclose(after[right], before[right] + [0, 0, 1], atol=1e-6)
+    assert [handle.group for handle in obj.cubic_craft.handles] == [RIGHT]
+    cubify()  # the handles given before are forgotten
+    assert position_of(obj.data)[right].tobytes() == before[right].tobytes()
+
+
+def test_a_matrix_that_is_no_affine_map_is_refused():
+    add_posable()
+    with pytest.raises(RuntimeError, match=r"Right.*no affine map.*mathutils"):
+        cubify(handles=[given(RIGHT, Matrix.Translation((0, 0, 1)).transposed())])
+
+
+def test_each_of_several_objects_keeps_its_own_handles():
+    objects = [add_posable(name)[0] for name in "AB"]
+    for obj, group in zip(objects, (LEFT, RIGHT), strict=True):
+        pin(obj, group)
+    before = position_of(objects[0].data)
+    select(*objects)
+    cubify(cubeness=0.8)
+    for obj, group in zip(objects, (LEFT, RIGHT), strict=True):
+        held = [v.index for v in obj.data.vertices if obj.vertex_groups[group].index in
+                [g.group for g in v.groups]]  # fmt: skip
+        after = position_of(obj.data)
+        assert after[held].tobytes() == before[held].tobytes()
+        assert (after != before).any()
+        assert [handle.group for handle in obj.cubic_craft.handles] == [group]
+
+
+def test_one_object_with_a_missing_group_does_not_stop_the_others():
+    good, _, _ = add_posable("Good")
+    bad, _, _ = add_posable("Bad")
+    bad.cubic_craft.handles.add().group = "Gone"
+    before = position_of(good.data)
+    select(good, bad)
+    assert '"Bad" has no vertex group "Gone"' in reports_of(cubify)
+    assert position_of(good.data).tobytes() != before.tobytes()
+
+
+@pytest.mark.parametrize("way", ["apply", "edit"])
+@pytest.mark.parametrize("result", ["MESH", "NEW_OBJECT"])
+def test_a_pose_that_is_part_of_the_original_is_not_done_twice(posed, way, result):
+    obj, _, right = add_posable(location=(3, 2, 1))
+    empty = pose(obj)
+    cubify(cubeness=0.2, result=result)
+    obj = bpy.context.object if result == "NEW_OBJECT" else obj
+    select(obj)
+    once = position_of(obj.data)
+    if way == "apply":
+        bpy.ops.cubic_craft.apply()
+    else:
+        obj.data.vertices[int(right[0])].co.z += 0.01
+        obj.data.update()
+        once = position_of(obj.data)
+    empty.location.z += 0.5  # since it was written
+    cubify(cubeness=0.0, result="MESH")
+    np.testing.assert_allclose(
+        position_of(obj.data)[right], once[right] + [0, 0, 0.5], rtol=0, atol=2e-6
+    )
+
+
+@pytest.mark.parametrize("how", ["restored", "key", "switched off", "given"])
+def test_a_pose_that_is_not_in_the_mesh_is_still_done_after_apply(posed, how):
+    obj, _, _ = add_posable()
+    pose(obj)
+    before = posed(obj)
+    cubify()
+    if how == "restored":
+        bpy.ops.cubic_craft.restore()
+    options = {
+        "restored": {"use_handles": False},
+        "key": {"result": "SHAPE_KEY"},
+        "switched off": {"use_handles": False},
+        "given": {"handles": [given(LEFT)]},
+    }
+    cubify(**options[how])
+    bpy.ops.cubic_craft.apply()
+    obj.cubic_craft.use_handles = True
+    assert posed(obj) == before
+
+
+def test_apply_counts_for_all_objects_that_share_the_mesh(posed):
+    obj, _, _ = add_posable()
+    pose(obj)
+    twin = obj.copy()
+    bpy.context.collection.objects.link(twin)
+    twin.location.x = 5
+    select(obj)
+    cubify()
+    bpy.ops.cubic_craft.apply()
+    assert [handle.matrix for handle in posed(obj)] == [IDENTITY] * 2
+    assert posed(twin) == posed(obj)
