@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from rich_mesh import add_rich_monkey
+from posing import LEFT, RIGHT, add_posable, follow, pin, pose
+from rich_mesh import add_rich_monkey, position_of
 from scene import add_monkey, add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh, snapshot_object
 
@@ -190,6 +191,56 @@ def test_painted_weights_restart_it(live, begin):
     shape = bits(obj)
     bpy.ops.cubic_craft.cubify()
     assert bits(obj) == shape
+
+
+def test_a_handle_is_posed_live(live, begin):
+    obj, _, right = add_posable()
+    pin(obj, LEFT)
+    empty = follow(obj, RIGHT)
+    session = begin(obj, cubeness=0.0)
+    tick_to_rest(session)
+    before = position_of(obj.data)
+    empty.location.x += 0.7
+    bpy.context.view_layer.update()
+    assert session._timer is not None, "the moved empty has not woken it"
+    tick_to_rest(session)
+    moved = position_of(obj.data) - before
+    np.testing.assert_allclose(moved[right], [[0.7, 0.0, 0.0]] * len(right), atol=1e-5)
+    assert not session.take_back(), "Ctrl-Z is for Blender, which has moved the empty"
+    confirm(live, session)
+    shape = bits(obj)
+    select(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
+def test_a_handle_added_live_counts(live, begin):
+    obj, left, _ = add_posable()
+    original = position_of(obj.data)
+    session = begin(obj, cubeness=0.9)
+    tick_to_rest(session)
+    assert np.abs(position_of(obj.data) - original)[left].max() > 1e-3
+    bpy.ops.cubic_craft.handle_add(group=LEFT)
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert np.array_equal(position_of(obj.data)[left], original[left])
+    live.live_properties().use_handles = False
+    tick_to_rest(session)
+    assert not np.array_equal(position_of(obj.data)[left], original[left])
+
+
+def test_moving_object_and_handles_together_restarts_nothing(live, begin):
+    obj, _, _ = add_posable()
+    empty = pose(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    done = session.meshes[0].iteration
+    obj.location = (0.3, 5.1, -2.7)
+    obj.rotation_euler = (0.4, 1.0, 0.2)
+    bpy.context.view_layer.update()
+    session.tick(bpy.context)
+    assert session.meshes[0].iteration == done and session._timer is None
+    assert empty.parent == obj
 
 
 def test_several_objects_are_live_together(live, begin):
