@@ -9,7 +9,7 @@ from .handle_pose import live_target
 from .object_properties import object_properties
 
 SECTION = "CUBIC_PT_handles"
-_ROWS = 5  # as high as the buttons beside the list
+_ROWS, _FEWEST_ROWS = 5, 3  # as high as the buttons beside the list
 
 
 class CUBIC_UL_handles(bpy.types.UIList):
@@ -52,19 +52,26 @@ def draw(layout, obj):
     properties = object_properties(obj)
     layout = layout.column()
     layout.active = live.own_properties(obj).use_handles
+    handles = properties.handles
     row = layout.row()
     row.template_list(
-        "CUBIC_UL_handles", "", properties, "handles", properties, "active_handle", rows=_ROWS
+        "CUBIC_UL_handles",
+        "",
+        properties,
+        "handles",
+        properties,
+        "active_handle",
+        rows=_ROWS if len(handles) > 1 else _FEWEST_ROWS,
     )
     buttons = row.column(align=True)
     buttons.operator("cubic_craft.handle_add", icon="ADD", text="").group = ""
     buttons.operator("cubic_craft.handle_remove", icon="REMOVE", text="")
     buttons.menu("CUBIC_MT_handle_groups", icon="DOWNARROW_HLT", text="")
-    buttons.separator()
-    buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
-    buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"
+    if len(handles) > 1:
+        buttons.separator()
+        buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
+        buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"
     layout.operator("cubic_craft.handle_pin_selection", icon="PINNED")
-    handles = properties.handles
     if properties.active_handle < len(handles):
         _draw_active(layout, handles[properties.active_handle])
     if len(handles) > 1:
