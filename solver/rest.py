@@ -41,12 +41,19 @@ class RestMesh:
     """(n,) int component of each vertex"""
 
     @cached_property
-    def edge_sum(self):
-        """sum_ij w_ij |v_j - v_i|^2 over ordered pairs, w_ij the cotangent weight of the edge."""
+    def edge_sums(self):
+        """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component, as `sum_parts`."""
         matrices = self.matrices
         rows = np.repeat(np.arange(len(self.V)), np.diff(matrices.indptr))
         edges = self.V[matrices.indices] - self.V[rows]
-        return -float((matrices.laplacian * (edges * edges).sum(axis=1)).sum())
+        weighted = -matrices.laplacian * (edges * edges).sum(axis=1)
+        return np.bincount(self.component[rows], weighted, self.component_count)
+
+    def sum_parts(self, values):
+        """Sum values (n,) over each component, to (component_count,)."""
+        if self.component_count == 1:
+            return values.sum(keepdims=True)
+        return np.bincount(self.component, values, self.component_count)
 
 
 def rest_mesh(V, F):
