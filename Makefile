@@ -16,7 +16,7 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui lint \
-	typecheck build bench clean has-py313
+	typecheck build bench bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -38,8 +38,8 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 
 test: test-solver test-blender ## All tests that need no window
 
-test-solver: setup ## The solver without Blender
-	$(PY) $(PYTEST) tests/solver
+test-solver: setup ## The solver, and what decides in Live, without Blender
+	$(PY) $(PYTEST) tests/solver tests/live
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
@@ -83,6 +83,12 @@ $(ZIP): $(VENV)/.done $(SOURCES)
 bench: setup ## Side by side with PyMeshLab; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt
 	$(PY) scripts/benchmark.py
+
+bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
+	$(PY) scripts/benchmark_live.py $(ZIP)
+
+docs-images: ## Pictures of docs/, from the last window tests
+	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 
 clean: ## Remove what has been built, not the virtual environments
 	rm -rf build dist

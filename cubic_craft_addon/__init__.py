@@ -5,9 +5,11 @@ from . import (
     group_renames,
     handle_properties,
     handles_panel,
+    live,
     overlay,
     panel,
     preferences,
+    presets,
     properties,
 )
 
@@ -15,8 +17,10 @@ _modules = (
     handle_properties,
     properties,
     preferences,
+    live,
     overlay,
     handles_panel,
+    presets,
     panel,
     group_renames,
 )

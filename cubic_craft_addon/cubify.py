@@ -30,6 +30,11 @@ class Shape:
     triangles: np.ndarray
     """(m,3) int"""
 
+    def is_like(self, other: Shape) -> bool:
+        """Tell whether both are the same, bit for bit."""
+        is_same = self.original.tobytes() == other.original.tobytes()
+        return is_same and np.array_equal(self.triangles, other.triangles)
+
 
 @dataclass(frozen=True)
 class Prepared:
@@ -207,9 +212,16 @@ def solve(
     return solution_of(prepared, run)
 
 
-def positions_of(prepared: Prepared, run: solver.Run) -> np.ndarray:
-    """Return the positions (n,3) float32, object space, that a run has come to."""
-    return _unstretched_positions(prepared, run.positions())
+def glance(prepared: Prepared, run: solver.Run, with_rotations: bool):
+    """Return positions and rotations, as in a Solution, that a run has come to so far.
+
+    The rotations take time, and are None unless they are asked for.
+    """
+    if not with_rotations:
+        return _unstretched_positions(prepared, run.positions()), None
+    positions, rotations = run.placed()
+    positions = _unstretched_positions(prepared, positions)
+    return positions, _unstretched(rotations, prepared.stretch)
 
 
 def solution_of(prepared: Prepared, run: solver.Run) -> Solution:

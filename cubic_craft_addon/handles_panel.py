@@ -3,13 +3,13 @@
 
 import bpy
 
+from . import live
 from .handle_owner import panel_object
 from .handle_pose import live_target
 from .object_properties import object_properties
 
 SECTION = "CUBIC_PT_handles"
-_ROWS = 5  # as high as the buttons beside the list; without those that change the order, less
-_ROWS_OF_NONE = 3
+_ROWS, _FEWEST_ROWS = 5, 3  # as high as the buttons beside the list
 
 
 class CUBIC_UL_handles(bpy.types.UIList):
@@ -44,26 +44,30 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
 def draw_switch(layout, obj):
     """Draw the switch of all handles, which stands in the header of the section."""
-    layout.use_property_split = False
-    layout.prop(object_properties(obj), "use_handles", text="")
+    layout.prop(live.own_properties(obj), "use_handles", text="")
 
 
 def draw(layout, obj):
     """Draw the section for a mesh object."""
     properties = object_properties(obj)
     layout = layout.column()
-    layout.active = properties.use_handles
+    layout.active = live.own_properties(obj).use_handles
     handles = properties.handles
-    rows = _ROWS if handles else _ROWS_OF_NONE
     row = layout.row()
     row.template_list(
-        "CUBIC_UL_handles", "", properties, "handles", properties, "active_handle", rows=rows
+        "CUBIC_UL_handles",
+        "",
+        properties,
+        "handles",
+        properties,
+        "active_handle",
+        rows=_ROWS if len(handles) > 1 else _FEWEST_ROWS,
     )
     buttons = row.column(align=True)
     buttons.operator("cubic_craft.handle_add", icon="ADD", text="").group = ""
     buttons.operator("cubic_craft.handle_remove", icon="REMOVE", text="")
     buttons.menu("CUBIC_MT_handle_groups", icon="DOWNARROW_HLT", text="")
-    if handles:
+    if len(handles) > 1:
         buttons.separator()
         buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
         buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"

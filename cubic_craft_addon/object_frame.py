@@ -76,7 +76,7 @@ def _turn_and_stretch(obj):
 def _rounded(stretch):
     """Drop the last digits, so that turning the object alone leaves the stretch bit for bit."""
     unit = 10.0 ** (math.floor(math.log10(np.abs(stretch).max())) - _DIGITS)
-    return np.round(stretch / unit) * unit
+    return np.round(stretch / unit) * unit + 0.0  # no negative zeros
 
 
 def _into_space(obj, settings, turn):

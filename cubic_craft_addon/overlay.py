@@ -15,9 +15,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ..solver import CubicCraftError
+from . import live
 from .handle_owner import panel_object
 from .object_frame import world_axes
-from .properties import settings_of
 
 PROPERTY = "cubic_craft_overlay"
 
@@ -45,7 +45,7 @@ def lines_of(obj: bpy.types.Object):
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    axes = world_axes(obj, settings_of(obj, handles=()))  # columns
+    axes = world_axes(obj, live.settings_now(obj))  # columns
     along = (corners - centre) @ axes
     half = max(np.abs(along).max() * _MARGIN, 1e-6) * axes
     points, colors = [], []

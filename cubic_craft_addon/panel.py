@@ -4,10 +4,11 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import handles_panel, mesh_bridge, overlay
+from . import handles_panel, live, mesh_bridge, overlay
 from .handle_owner import panel_object
 from .handle_pose import object_handles
-from .properties import object_properties
+from .object_properties import object_properties
+from .presets import CUBIC_PT_presets
 from .requirements import check_requirements
 
 DEFAULT_TAB = "Cubic Craft"
@@ -20,6 +21,13 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
+
+    def draw_header_preset(self, context):
+        """Offer presets, save while Live runs, whose settings are not those of the object."""
+        # The preset is of the active object, which need not be the one that the panel shows.
+        obj = context.active_object
+        if obj is not None and obj.type == "MESH" and not live.current():
+            CUBIC_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         """Draw all sections for the active object, or the mesh that it poses."""
@@ -35,6 +43,7 @@ class CUBIC_PT_main(bpy.types.Panel):
         _draw_cubify(layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
+            header.use_property_split = False
             if identifier == handles_panel.SECTION:
                 handles_panel.draw_switch(header, obj)
             header.label(text=title)
@@ -43,34 +52,57 @@ class CUBIC_PT_main(bpy.types.Panel):
 
 
 def _draw_cubify(layout, obj):
-    properties = object_properties(obj)
-    problem = _problem(obj, properties)
+    session = live.current()
+    problem = "; ".join(session.all_problems) if session else _problem(obj)
     if problem:
         _draw_text(layout.box(), problem, "ERROR")
-    layout.prop(properties, "cubeness", slider=True)
+    layout.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5
     row.operator("cubic_craft.cubify", icon="MESH_CUBE")
+    row = row.row(align=True)
+    row.operator(
+        "cubic_craft.live",
+        icon="CHECKMARK" if session else "PLAY",
+        text="Confirm" if session else "Live",
+        depress=session is not None,
+    )
+    if session:
+        row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
     row.operator("cubic_craft.restore", icon="LOOP_BACK")
     row.operator("cubic_craft.apply", icon="CHECKMARK")
-    if properties.status:
-        _draw_text(layout, properties.status, "INFO")
+    if session:
+        _draw_live(layout, obj, session)
+    elif object_properties(obj).status:
+        _draw_text(layout, object_properties(obj).status, "INFO")
+
+
+def _draw_live(layout, obj, session):
+    mesh = session.mesh_of(obj)
+    if mesh is None:
+        layout.label(text="Another mesh is live", icon="INFO")
+        return
+    text, progress = mesh.status
+    layout.progress(text=text, factor=progress)
 
 
 def _draw_orientation(layout, obj):
-    properties = object_properties(obj)
+    properties = live.shared_properties(obj)
     layout.prop(bpy.context.window_manager, overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
-        layout.prop(properties, "frame")
+        if live.current():
+            layout.prop_search(properties, "frame", bpy.data, "objects")
+        else:
+            layout.prop(properties, "frame")
     layout.prop(properties, "orientation")
     layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
     layout.prop(properties, "rotation")
 
 
 def _draw_map(layout, obj):
-    properties = object_properties(obj)
+    properties = live.own_properties(obj)
     layout.prop_search(properties, "map_group", obj, "vertex_groups")
     row = layout.row()
     row.active = bool(properties.map_group)
@@ -78,11 +110,11 @@ def _draw_map(layout, obj):
 
 
 def _draw_result(layout, obj):
-    layout.prop(object_properties(obj), "result")
+    layout.prop(live.shared_properties(obj), "result")
 
 
 def _draw_solver(layout, obj):
-    properties = object_properties(obj)
+    properties = live.shared_properties(obj)
     layout.prop(properties, "device")
     layout.prop(properties, "max_iterations")
     layout.prop(properties, "tolerance")
@@ -97,7 +129,7 @@ _SECTIONS = (
 )
 
 
-def _problem(obj, properties):
+def _problem(obj):
     """Return what would make Cubify refuse the object, or an empty text."""
     try:
         check_requirements()
@@ -105,6 +137,7 @@ def _problem(obj, properties):
         object_handles(obj)
     except CubicCraftError as error:
         return str(error)
+    properties = object_properties(obj)
     group = properties.map_group
     if group and group not in obj.vertex_groups:
         return f'"{obj.name}" has no vertex group "{group}"; pick another one'

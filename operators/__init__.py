@@ -12,6 +12,8 @@ from .handle_move import CUBIC_CRAFT_OT_handle_move
 from .handle_pin_selection import CUBIC_CRAFT_OT_handle_pin_selection
 from .handle_remove import CUBIC_CRAFT_OT_handle_remove
 from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
+from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
+from .preset_add import CUBIC_CRAFT_OT_preset_add
 from .restore import CUBIC_CRAFT_OT_restore
 
 register, unregister = bpy.utils.register_classes_factory(
@@ -20,6 +22,9 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_auto_orient,
+        CUBIC_CRAFT_OT_live,
+        CUBIC_CRAFT_OT_live_cancel,
+        CUBIC_CRAFT_OT_preset_add,
         CUBIC_CRAFT_OT_handle_add,
         CUBIC_CRAFT_OT_handle_remove,
         CUBIC_CRAFT_OT_handle_move,

@@ -4,9 +4,11 @@
 import bpy
 
 from .. import solver
+from ..cubic_craft_addon import live
 from ..cubic_craft_addon.cubify import read_shape, stretched_rest
 from ..cubic_craft_addon.object_frame import angles_of, stretch_and_orientation
-from ..cubic_craft_addon.properties import object_properties, settings_of
+from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.properties import settings_of
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
 
@@ -24,23 +26,32 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh that can be cubified."""
-        return poll_usable(cls, context)
+        """There is a mesh that can be cubified, or one that is live."""
+        return live.current() is not None or poll_usable(cls, context)
 
     def execute(self, context):
         """Find the orientation of each mesh, then set all."""
+        session = live.current()
+        if session is not None:
+            for task in session.tasks[:1]:  # one orientation for all, that of the active object
+                rest = session.mesh_of(task.obj).rest
+                live.live_properties().orientation = _best_angles(task.obj, task.settings, rest)
+            return {"CANCELLED"}  # no undo step in the middle of Live
         found, problems = [], []
         for obj in selected_meshes(context):
             try:
                 settings = settings_of(obj, handles=())
                 stretch, _ = stretch_and_orientation(obj, settings)
                 rest = stretched_rest(obj, read_shape(obj), stretch)
-                areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)
-                orientation = solver.auto_orient(normals, areas)
-                found.append((obj, angles_of(obj, settings, orientation)))
+                found.append((obj, _best_angles(obj, settings, rest)))
             except CubicCraftError as error:
                 problems.append(str(error))
         for obj, angles in found:
             object_properties(obj).orientation = angles
         names = ", ".join(obj.name for obj, _ in found)
         return report_all(self, f"Oriented {names}" if names else "", problems)
+
+
+def _best_angles(obj, settings, rest):
+    areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)
+    return angles_of(obj, settings, solver.auto_orient(normals, areas))

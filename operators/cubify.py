@@ -5,22 +5,25 @@ Invariant: all objects are solved before the first is written, so that whatever 
 way, nothing has changed.
 """
 
-import logging
+import math
 
 import bpy
 from bpy.props import CollectionProperty, StringProperty
 
+from .. import solver
 from ..cubic_craft_addon import cubify
-from ..cubic_craft_addon.baked_pose import remember_pose, settle
+from ..cubic_craft_addon.baked_pose import settle
+from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..cubic_craft_addon.handle_owner import panel_object
 from ..cubic_craft_addon.handle_properties import CubicCraftGivenHandle
-from ..cubic_craft_addon.properties import RunProperties, object_properties
+from ..cubic_craft_addon.handles import Handle
+from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.properties import RunProperties
+from ..cubic_craft_addon.tasks import plan, write_all
 from ..solver import CubicCraftError
-from .run_settings import adopt_settings, frame_of, remember_settings, uses_own_handles
 from .selection import poll_usable, report_all, selected_meshes
-from .tasks import plan, solve_all
 
-_log = logging.getLogger(__name__)
+_PROGRESS_STEPS = 100
 
 
 class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
@@ -55,28 +58,15 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         """Solve all objects, then write all results."""
         objects = selected_meshes(context)
         settle(objects)
-        adopt_settings(self, objects)
+        _adopt_settings(self, objects)
         try:
-            frame = frame_of(self, objects[0])
+            choice = _choice(self, objects[0])
         except CubicCraftError as error:
             return report_all(self, "", [str(error)])
-        tasks, problems = plan(self, objects, frame)
-        solved, unsolved = solve_all(tasks, context.window_manager)
-        problems += unsolved
-        written = []
-        try:
-            for task in solved:
-                target = cubify.write(task.obj, task.solution, task.settings.result)
-                written.append(task.solution)
-                is_posed = task.settings.result != "SHAPE_KEY" and uses_own_handles(self, task.obj)
-                remember_pose(target, is_posed=is_posed)
-                remember_settings(self, target, task.settings)
-                object_properties(target).status = _status(task.solution)
-        except Exception as error:
-            # The bridge has put this mesh back; what was written before needs its undo step.
-            _log.exception("Writing a result failed")
-            problems.append(f"Writing failed ({error}); what was not written yet is unchanged")
-        return report_all(self, _summary(written), problems)
+        tasks, problems = plan(choice, objects)
+        solved, unsolved = _solve_all(tasks, context.window_manager)
+        summary, unwritten = write_all(choice, solved)
+        return report_all(self, summary, problems + unsolved + unwritten)
 
     def draw(self, context):
         """Draw the redo panel."""
@@ -98,19 +88,70 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
             layout.prop(self, name)
 
 
-def _status(solution):
-    r = solution.result
-    end = "converged" if r.converged else "not converged, raise Max Iterations"
-    return (
-        f"{len(solution.positions):,} vertices, {r.iterations} iterations, energy"
-        f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"
+def _adopt_settings(operator, objects):
+    """Take what the caller has not set from the active object, so that the redo panel shows it."""
+    source = object_properties(objects[0])
+    for name in ALL:
+        if name in OF_EACH_OBJECT and len(objects) > 1:
+            continue
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, getattr(source, name))
+    is_framed = operator.space == "FRAME" and source.frame is not None
+    if is_framed and not operator.properties.is_property_set("frame"):
+        operator.frame = source.frame.name
+
+
+def _choice(operator, active):
+    names = tuple(name for name in ALL if operator.properties.is_property_set(name))
+    frame = find_frame(operator.frame, active) if operator.space == "FRAME" else None
+    is_given = operator.properties.is_property_set("handles")
+    return Choice(values_of(operator, names), frame, _handles(operator) if is_given else None)
+
+
+def _handles(operator):
+    return tuple(
+        Handle(item.name, threshold=item.threshold, matrix=_affine(item))
+        for item in operator.handles
     )
 
 
-def _summary(written):
-    if not written:
-        return ""
-    if len(written) == 1:
-        return f"Cubified: {_status(written[0])}"
-    seconds = sum(solution.total_seconds for solution in written)
-    return f"Cubified {len(written)} meshes in {seconds:.2f} s"
+def _affine(item):
+    """Return the item's matrix as 16 numbers, row by row."""
+    matrix = tuple(value for row in item.matrix for value in row)
+    if matrix[12:] != (0.0, 0.0, 0.0, 1.0) or not all(map(math.isfinite, matrix)):
+        raise CubicCraftError(
+            f'the matrix of handle "{item.name}" is no affine map; give it as a mathutils.Matrix'
+            " (Blender takes a plain list by its columns)"
+        )
+    return matrix
+
+
+def _solve_all(tasks, manager):
+    """Return the tasks that could be solved, and the problems as texts."""
+    solved, problems = [], []
+    manager.progress_begin(0, _PROGRESS_STEPS * len(tasks))
+    try:
+        for number, task in enumerate(tasks):
+            twin = next((other for other in solved if other.is_like(task)), None)
+            try:
+                task.solution = (
+                    twin.solution if twin else _solve(task, manager, number * _PROGRESS_STEPS)
+                )
+            except CubicCraftError as error:
+                problems.append(str(error))
+            else:
+                solved.append(task)
+    finally:
+        manager.progress_end()
+    return solved, problems
+
+
+def _solve(task, manager, offset):
+    settings = task.settings
+    progress = solver.Progress(settings.max_iterations, settings.tolerance)
+
+    def show(stylization):
+        manager.progress_update(offset + round(_PROGRESS_STEPS * progress.update(stylization)))
+        return False
+
+    return cubify.solve(cubify.prepare(task.obj, settings), settings, show)

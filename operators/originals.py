@@ -6,7 +6,7 @@ import logging
 import bpy
 
 from ..cubic_craft_addon import mesh_bridge
-from ..cubic_craft_addon.properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 from .selection import report_all, selected_meshes
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
-from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon import live, mesh_bridge
 from ..cubic_craft_addon.handle_owner import panel_object, posed_mesh
 from ..solver import CubicCraftError
 
@@ -27,6 +27,9 @@ def selected_meshes(context):
 
 def poll_meshes(operator_class, context):
     """Tell whether there is a mesh to work on, and say what is missing."""
+    if live.current() is not None:
+        operator_class.poll_message_set("Confirm or cancel Live first")
+        return False
     if context.mode not in _MODES:
         operator_class.poll_message_set("Switch to Object Mode first")
         return False

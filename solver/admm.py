@@ -17,9 +17,9 @@ class AdmmOptions:
     """Tolerances and penalty of the ADMM. Penalties are in units of the vertex area."""
 
     max_iterations: int = 100
-    absolute: float = 1e-5
+    absolute: float = 1e-7
     """absolute part of the tolerance of either residual"""
-    relative: float = 1e-3
+    relative: float = 1e-5
     """relative part of the tolerance of either residual"""
     rho_start: float = 2.0
     rho_min: float = 1e-2

@@ -2,6 +2,7 @@
 """All that is computed once per mesh, whatever the cubeness, orientation or pins."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,6 +39,21 @@ class RestMesh:
     component_count: int
     component: np.ndarray
     """(n,) int component of each vertex"""
+
+    @cached_property
+    def edge_sums(self):
+        """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component, as `sum_parts`."""
+        matrices = self.matrices
+        rows = np.repeat(np.arange(len(self.V)), np.diff(matrices.indptr))
+        edges = self.V[matrices.indices] - self.V[rows]
+        weighted = -matrices.laplacian * (edges * edges).sum(axis=1)
+        return np.bincount(self.component[rows], weighted, self.component_count)
+
+    def sum_parts(self, values):
+        """Sum values (n,) over each component, to (component_count,)."""
+        if self.component_count == 1:
+            return values.sum(keepdims=True)
+        return np.bincount(self.component, values, self.component_count)
 
 
 def rest_mesh(V, F):

@@ -178,12 +178,16 @@ class Run:
         """Return the positions (n,3) as they are now, in the unit of the input."""
         return self.stylization.placed_positions(self._keep_rotation)
 
+    def placed(self):
+        """Return the positions (n,3) and the rotations (n,3,3) as they are now."""
+        return self.stylization.placed(self._keep_rotation)
+
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""
         begin = time.perf_counter()
         state = self.stylization
         energy = state.finish()
-        positions, rotations = state.placed(self._keep_rotation)
+        positions, rotations = self.placed()
         seconds = self._seconds + time.perf_counter() - begin
         return Result(
             positions,

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .acceleration import Nesterov
 from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
@@ -42,13 +43,15 @@ class Stylization:
     precision : {"f64", "f32"}, optional
         Of the local step in Taichi; by default the best that the device has.
     admm : AdmmOptions, optional
+    is_accelerated : bool
+        False for the plain iteration, in which the energy falls in every step.
 
     Attributes
     ----------
     iteration : int
         Number of steps done.
     energy : Energy or None
-        Of the positions that the last step started from.
+        Of the point that the last local step looked at; of the result after `finish`.
     displacement, distance : float
         Largest displacement in the last step and largest distance from rest, in the unit box.
     """
@@ -62,6 +65,7 @@ class Stylization:
         device="auto",
         precision=None,
         admm=None,
+        is_accelerated=True,
     ):
         self._setup = setup
         rest = self.rest = setup.rest
@@ -75,6 +79,9 @@ class Stylization:
         self._U = rest.V.copy()
         held = rest.used[setup.pinned]
         self._U[setup.pinned] = rest.box.to_unit(self._targets[held])
+        self._start = self._U  # where the next local step looks
+        count = rest.component_count
+        self._acceleration = Nesterov(rest.component, count) if is_accelerated else None
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
@@ -101,18 +108,26 @@ class Stylization:
 
     def local_step(self):
         """Fit the rotations to the positions."""
-        self.energy = Energy(*self._local.update(self._U))
+        arap, cubic = self._local.update(self._start)
+        if self._acceleration is not None:
+            self._acceleration.see(arap + cubic)
+        self.energy = Energy(float(arap.sum()), float(cubic.sum()))
 
     def global_step(self):
         """Move the positions toward the rotations of the local step before."""
         U = self._setup.global_step.positions(self._local.right_hand_side(), self._U)
         self.displacement = float(np.abs(U - self._U).max())
         self.distance = float(np.abs(U - self.rest.V).max())
+        if self._acceleration is None:
+            self._start = U
+        else:
+            self._start = self._acceleration.extrapolate(U, self._U)
         self._U = U
         self.iteration += 1
 
     def finish(self):
         """Fit the rotations to the last positions and return the Energy of both."""
+        self._start = self._U
         self.local_step()
         return self.energy
 

@@ -9,17 +9,23 @@ Restore and Apply remove without a trace.
 from .checks import check_editable, check_usable, mesh_of
 from .new_object import write_new_object
 from .original import has_original, original_positions, read_positions
+from .preview import Preview
+from .preview_end import end_all_previews, end_preview, has_preview
 from .restore import forget, has_traces, restore
 from .results import write_mesh, write_shape_key
 from .triangulation import triangles
 from .vertex_groups import group_weights
 
 __all__ = (
+    "Preview",
     "check_editable",
     "check_usable",
+    "end_all_previews",
+    "end_preview",
     "forget",
     "group_weights",
     "has_original",
+    "has_preview",
     "has_traces",
     "mesh_of",
     "original_positions",

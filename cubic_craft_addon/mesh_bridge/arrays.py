@@ -33,7 +33,8 @@ def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def write_position(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
     """Write an (n,3) float32 array to the ``position`` attribute; `mark_moved` must follow."""
-    _position_of(mesh).data.foreach_set("vector", np.ravel(positions))
+    if len(positions):  # a mesh without vertices may have no such attribute
+        _position_of(mesh).data.foreach_set("vector", np.ravel(positions))
 
 
 def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:

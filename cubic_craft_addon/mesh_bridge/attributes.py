@@ -16,12 +16,15 @@ import numpy as np
 # them along from another mesh, by joining for one.
 ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
+LIVE = "cubic_craft_live"
 
 
-def our_attributes(mesh: bpy.types.Mesh) -> list[str]:
-    """List the names of the attributes of ours on a mesh."""
+def our_attributes(
+    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE)
+) -> list[str]:
+    """List the names of the attributes of ours on a mesh, of all kinds or of some."""
     names = (attribute.name for attribute in mesh.attributes)
-    return [name for name in names if name.partition(".")[0] in (ORIGINAL, ROTATION)]
+    return [name for name in names if name.partition(".")[0] in kinds]
 
 
 def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
@@ -33,7 +36,7 @@ def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     name : name of the attribute
     values : (n,3) numpy float32 array of vectors, or (n,4) of quaternions
     """
-    with _active_kept(mesh):
+    with active_kept(mesh):
         data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"
         attribute = mesh.attributes.new(name, data_type, "POINT")
         if isinstance(attribute, bpy.types.FloatVectorAttribute):
@@ -44,7 +47,7 @@ def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
 
 def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
     """Remove an attribute by name."""
-    with _active_kept(mesh):
+    with active_kept(mesh):
         mesh.attributes.remove(mesh.attributes[name])
 
 
@@ -69,7 +72,7 @@ def read_attribute(mesh: bpy.types.Mesh, name: str, size: int) -> np.ndarray | N
 
 
 @contextmanager
-def _active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
+def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Keep the active attribute the same one, although its place in the list changes."""
     place = mesh.attributes.active_index or 0
     name = mesh.attributes[place].name if 0 <= place < len(mesh.attributes) else ""

@@ -73,13 +73,18 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     CubicCraftError
         Linked or overridden data, or Edit Mode.
     """
-    if mesh.library is not None or mesh.override_library is not None or not mesh.is_editable:
+    if is_linked(mesh):
         raise CubicCraftError(
             f"'{name}' has mesh data linked from another file: make it local first "
             "(Object > Relations > Make Local)"
         )
     if mesh.is_editmode:
         raise CubicCraftError(f"'{name}' is in Edit Mode: go back to Object Mode first")
+
+
+def is_linked(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether the mesh is linked or overridden data: what is written to it does not stay."""
+    return mesh.library is not None or mesh.override_library is not None or not mesh.is_editable
 
 
 def check_finite(mesh: bpy.types.Mesh, name: str) -> None:

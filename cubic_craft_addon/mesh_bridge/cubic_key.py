@@ -11,7 +11,7 @@ import numpy as np
 
 from .arrays import read_key, write_key
 from .checks import mesh_of
-from .fingerprint import fingerprint
+from .fingerprint import fingerprint_of_values
 from .note import read_note, write_note
 from .offsets import offset_sums, same_offsets
 
@@ -29,13 +29,15 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
     base = read_key(mesh, reference)
 
     def is_written(points: np.ndarray) -> bool:
-        return _print(points) == noted["fingerprint"]
+        return fingerprint_of_values(points) == noted["fingerprint"]
 
     def is_shifted(points: np.ndarray) -> bool:
         return same_offsets(offset_sums(points, base), noted["offsets"])
 
     # While Basis is as it was, nothing has moved the key but the artist.
-    tests = (is_written,) if _print(base) == noted["base"] else (is_written, is_shifted)
+    tests = (
+        (is_written,) if fingerprint_of_values(base) == noted["base"] else (is_written, is_shifted)
+    )
     for is_ours in tests:
         for key in keys:
             points = read_key(mesh, key)
@@ -66,8 +68,8 @@ def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
     base = read_key(mesh, mesh.shape_keys.reference_key)
     part = {
         "name": key.name,
-        "fingerprint": _print(positions),
-        "base": _print(base),
+        "fingerprint": fingerprint_of_values(positions),
+        "base": fingerprint_of_values(base),
         "offsets": offset_sums(positions, base),
         "made_basis": made_basis,
     }
@@ -113,8 +115,3 @@ def remove_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     for obj, index in active.items():
         if index and index >= place:
             obj.active_shape_key_index = index - 1
-
-
-def _print(points: np.ndarray) -> str:
-    """Hash the points of a key; Edit Mode turns -0 into 0, which is no edit of the artist."""
-    return fingerprint(points + np.float32(0))

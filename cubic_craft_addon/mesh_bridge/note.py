@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The note of ours on a mesh: one custom property that says what we wrote.
 
-It is JSON text, because custom properties cannot hold lists of texts, with one of two parts:
+It is JSON text, because custom properties cannot hold lists of texts, with some of these parts:
 
 ``"mesh"``
     a result written to the mesh: ``fingerprint`` of the base as we wrote it, and per shape key
@@ -9,6 +9,9 @@ It is JSON text, because custom properties cannot hold lists of texts, with one 
 ``"key"``
     a result written to a shape key: its ``name`` and ``fingerprint``; the fingerprint of the
     ``base`` under it, and the key's ``offsets`` from that; and ``made_basis``.
+``"live"``
+    a preview is on: what ``"mesh"`` says, of the shape shown last. An empty ``fingerprint`` is of
+    a shape that is just being written.
 
 A property of that name which is anything else is not ours, and is never changed.
 """
@@ -75,10 +78,9 @@ def check_note(mesh: bpy.types.Mesh) -> None:
 
 def _is_ours(note: dict[str, Any]) -> bool:
     """Tell whether a note says only what we write, so that nobody else must check it."""
-    if not note or not note.keys() <= {"mesh", "key"}:
+    if not note or not note.keys() <= {"mesh", "key", "live"}:
         return False
-    if "mesh" in note:
-        part = note["mesh"]
+    for part in (note[name] for name in ("mesh", "live") if name in note):
         if not _fits(part, _MESH_PART) or not all(_fits(key, _MESH_KEY) for key in part["keys"]):
             return False
     if "key" in note:

@@ -10,6 +10,7 @@ from .checks import check_writable, mesh_of
 from .cubic_key import find_cubic_key, remove_cubic_key
 from .note import read_note, write_note
 from .original import drop_stored, has_original, original_shapes, stored_result
+from .preview_end import end_preview
 from .rollback import all_or_nothing
 from .shapes import write_shapes
 
@@ -24,6 +25,7 @@ def restore(obj: bpy.types.Object) -> None:
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
+    end_preview(mesh)
     if not has_original(mesh):
         if has_traces(mesh):
             raise CubicCraftError(
@@ -54,7 +56,7 @@ def has_traces(mesh: bpy.types.Mesh | None) -> bool:
 def forget(mesh: bpy.types.Mesh) -> None:
     """Keep the shape and remove everything else of ours, valid or stale.
 
-    The shape key "Cubic" stays.
+    The shape key "Cubic" stays. Of a preview that has been left on, nothing is kept.
 
     Raises
     ------
@@ -62,5 +64,6 @@ def forget(mesh: bpy.types.Mesh) -> None:
         A mesh that cannot be written.
     """
     check_writable(mesh, mesh.name)
+    end_preview(mesh)
     drop_stored(mesh)
     write_note(mesh, {})

@@ -13,9 +13,11 @@ from .arrays import loose_vertices, mark_moved
 from .checks import check_writable, mesh_of
 from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .original import drop_stored, original_shapes, store_original, stored_result
+from .preview_end import end_preview
 from .rollback import all_or_nothing
-from .rotations import matrices_from_quaternions, quaternions_from_matrices
-from .shapes import carry, write_shapes
+from .rotations import matrices_from_quaternions
+from .settled import carry_finite, settled, settled_rotations
+from .shapes import write_shapes
 
 
 def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray) -> None:
@@ -34,15 +36,13 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
         The mesh is then as it was before.
     """
     check_writable(mesh, mesh.name)
+    end_preview(mesh)
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh)
-    positions = _settled(mesh, positions, original.base)
-    _check_shape(mesh, rotations, (len(positions), 3, 3), "rotations")
-    quaternions = quaternions_from_matrices(rotations)
-    quaternions[loose_vertices(mesh)] = (1, 0, 0, 0)
-    written = carry(original, positions, matrices_from_quaternions(quaternions))
-    for name, points in written.keys.items():
-        _check_shape(mesh, points, positions.shape, f"shape key '{name}'")
+    loose = loose_vertices(mesh)
+    positions = settled(mesh, positions, original.base, loose)
+    quaternions = settled_rotations(mesh, rotations, loose)
+    written = carry_finite(mesh, original, positions, matrices_from_quaternions(quaternions))
     with all_or_nothing(mesh):
         drop_stored(mesh)
         store_original(mesh, original, written, quaternions)
@@ -71,38 +71,12 @@ def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
             f"'{obj.name}' has absolute shape keys, among which a key cannot be dialled: switch on "
             "Relative (Object Data > Shape Keys) or choose another result"
         )
+    end_preview(mesh)
     original = original_shapes(mesh)
-    positions = _settled(mesh, positions, original.base)
+    positions = settled(mesh, positions, original.base, loose_vertices(mesh))
     with all_or_nothing(mesh):
         if stored_result(mesh) is not None:
             write_shapes(mesh, original)
         drop_stored(mesh)
         write_cubic_key(obj, positions)
         mark_moved(mesh)
-
-
-def _settled(mesh: bpy.types.Mesh, positions: np.ndarray, base: np.ndarray) -> np.ndarray:
-    """Round positions to what is stored; vertices that stay, or are loose, keep their bits."""
-    _check_shape(mesh, positions, base.shape, "positions")
-    with np.errstate(over="ignore"):
-        rounded = np.asarray(positions, np.float32)
-    stays = (rounded == base).all(axis=1) | loose_vertices(mesh)
-    settled = np.where(stays[:, None], base, rounded)
-    _check_shape(mesh, settled, base.shape, "positions")
-    return settled
-
-
-def _check_shape(
-    mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...], what: str
-) -> None:
-    """Check that an array to be written fits the mesh and is finite."""
-    if np.shape(array) != shape:
-        raise CubicCraftError(
-            f"The result does not fit mesh '{mesh.name}': its {what} have the shape "
-            f"{np.shape(array)} instead of {shape}; cubify it again"
-        )
-    if not np.isfinite(array).all():
-        raise CubicCraftError(
-            f"The result for mesh '{mesh.name}' is not finite in its {what}: nothing was written; "
-            "try a smaller cubeness, or clean up degenerate faces (Mesh > Clean Up)"
-        )

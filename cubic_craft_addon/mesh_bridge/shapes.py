@@ -32,17 +32,19 @@ class Shapes:
 def read_shapes(mesh: bpy.types.Mesh, skip: bpy.types.ShapeKey | None = None) -> Shapes:
     """Read all shapes of a mesh, without the shape key `skip`."""
     position = read_position(mesh)
+    blocks = mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ()
+    keys = {key.name: read_key(mesh, key) for key in blocks if key != skip}
+    return assembled(mesh, position, keys)
+
+
+def assembled(mesh: bpy.types.Mesh, position: np.ndarray, keys: dict[str, np.ndarray]) -> Shapes:
+    """Make Shapes of arrays and of what the mesh says about its shape keys of these names."""
     if mesh.shape_keys is None:
         return Shapes(position, {}, None, {})
-    blocks = [key for key in mesh.shape_keys.key_blocks if key != skip]
     reference = mesh.shape_keys.reference_key.name
+    blocks = [mesh.shape_keys.key_blocks[name] for name in keys]
     relative = {key.name: key.relative_key.name for key in blocks if key.name != reference}
-    return Shapes(
-        position=position,
-        keys={key.name: read_key(mesh, key) for key in blocks},
-        reference=reference,
-        relative=_ordered(relative, reference),
-    )
+    return Shapes(position, keys, reference, _ordered(relative, reference))
 
 
 def write_shapes(mesh: bpy.types.Mesh, shapes: Shapes) -> None:

@@ -43,7 +43,7 @@ class NumpyLocalStep:
         self._gather = [matrices.matrix(matrices.gather[:, c]) for c in range(3)]
         self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
         self._area_scale = area_scale(rest.areas)
-        self._rest_quadratic = 1.5 * float((rest.V * (self._laplacian @ rest.V)).sum())
+        self._rest_quadratic = self._quadratic(rest.V)
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         self._z = np.einsum("nij,nj->ni", self._Q, rest.normals)
@@ -51,18 +51,26 @@ class NumpyLocalStep:
         self._rho = np.full(n, options.rho_start)
 
     def update(self, U):
-        """Fit all rotations to the positions U (n,3); return the (ARAP, cubic) energies of both."""
+        """Fit all rotations to the positions U (n,3).
+
+        Returns
+        -------
+        arap, cubic : (component_count,) arrays
+            Energies of the positions with these rotations.
+        """
         S = np.stack([H @ U for H in self._gather], axis=1)
         S_scaled = S / self._area_scale[:, None, None]
         last = orthonormalize(self.R)
         self.R = self._fit(S_scaled, last)
         worse = self._objective(self.R, S_scaled) > self._objective(last, S_scaled)
         self.R[worse] = last[worse]  # so that no iteration raises the energy
-        quadratic = 1.5 * float((U * (self._laplacian @ U)).sum())
-        trace = float(np.einsum("nij,nji->", self.R, S))
-        arap = self._rest_quadratic + quadratic - trace
-        cubic = float((self._lam * self._rest.areas * self._l1(self.R)).sum())
+        trace = np.einsum("nij,nji->n", self.R, S)
+        arap = self._rest_quadratic + self._quadratic(U) - self._rest.sum_parts(trace)
+        cubic = self._rest.sum_parts(self._lam * self._rest.areas * self._l1(self.R))
         return arap, cubic
+
+    def _quadratic(self, U):
+        return 1.5 * self._rest.sum_parts((U * (self._laplacian @ U)).sum(axis=1))
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""

@@ -34,12 +34,15 @@ class TaichiLocalStep:
 
     def __init__(self, rest, lam, Q, options, device="cpu", precision=None):
         runtime = taichi_runtime.start(device)
+        self._rest = rest
         self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
         if precision not in ("f64", "f32"):
             raise CubicCraftError(f"the precision must be f64 or f32, not {precision!r}")
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
+        # what is smaller is rounding, and would be waited for in vain
+        least_absolute, least_relative = (0.0, 0.0) if precision == "f64" else (1e-5, 1e-3)
         self._kernels = _kernels(precision)
         self._real = real
         m = rest.matrices
@@ -55,7 +58,7 @@ class TaichiLocalStep:
         self._lam, self._Q = array(lam), array(Q)
         self._area_scale = array(area_scale(rest.areas))
         self._cubic_weight = lam * rest.areas
-        self._rest_quadratic = 0.75 * _quadratic(m, rest.V)
+        self._rest_quadratic = 0.75 * rest.edge_sums
         self.R = np.tile(np.eye(3, dtype=real), (n, 1, 1))
         self._z = array(np.einsum("nij,nj->ni", np.broadcast_to(Q, (n, 3, 3)), rest.normals))
         self._u = np.zeros((n, 3), real)
@@ -73,8 +76,8 @@ class TaichiLocalStep:
             self._Q,
             int(len(self._Q) > 1),
             options.max_iterations,
-            options.absolute,
-            options.relative,
+            max(options.absolute, least_absolute),
+            max(options.relative, least_relative),
             options.rho_min,
             options.rho_max,
             options.balance,
@@ -88,26 +91,19 @@ class TaichiLocalStep:
         self.compile_seconds = _compile(self._kernels, self._arguments, precision)
 
     def update(self, U):
-        """Fit all rotations to the positions U (n,3); return the (ARAP, cubic) energies of both."""
+        """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         taichi_runtime.start(self._wanted)  # another add-on may have reset it since
         U = np.ascontiguousarray(U, dtype=self._real)
         self._kernels.local_step(U, *self._arguments)
         quadratic, trace, l1 = self._energies.T.astype(np.float64)
-        arap = self._rest_quadratic + 0.75 * float(quadratic.sum()) - float(trace.sum())
-        return arap, float(self._cubic_weight @ l1)
+        arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
+        return arap, self._rest.sum_parts(self._cubic_weight * l1)
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
         taichi_runtime.start(self._wanted)
         self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self.R, self._rhs)
         return self._rhs.astype(np.float64, copy=False)
-
-
-def _quadratic(matrices, V):
-    """Return sum_ij w_ij |v_j - v_i|^2 over ordered pairs, for the positions V (n,3)."""
-    rows = np.repeat(np.arange(len(V)), np.diff(matrices.indptr))
-    edges = V[matrices.indices] - V[rows]
-    return -float((matrices.laplacian * (edges * edges).sum(axis=1)).sum())
 
 
 @cache

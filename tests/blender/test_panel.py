@@ -13,7 +13,7 @@ from scene import add_monkey
 @pytest.fixture
 def problem(extension):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.panel")
-    return lambda obj: panel._problem(obj, obj.cubic_craft)
+    return panel._problem
 
 
 def test_a_good_mesh_has_no_problem(problem):

@@ -31,7 +31,7 @@ def test_energy_matches_its_definition(device):
     rest = rest_mesh(*shapes.skewed_blob())
     step = local_step(rest, 0.3, device)
     U = deformed(rest.V)
-    arap, cubic = step.update(U)
+    arap, cubic = (float(part.sum()) for part in step.update(U))
     expected = plain_energy(rest.V, rest.F, U, step.R, 0.3, Q)
     np.testing.assert_allclose((arap, cubic), expected, rtol=1e-10)
 
@@ -86,8 +86,10 @@ def test_rotations_minimise_the_local_energy(device):
 def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, tolerance):
     V, F = shapes.ALL[name]()
     results = []
+    # In 32 bit the tolerances cannot be smaller, and the comparison must not be one of tolerances.
+    admm = AdmmOptions() if precision == "f64" else AdmmOptions(absolute=1e-5, relative=1e-3)
     for device, kind in (("numpy", None), ("cpu", precision)):
-        run = Stylization(Setup(rest_mesh(V, F)), 0.4, Q, device=device, precision=kind)
+        run = Stylization(Setup(rest_mesh(V, F)), 0.4, Q, device=device, precision=kind, admm=admm)
         for _ in range(5):
             run.step()
         results.append(run.placed()[0])
@@ -109,5 +111,5 @@ def test_an_update_never_worsens_the_rotations(device):
     rest = rest_mesh(*shapes.skewed_blob())
     step = local_step(rest, 0.7, device, max_iterations=1)
     U = deformed(rest.V)
-    energies = [sum(step.update(U)) for _ in range(30)]
+    energies = [np.sum(step.update(U)) for _ in range(30)]
     assert (np.diff(energies) <= 1e-12).all()

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live: the mesh moves toward its cubic shape while the artist watches and changes settings.
+
+``machine`` and ``history`` decide, without Blender; ``session`` does it, on ``live_mesh`` for each
+mesh; the operator in ``operators/live.py`` passes events on.
+"""
+
+from dataclasses import replace
+
+import bpy
+
+from ..object_properties import object_properties
+from ..properties import settings_of
+from ..settings import Settings
+from . import healing, properties
+from .machine import Event
+from .properties import live_choice, live_properties
+from .session import Session
+
+__all__ = (
+    "Event",
+    "begin",
+    "current",
+    "live_properties",
+    "own_properties",
+    "register",
+    "settings_now",
+    "shared_properties",
+    "unregister",
+)
+
+_session: Session | None = None
+
+
+def begin(context, objects) -> Session:
+    """Start the session; there is at most one.
+
+    Raises
+    ------
+    CubicCraftError
+        As `Session`.
+    """
+    global _session
+    assert current() is None
+    _session = Session(context, objects)
+    return _session
+
+
+def current() -> Session | None:
+    """Return the running session, or None."""
+    return None if _session is None or _session.is_ended else _session
+
+
+def shared_properties(obj: bpy.types.Object):
+    """Return what holds the settings that all objects of a run have in common."""
+    return live_properties() if current() else object_properties(obj)
+
+
+def own_properties(obj: bpy.types.Object):
+    """Return what holds the settings that each object of a run keeps (`OF_EACH_OBJECT`)."""
+    session = current()
+    return live_properties() if session and session.is_single else object_properties(obj)
+
+
+def settings_now(obj: bpy.types.Object) -> Settings:
+    """Return the settings that the panel shows for an object, its handles left out.
+
+    Raises
+    ------
+    CubicCraftError
+        As `live_choice`.
+    """
+    if current() is None:
+        return settings_of(obj, handles=())
+    return replace(live_choice([obj]), handles=()).settings_for(obj)
+
+
+def register():
+    """Add the settings of Live, and watch out for what is left of it in files."""
+    properties.register()
+    healing.register()
+
+
+def unregister():
+    """End a running session, then take all back."""
+    session = current()
+    if session is not None:
+        session.on(Event.DISABLED)
+    healing.unregister()
+    properties.unregister()

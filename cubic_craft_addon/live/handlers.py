@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender tells a running Live session, beside the events of its window."""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .machine import Event
+
+_session = None
+
+
+@persistent
+def _on_undo(*_):
+    _session.on(Event.UNDONE)
+
+
+@persistent
+def _on_load(*_):
+    _session.on(Event.LOAD)
+
+
+@persistent
+def _on_save(*_):
+    _session.on(Event.SAVE)
+
+
+@persistent
+def _on_saved(*_):
+    _session.on(Event.SAVED)
+
+
+@persistent
+def _on_frame(*_):
+    _session.wake()
+
+
+@persistent
+def _on_update(_scene, depsgraph):
+    """Tell what the artist has done from what Live itself has caused."""
+    mesh_uids = _session.mesh_uids
+    for update in depsgraph.updates:
+        data = update.id.original
+        if isinstance(data, bpy.types.Mesh):
+            if update.is_updated_geometry and data.session_uid in mesh_uids:
+                _session.on_mesh_update()
+        elif isinstance(data, bpy.types.Object) and (
+            update.is_updated_transform or not update.is_updated_geometry
+        ):
+            # Moved, or one of its properties changed: a handle, a frame, or a live object itself.
+            _session.wake()
+
+
+_HANDLERS = (
+    ("undo_post", _on_undo),
+    ("redo_post", _on_undo),
+    ("load_pre", _on_load),
+    ("save_pre", _on_save),
+    ("save_post", _on_saved),
+    ("save_post_fail", _on_saved),
+    ("frame_change_post", _on_frame),
+    ("depsgraph_update_post", _on_update),
+)
+
+
+def install(session):
+    """Have the session told what happens."""
+    global _session
+    _session = session
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def remove():
+    """Undo `install`."""
+    global _session
+    for name, handler in _HANDLERS:
+        installed = getattr(bpy.app.handlers, name)
+        if handler in installed:
+            installed.remove(handler)
+    _session = None
+
+
+def is_installed():
+    """Tell whether a session is told what happens."""
+    return _session is not None

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Live does when something happens: a table of states and events, without Blender.
+
+`Machine.on` takes an event and returns the actions to be carried out, in their order. Every way to
+end puts the meshes back before anything else, and cleans up last.
+"""
+
+from enum import Enum, auto
+
+
+class State(Enum):
+    """Where Live stands."""
+
+    WORKING = auto()
+    """the timer runs, the solver iterates"""
+    IDLE = auto()
+    """nothing to do: no timer, no redraw"""
+    FINISHING = auto()
+    """confirmed before it had converged: the solver iterates to its end"""
+    SAVING = auto()
+    """a file is being saved; the meshes are as before Live"""
+    SAVING_TO_FINISH = auto()
+    """the same, after it was confirmed"""
+    ENDED = auto()
+
+
+class Event(Enum):
+    """What happens to Live."""
+
+    WAKE = auto()
+    """something in the scene or the panel may have changed"""
+    CHANGED = auto()
+    """a setting, a handle, the frame or the map has changed"""
+    DONE = auto()
+    """all runs have come to their end"""
+    REFUSED = auto()
+    """there is nothing that could be written"""
+    CONFIRM = auto()
+    CANCEL = auto()
+    UNDONE = auto()
+    """Blender has undone or redone a step; the data may be anything"""
+    LOST = auto()
+    """no mesh is left to work on"""
+    MODE_LEFT = auto()
+    """the artist has gone to a mode in which meshes must not be written"""
+    SAVE = auto()
+    SAVED = auto()
+    LOAD = auto()
+    """another file is going to be loaded"""
+    CLOSED = auto()
+    """Blender has taken the operator away, as when the window is closed"""
+    DISABLED = auto()
+    """the extension is being switched off"""
+    FAILED = auto()
+    """an exception"""
+
+
+class Action(Enum):
+    """What is to be done, in answer to an event."""
+
+    START_TIMER = auto()
+    STOP_TIMER = auto()
+    RESTART = auto()
+    """all that has changed starts again from the original shape"""
+    FOLLOW = auto()
+    """find the objects again in what Blender has undone, and show the preview on them"""
+    PUT_BACK = auto()
+    """give the meshes the bits from before the preview"""
+    SHOW_AGAIN = auto()
+    """begin the preview again after PUT_BACK"""
+    WRITE = auto()
+    """write the results as Cubify does"""
+    CLEAN_UP = auto()
+    """remove timer, handlers, status text and references"""
+
+
+_END = (State.ENDED, (Action.PUT_BACK, Action.CLEAN_UP))
+_ENDINGS = {
+    event: _END
+    for event in (
+        Event.CANCEL,
+        Event.LOST,
+        Event.MODE_LEFT,
+        Event.LOAD,
+        Event.CLOSED,
+        Event.DISABLED,
+        Event.FAILED,
+    )
+}
+
+# What is not in the table changes nothing.
+_TABLE = {
+    State.WORKING: {
+        Event.CHANGED: (State.WORKING, (Action.RESTART,)),
+        Event.DONE: (State.IDLE, (Action.STOP_TIMER,)),
+        Event.CONFIRM: (State.FINISHING, ()),
+        Event.UNDONE: (State.WORKING, (Action.FOLLOW,)),
+        Event.SAVE: (State.SAVING, (Action.PUT_BACK,)),
+        **_ENDINGS,
+    },
+    State.IDLE: {
+        Event.WAKE: (State.WORKING, (Action.START_TIMER,)),
+        Event.CHANGED: (State.WORKING, (Action.START_TIMER, Action.RESTART)),
+        Event.CONFIRM: (State.FINISHING, (Action.START_TIMER,)),
+        Event.UNDONE: (State.WORKING, (Action.START_TIMER, Action.FOLLOW)),
+        Event.SAVE: (State.SAVING, (Action.PUT_BACK,)),
+        **_ENDINGS,
+    },
+    State.FINISHING: {
+        Event.CHANGED: (State.FINISHING, (Action.RESTART,)),
+        Event.DONE: (State.ENDED, (Action.PUT_BACK, Action.WRITE, Action.CLEAN_UP)),
+        Event.REFUSED: (State.WORKING, ()),
+        Event.UNDONE: (State.FINISHING, (Action.FOLLOW,)),
+        Event.SAVE: (State.SAVING_TO_FINISH, (Action.PUT_BACK,)),
+        **_ENDINGS,
+    },
+    State.SAVING: {
+        Event.CONFIRM: (State.SAVING_TO_FINISH, ()),
+        Event.SAVED: (State.WORKING, (Action.START_TIMER, Action.SHOW_AGAIN)),
+        **_ENDINGS,
+    },
+    State.SAVING_TO_FINISH: {
+        Event.SAVED: (State.FINISHING, (Action.START_TIMER, Action.SHOW_AGAIN)),
+        **_ENDINGS,
+    },
+    State.ENDED: {},
+}
+
+
+class Machine:
+    """The state of one Live session.
+
+    Attributes
+    ----------
+    state : State
+    """
+
+    def __init__(self):
+        self.state = State.WORKING
+
+    def on(self, event):
+        """Take in an Event and return a tuple of Actions."""
+        self.state, actions = _TABLE[self.state].get(event, (self.state, ()))
+        return actions

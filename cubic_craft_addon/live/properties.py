@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings while Live runs.
+
+They lie on the window manager: a slider on an object would push an undo step that holds a mesh in
+the middle of its way. Confirming carries them over to the objects, in the one step of Live.
+"""
+
+from typing import Any
+
+import bpy
+from bpy.props import PointerProperty, StringProperty
+
+from ..choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
+from ..properties import RunProperties, object_properties
+from . import wake
+
+_NAME = "cubic_craft_live"
+_FRAME = "frame"
+
+
+def _with_update(declared):
+    """Return the declaration of a property once more, with a callback on changes."""
+    return declared.function(**{**declared.keywords, "update": wake.on_property})
+
+
+class CubicCraftLiveProperties(bpy.types.PropertyGroup):
+    """The settings of the running session."""
+
+    __annotations__ = {
+        name: _with_update(declared) for name, declared in RunProperties.__annotations__.items()
+    } | {
+        # By name: a pointer on the window manager would outlive the objects at an undo.
+        _FRAME: StringProperty(
+            name="Frame",
+            description="Name of the object whose axes are those of the cube",
+            update=wake.on_property,
+        )
+    }
+
+
+def live_properties() -> Any:
+    """Return the settings of the running session."""
+    return getattr(bpy.context.window_manager, _NAME)
+
+
+def adopt(obj: bpy.types.Object) -> None:
+    """Take the settings from an object."""
+    source = object_properties(obj)
+    frame = source.frame
+    set_live_values(values_of(source) | {_FRAME: frame.name if frame else ""})
+
+
+def live_values() -> dict[str, Any]:
+    """Return the settings as plain values."""
+    return values_of(live_properties(), (*ALL, _FRAME))
+
+
+def set_live_values(values: dict[str, Any]) -> None:
+    """Set settings by their names."""
+    target = live_properties()
+    for name, value in values.items():
+        setattr(target, name, value)
+
+
+def live_choice(objects: list[bpy.types.Object]) -> Choice:
+    """Return the settings for objects, of which the active one is the first.
+
+    Raises
+    ------
+    CubicCraftError
+        There is no frame object of that name.
+    """
+    values = live_values()
+    frame = values.pop(_FRAME)
+    if len(objects) > 1:
+        values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
+    is_framed = objects and values["space"] == "FRAME"
+    return Choice(values, find_frame(frame, objects[0]) if is_framed else None)
+
+
+def register():
+    """Add `WindowManager.cubic_craft_live`."""
+    bpy.utils.register_class(CubicCraftLiveProperties)
+    declaration = PointerProperty(type=CubicCraftLiveProperties, options={"SKIP_SAVE"})
+    setattr(bpy.types.WindowManager, _NAME, declaration)
+
+
+def unregister():
+    """Remove `WindowManager.cubic_craft_live`."""
+    delattr(bpy.types.WindowManager, _NAME)
+    bpy.utils.unregister_class(CubicCraftLiveProperties)

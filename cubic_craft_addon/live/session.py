@@ -1,0 +1,362 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One Live session: it carries out what the state machine says.
+
+Nothing of Blender's data is kept between two calls, because undo, delete and load free it.
+"""
+
+import logging
+import time
+
+import bpy
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..baked_pose import settle
+from ..choice import Choice
+from ..tasks import Task, plan, write_all
+from . import handlers, properties, status_bar, wake
+from .history import History, TakeBack
+from .live_mesh import LiveMesh
+from .machine import Action, Event, Machine, State
+
+_log = logging.getLogger(__name__)
+
+SLICE = 0.02
+"""seconds of a tick that go into computing; the last phase of the solver comes on top"""
+_TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and handles events
+_PANEL_STEP = 0.1  # seconds between two redraws of the panel
+_CHECK_SHARE = 0.1  # of the time, at most, goes into looking whether anything has changed
+_LEAST_LIFE = 0.1  # seconds of a run while settings are dragged
+_MODES = ("OBJECT", "WEIGHT_PAINT")
+
+
+class Session:
+    """A running Live operator.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Of the window that the operator runs in.
+    objects : list of bpy.types.Object
+        The active one first.
+
+    Raises
+    ------
+    CubicCraftError
+        None of the objects can be used; nothing has changed then.
+
+    Attributes
+    ----------
+    meshes : list of LiveMesh
+    error : str
+        Why it has ended by itself.
+    summary, problems : str, list of str
+        What was written, as of `tasks.write_all`, or why nothing could be.
+    """
+
+    def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
+        self._machine = Machine()
+        self._window = context.window
+        self._object_uids = [obj.session_uid for obj in objects]
+        self._timer = None
+        self._next_check = self._next_panel = self._last_restart = 0.0
+        self._has_written = self._may_be_painted = False
+        self._turn = 0
+        self.error, self.summary = "", ""
+        self.problems: list[str] = []
+        settle(objects)
+        properties.adopt(objects[0])
+        self._values = properties.live_values()
+        self._history = History(self._values)
+        self.meshes: list[LiveMesh] = []
+        self._plan(objects)
+        seen = set()
+        for task in self._tasks.values():
+            self.meshes.append(LiveMesh(task, is_shown=task.mesh not in seen))
+            seen.add(task.mesh)
+            self.meshes[-1].restart(task)
+        if not any(mesh.is_working for mesh in self.meshes):
+            raise CubicCraftError("; ".join(self.all_problems))
+        try:
+            self._show_again()
+            handlers.install(self)
+            wake.listen(self.wake)
+            status_bar.show(self)
+            self._start_timer()
+        except Exception:
+            self._put_back()
+            self._clean_up()
+            raise
+
+    # -- what the operator, the panel and the handlers ask -----------------------------------------
+
+    @property
+    def is_ended(self):
+        """Whether nothing is left to do."""
+        return self._machine.state is State.ENDED
+
+    @property
+    def is_finishing(self):
+        """Whether it has been confirmed and is on its way to the end."""
+        return self._machine.state is State.FINISHING
+
+    @property
+    def is_single(self):
+        """Whether one object is live, whose vertex groups are then settings of Live."""
+        return len(self._object_uids) == 1
+
+    @property
+    def all_problems(self):
+        """What is wrong with the settings or the objects, as texts."""
+        return self._plan_problems + [mesh.problem for mesh in self.meshes if mesh.problem]
+
+    @property
+    def tasks(self):
+        """What is being done, that of the active object first; valid within one event only."""
+        return list(self._tasks.values())
+
+    @property
+    def mesh_uids(self):
+        """``session_uid`` of all meshes of the session."""
+        return {mesh.mesh_uid for mesh in self.meshes}
+
+    def has_object(self, obj: bpy.types.Object) -> bool:
+        """Tell whether an object is live."""
+        return obj.session_uid in self._object_uids
+
+    def mesh_of(self, obj: bpy.types.Object) -> LiveMesh | None:
+        """Return what is done for an object, or for the mesh that it shares."""
+        uid = obj.data.session_uid
+        candidates = [mesh for mesh in self.meshes if mesh.mesh_uid == uid]
+        own = [mesh for mesh in candidates if mesh.object_uid == obj.session_uid]
+        return next(iter(own + candidates), None)
+
+    # -- what happens ------------------------------------------------------------------------------
+
+    def on(self, event: Event) -> None:
+        """Take in an event and do what the state machine says."""
+        for action in self._machine.on(event):
+            try:
+                _METHODS[action](self)
+            except Exception as error:
+                # What comes after it must be done all the same, above all the cleaning up.
+                _log.exception("Live has failed in %s", action)
+                self.error = f"Live has ended because of an error: {error}"
+        if self.error and not self.is_ended:
+            self.on(Event.FAILED)
+
+    def wake(self) -> None:
+        """Have the next tick look whether anything has changed."""
+        self._next_check = 0.0
+        self.on(Event.WAKE)
+
+    def on_mesh_update(self) -> None:
+        """Take in that Blender has evaluated a mesh of the session anew."""
+        if self._has_written:
+            self._has_written = False
+        else:
+            self._may_be_painted = True
+            self.wake()
+
+    def take_back(self) -> bool:
+        """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
+        earlier = self._history.take_back()
+        if earlier is TakeBack.BLENDER:
+            return False
+        if earlier is TakeBack.LIVE:
+            self.on(Event.CANCEL)
+        else:
+            properties.set_live_values(earlier)
+        return True
+
+    # -- a tick ------------------------------------------------------------------------------------
+
+    def tick(self, context: bpy.types.Context) -> None:
+        """Look whether anything has changed, compute for a slice of time, and show it."""
+        try:
+            self._tick(self._objects(context))
+        except Exception as error:
+            _log.exception("Live has failed")
+            self.error = f"Live has ended because of an error: {error}"
+            self.on(Event.FAILED)
+
+    def _tick(self, objects):
+        self.meshes = [mesh for mesh in self.meshes if mesh.object_uid in objects]
+        if not self.meshes:
+            self.on(Event.LOST)
+        elif any(obj.mode not in _MODES for obj in objects.values()):
+            self.on(Event.MODE_LEFT)
+        if self.is_ended:
+            return
+        begin = time.perf_counter()
+        if begin >= self._next_check:
+            self._check(list(objects.values()), begin)
+            now = time.perf_counter()
+            self._next_check = now + (now - begin) / _CHECK_SHARE
+        self._compute(begin + SLICE)
+        self._show(objects)
+        if any(mesh.is_working for mesh in self.meshes) or self._is_painted_at_rest(objects):
+            if begin >= self._next_panel:
+                self._next_panel = begin + _PANEL_STEP
+                _redraw_panels()
+            return
+        if self.is_finishing and not any(mesh.solution for mesh in self.meshes):
+            self.on(Event.REFUSED)
+        self.on(Event.DONE)
+        _redraw_panels()
+
+    def _check(self, objects, now):
+        """Restart what has other settings, or other weights, now."""
+        values = properties.live_values()
+        self._history.record(values, now)
+        self._plan(objects)
+        is_changed = any(mesh.is_changed(self._task_of(mesh)) for mesh in self.meshes)
+        if self._is_too_young(now):
+            return
+        if is_changed:
+            self.on(Event.CHANGED)
+        if self._may_be_painted:
+            self._may_be_painted = False
+            is_changed |= self._restart_painted()
+        if is_changed:
+            self._last_restart = now
+            if values == self._values:
+                self._history.record_outside()
+            self._values = values
+
+    def _is_too_young(self, now):
+        """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
+        working = [mesh for mesh in self.meshes if mesh.is_working]
+        is_seen = all(mesh.is_seen for mesh in working)
+        return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
+
+    def _restart_changed(self):
+        for mesh in self.meshes:
+            task = self._task_of(mesh)
+            if mesh.is_changed(task):
+                mesh.restart(task)
+
+    def _restart_painted(self):
+        return any([mesh.restart_if_painted(self._task_of(mesh)) for mesh in self.meshes])
+
+    def _is_painted_at_rest(self, objects):
+        """Look once more for strokes that went unnoticed while Live itself changed the mesh."""
+        is_painting = any(obj.mode == "WEIGHT_PAINT" for obj in objects.values())
+        return is_painting and self._restart_painted()
+
+    def _compute(self, deadline):
+        """Advance all runs in turn, so that they are seen to move together."""
+        working = [mesh for mesh in self.meshes if mesh.is_working]
+        while working:
+            self._turn += 1
+            working[self._turn % len(working)].advance()
+            if time.perf_counter() >= deadline:
+                return
+            working = [mesh for mesh in working if mesh.is_working]
+
+    def _show(self, objects):
+        for mesh in self.meshes:
+            if mesh.show(objects[mesh.object_uid].data):
+                self._has_written = True
+
+    # -- what the state machine asks for -----------------------------------------------------------
+
+    def _follow(self):
+        self._put_back()
+        objects = self._objects(bpy.context)
+        self._plan(list(objects.values()))
+        for mesh in self.meshes:
+            task = self._task_of(mesh)
+            if task is not None and task.obj.mode in _MODES:
+                mesh.follow(task)
+                mesh.begin_preview(task.mesh)
+
+    def _show_again(self):
+        for mesh in self.meshes:
+            task = self._task_of(mesh)
+            if task is not None:
+                mesh.begin_preview(task.mesh)
+
+    def _write(self):
+        objects = self._objects(bpy.context)
+        self._plan(list(objects.values()))
+        for mesh in self.meshes:
+            task = self._task_of(mesh)
+            if task is not None:
+                task.solution = mesh.solution
+        solved = [task for task in self._tasks.values() if task.solution is not None]
+        self.summary, unwritten = write_all(self._choice, solved)
+        self.problems = self.all_problems + unwritten
+
+    def _start_timer(self):
+        if self._timer is None:
+            manager = bpy.context.window_manager
+            self._timer = manager.event_timer_add(_TIMER_STEP, window=self._window)
+
+    def _stop_timer(self):
+        if self._timer is not None:
+            bpy.context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+
+    def _put_back(self):
+        # Of all meshes: a preview may have been copied, or left on a mesh that was taken away.
+        mesh_bridge.end_all_previews()
+
+    def _clean_up(self):
+        self._stop_timer()
+        handlers.remove()
+        wake.listen(None)
+        status_bar.hide()
+        for mesh in self.meshes:
+            mesh.release()
+        _redraw_panels()
+
+    # -- helpers -----------------------------------------------------------------------------------
+
+    def _objects(self, context):
+        """Return the objects that are still there, by ``session_uid``, the active one first."""
+        uids = set(self._object_uids)
+        # There is a None in it where a script has just removed an object.
+        there = [obj for obj in context.view_layer.objects if obj is not None]
+        found = {obj.session_uid: obj for obj in there if obj.session_uid in uids}
+        known = {mesh.object_uid: mesh.mesh_uid for mesh in self.meshes}
+        return {
+            uid: found[uid]
+            for uid in self._object_uids
+            if uid in found and known.get(uid) in (None, found[uid].data.session_uid)
+        }
+
+    def _plan(self, objects):
+        """Find out what is to be done for the objects, with the settings as they are."""
+        self._tasks: dict[int, Task] = {}
+        try:
+            self._choice: Choice = properties.live_choice(objects)
+        except CubicCraftError as error:
+            self._plan_problems = [str(error)]
+            return
+        tasks, self._plan_problems = plan(self._choice, objects)
+        self._tasks = {task.obj.session_uid: task for task in tasks}
+
+    def _task_of(self, mesh):
+        return self._tasks.get(mesh.object_uid)
+
+
+_METHODS = {
+    Action.START_TIMER: Session._start_timer,
+    Action.STOP_TIMER: Session._stop_timer,
+    Action.RESTART: Session._restart_changed,
+    Action.FOLLOW: Session._follow,
+    Action.PUT_BACK: Session._put_back,
+    Action.SHOW_AGAIN: Session._show_again,
+    Action.WRITE: Session._write,
+    Action.CLEAN_UP: Session._clean_up,
+}
+
+
+def _redraw_panels():
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()

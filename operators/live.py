@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live: a modal operator that hands the events of its window to the session.
+
+All that decides is in ``cubic_craft_addon/live``.
+"""
+
+import bpy
+
+from ..cubic_craft_addon import live
+from ..solver import CubicCraftError
+from .selection import poll_usable, report_all, selected_meshes
+
+_CONFIRM = ("RET", "NUMPAD_ENTER")
+
+
+class CUBIC_CRAFT_OT_live(bpy.types.Operator):
+    """Watch the selected meshes become cubic while settings are changed."""
+
+    bl_idname = "cubic_craft.live"
+    bl_label = "Live"
+    bl_description = (
+        "Watch the selected meshes become cubic while you change the settings. Enter, or this"
+        " button again, confirms; Esc or right click cancels"
+    )
+    bl_options = {"UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Live runs, or there is a mesh that can be cubified."""
+        return live.current() is not None or poll_usable(cls, context)
+
+    def execute(self, context):
+        """Refuse: without a window nothing can be watched."""
+        self.report({"ERROR"}, "Live needs a window to be watched in; use Cubify")
+        return {"CANCELLED"}
+
+    def invoke(self, context, event):
+        """Start, or confirm if it runs."""
+        session = live.current()
+        if session is not None:
+            session.on(live.Event.CONFIRM)
+            return {"CANCELLED"}  # the running one ends with the undo step
+        context.window.cursor_modal_set("WAIT")
+        try:
+            self._session = live.begin(context, selected_meshes(context))
+        except CubicCraftError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        finally:
+            context.window.cursor_modal_restore()
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        """Pass on what concerns Live; all else is Blender's, so that the view can be orbited."""
+        session = self._session
+        is_ours = False
+        if event.type == "TIMER":
+            if not session.is_ended:
+                session.tick(context)
+        elif event.value == "PRESS" and _is_over_viewport(context, event):
+            is_ours = self._on_press(context, event)
+        if session.is_ended:
+            return self._end()
+        return {"RUNNING_MODAL"} if is_ours else {"PASS_THROUGH"}
+
+    def cancel(self, context):
+        """Blender takes the operator away: another file, or the window is closed."""
+        self._session.on(live.Event.CLOSED)
+
+    def _on_press(self, context, event):
+        session = self._session
+        if event.type in _CONFIRM:
+            session.on(live.Event.CONFIRM)
+            return True
+        if event.type == "ESC" or (event.type == "RIGHTMOUSE" and _is_in_view(context, event)):
+            session.on(live.Event.CANCEL)
+            return True
+        if event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt):
+            return session.take_back()
+        return False
+
+    def _end(self):
+        session = self._session
+        if session.error:
+            self.report({"ERROR"}, session.error)
+        if session.summary or session.problems:
+            return report_all(self, session.summary, session.problems)
+        return {"CANCELLED"}
+
+
+class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
+    """Cancel Live, for those who look for a button."""
+
+    bl_idname = "cubic_craft.live_cancel"
+    bl_label = "Cancel Live"
+    bl_description = "End Live and give the meshes the shape back that they had before"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        """Live runs."""
+        return live.current() is not None
+
+    def execute(self, context):
+        """End it."""
+        session = live.current()
+        if session is not None:
+            session.on(live.Event.CANCEL)
+        return {"FINISHED"}
+
+
+def _is_over_viewport(context, event):
+    return any(_contains(area, event) for area in context.screen.areas if area.type == "VIEW_3D")
+
+
+def _is_in_view(context, event):
+    """Tell whether the mouse is on the view itself, not on the sidebar with its context menus."""
+    for area in context.screen.areas:
+        if area.type == "VIEW_3D" and _contains(area, event):
+            regions = [r for r in area.regions if r.width > 1 and _contains(r, event)]
+            return all(region.type == "WINDOW" for region in regions)
+    return False
+
+
+def _contains(box, event):
+    x, y = event.mouse_x - box.x, event.mouse_y - box.y
+    return 0 <= x < box.width and 0 <= y < box.height

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure the ticks of Live in a real window while its slider is dragged.
+
+Runs tests/gui/bench_live.py in the Blender of the window tests (root, on Debian), and writes
+docs/benchmarks_live.md.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+MESHES = ("bunny.obj", "horse.ply")
+
+
+def main():
+    """Run the benchmark and write the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("zip", type=Path, help="the built extension")
+    parser.add_argument(
+        "--meshes",
+        type=Path,
+        default=Path(os.environ.get("CUBIC_CRAFT_MESHES", ROOT / "../shared/meshes")),
+        help="folder with bunny.obj and horse.ply; without it, subdivided monkeys are used",
+    )
+    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "benchmarks_live.md")
+    options = parser.parse_args()
+    kit = ROOT / "tests" / "gui" / "kit"
+    subprocess.run([kit / "setup_blender_gui.sh"], check=True)
+    with tempfile.TemporaryDirectory(prefix="cubic_craft_bench_") as folder:
+        for name in MESHES:
+            if (options.meshes / name).exists():
+                shutil.copy(options.meshes / name, folder)
+        command = [kit / "run_in_gui.sh", "-p", "-e", options.zip, "-d", folder]
+        subprocess.run([*command, ROOT / "tests" / "gui" / "bench_live.py"], check=True)
+        rows = json.loads((Path(folder) / "ticks.json").read_text())
+    options.output.write_text(page(rows))
+    sys.stdout.write(page(rows))
+
+
+def page(rows):
+    """Return the page."""
+    lines = [
+        "# How fluid Live is",
+        "",
+        "Written by `make bench-live`: Blender 4.3 with Taichi, ten seconds of dragging the",
+        "cubeness slider back and forth in the real window, so that the run restarts all the time.",
+        "A tick is what Live does between two turns of Blender's main loop; the delay is what",
+        "passes from a change of the slider until the mesh shows it. Blender's own drawing (in",
+        "software, here) is left out of the ticks and of the first delay, and is in the second.",
+        "The set-up at the start is not in it. Times on a shared machine with"
+        f" {os.cpu_count()} cores and no GPU.",
+        "",
+        "| mesh | vertices | ticks | median | 95 % | worst | delay, ticks alone: median | worst"
+        " | with drawing: median |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        ticks, delays = sorted(row["ticks"]), row["delays_of_ticks"]
+        values = (
+            statistics.median(ticks),
+            ticks[int(0.95 * len(ticks))],
+            ticks[-1],
+            statistics.median(delays),
+            max(delays),
+            statistics.median(row["delays"]),
+        )
+        cells = " | ".join(f"{1000 * value:.0f} ms" for value in values)
+        lines.append(f"| {row['mesh']} | {row['vertices']:,} | {len(ticks)} | {cells} |")
+    return "\n".join([*lines, ""])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+import numpy as np
+import pytest
+from previewed import NOTE, STATES, add_monkey, live_attributes, show_some
+from rich_mesh import cubic_like, points_of, position_of, set_position
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_end_puts_all_bits_back(bridge, state):
+    obj = add_monkey(bridge, state)
+    mesh = obj.data
+    before = snapshot_object(obj)
+    traces = bridge.has_traces(mesh)
+    preview = show_some(bridge, mesh)
+    changed = differences(before, snapshot_object(obj), ignore=STORED)
+    assert changed != []
+    changed = differences(before, snapshot_object(obj), POSITIONS + SHAPE_KEY_POINTS + STORED)
+    assert changed == []
+    assert bridge.has_preview(mesh) and bridge.has_traces(mesh)
+    assert preview.needs_rotations == ("keys" in state)
+    assert bridge.end_preview(mesh)
+    assert differences(before, snapshot_object(obj)) == []
+    assert not bridge.has_preview(mesh) and bridge.has_traces(mesh) == traces
+    assert not bridge.end_preview(mesh)
+
+
+@pytest.mark.parametrize("state", STATES[2:])
+def test_earlier_result_can_be_restored_afterwards(bridge, state):
+    obj = add_monkey(bridge, state)
+    fresh = obj.copy()
+    fresh.data = obj.data.copy()
+    bridge.restore(fresh)
+    show_some(bridge, obj.data)
+    bridge.end_preview(obj.data)
+    assert bridge.has_original(obj.data)
+    bridge.restore(obj)
+    fresh_shape = bridge.read_positions(fresh.data)
+    assert bridge.read_positions(obj.data).tobytes() == fresh_shape.tobytes()
+    assert not bridge.has_traces(obj.data)
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_shows_what_write_mesh_would_write(bridge, state):
+    obj = add_monkey(bridge, state)
+    written = obj.copy()
+    written.data = obj.data.copy()
+    result = cubic_like(bridge.original_positions(obj.data), 2)
+    bridge.write_mesh(written.data, *result)
+    show_some(bridge, obj.data)
+    assert position_of(obj.data).tobytes() == position_of(written.data).tobytes()
+    keys = written.data.shape_keys.key_blocks if written.data.shape_keys else ()
+    for key in keys:
+        shown = points_of(obj.data, key.name)
+        assert shown.tobytes() == points_of(written.data, key.name).tobytes()
+    if "Cubic" in state:
+        assert points_of(obj.data, "Cubic").tobytes() == position_of(obj.data).tobytes()
+
+
+def test_keys_that_do_not_turn(bridge, error, keyed_monkey):
+    mesh = keyed_monkey.data
+    copy = mesh.copy()
+    positions, rotations = cubic_like(bridge.original_positions(mesh))
+    unturned = np.broadcast_to(np.eye(3), rotations.shape)
+    bridge.write_mesh(copy, positions, unturned)
+    preview = bridge.Preview(mesh)
+    preview.show(mesh, positions)
+    key_names = mesh.shape_keys.key_blocks.keys()
+    for name in key_names:
+        assert points_of(mesh, name).tobytes() == points_of(copy, name).tobytes()
+
+
+@pytest.mark.parametrize("key_value", [0.0, 0.4, 1.0])
+def test_the_picture_does_not_depend_on_the_value_of_our_key(bridge, key_value):
+    obj = add_monkey(bridge, "Cubic")
+    obj.modifiers.clear()
+    obj.data.shape_keys.key_blocks["Cubic"].value = key_value
+    show_some(bridge, obj.data)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    assert np.abs(position_of(seen) - position_of(obj.data)).max() < 1e-6
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "RESTORE", "FORGET", "NEW_OBJECT"])
+def test_other_calls_end_it_first(bridge, state, result):
+    obj = add_monkey(bridge, state)
+    if result == "RESTORE" and not bridge.has_original(obj.data):
+        pytest.skip("nothing to restore")
+    made = cubic_like(bridge.original_positions(obj.data), 5)
+    calls = {
+        "MESH": lambda o: bridge.write_mesh(o.data, *made),
+        "SHAPE_KEY": lambda o: bridge.write_shape_key(o, made[0]),
+        "RESTORE": bridge.restore,
+        "FORGET": lambda o: bridge.forget(o.data),
+        "NEW_OBJECT": lambda o: bridge.write_new_object(o, *made),
+    }
+    other = obj.copy()
+    other.data = obj.data.copy()
+    written = calls[result](other) or other
+    expected = snapshot_shapes(written)
+    show_some(bridge, obj.data)
+    written = calls[result](obj) or obj
+    assert snapshot_shapes(written) == expected
+    assert live_attributes(written.data) == []
+    assert bridge.has_preview(obj.data) == (result == "NEW_OBJECT")
+
+
+def snapshot_shapes(obj):
+    keys = obj.data.shape_keys.key_blocks if obj.data.shape_keys else ()
+    shapes = {key.name: points_of(obj.data, key.name).tobytes() for key in keys}
+    ours = [a.name for a in obj.data.attributes if a.name.startswith("cubic_craft")]
+    return shapes, position_of(obj.data).tobytes(), ours, obj.data.get(NOTE)
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_write_after_the_end_is_as_without_a_preview(bridge, state):
+    obj = add_monkey(bridge, state)
+    other = obj.copy()
+    other.data = obj.data.copy()
+    made = cubic_like(bridge.original_positions(obj.data), 5)
+    bridge.write_mesh(other.data, *made)
+    show_some(bridge, obj.data)
+    bridge.end_preview(obj.data)
+    bridge.write_mesh(obj.data, *made)
+    assert snapshot_shapes(obj) == snapshot_shapes(other)
+
+
+def test_loose_vertices_stay(bridge, monkey):
+    base = bridge.read_positions(monkey.data)
+    show_some(bridge, monkey.data)
+    shown = bridge.read_positions(monkey.data)
+    assert shown[-4:].tobytes() == base[-4:].tobytes()
+    assert (shown[:-4] != base[:-4]).any()
+
+
+def _with_nan(positions, rotations):
+    positions[7, 1] = np.nan
+    return positions, rotations
+
+
+def _too_few(positions, rotations):
+    return positions[:-1], rotations
+
+
+def _endless(positions, rotations):
+    return positions.astype(np.float64) * 1e300, rotations
+
+
+def _flat(positions, rotations):
+    return positions.ravel(), rotations
+
+
+def _nan_rotation(positions, rotations):
+    rotations[3] = np.nan
+    return positions, rotations
+
+
+@pytest.mark.parametrize("spoil", [_with_nan, _too_few, _endless, _flat, _nan_rotation])
+def test_refused_before_anything_is_written(bridge, error, keyed_monkey, spoil):
+    mesh = keyed_monkey.data
+    original = snapshot_object(keyed_monkey)
+    preview = show_some(bridge, mesh)
+    before = snapshot_object(keyed_monkey)
+    with pytest.raises(error, match="'Monkey'"):
+        preview.show(mesh, *spoil(*cubic_like(position_of(mesh))))
+    assert differences(before, snapshot_object(keyed_monkey)) == []
+    bridge.end_preview(mesh)
+    assert differences(original, snapshot_object(keyed_monkey)) == []
+
+
+def test_a_second_preview_ends_the_first(bridge, monkey):
+    before = snapshot_object(monkey)
+    base = bridge.read_positions(monkey.data)
+    show_some(bridge, monkey.data)
+    preview = bridge.Preview(monkey.data)
+    assert bridge.read_positions(monkey.data).tobytes() == base.tobytes()
+    preview.show(monkey.data, *cubic_like(base, 4))
+    bridge.end_preview(monkey.data)
+    assert differences(before, snapshot_object(monkey)) == []
+
+
+def test_nothing_shown_yet(bridge, monkey):
+    before = snapshot_object(monkey)
+    bridge.Preview(monkey.data)
+    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
+    assert bridge.end_preview(monkey.data)
+    assert differences(before, snapshot_object(monkey)) == []
+
+
+def test_position_that_differs_from_the_basis(bridge, keyed_monkey):
+    mesh = keyed_monkey.data
+    flat = np.float32(position_of(mesh) + 0.25).ravel()
+    mesh.attributes["position"].data.foreach_set("vector", flat)
+    before = snapshot_object(keyed_monkey)
+    show_some(bridge, mesh)
+    bridge.end_preview(mesh)
+    assert differences(before, snapshot_object(keyed_monkey)) == []
+
+
+def test_attributes_keep_their_order_and_active_one(bridge, plain_monkey):
+    mesh = plain_monkey.data
+    for place in range(len(mesh.attributes)):
+        mesh.attributes.active_index = place
+        before = snapshot_object(plain_monkey)
+        name = mesh.attributes[place].name
+        show_some(bridge, mesh, [1])
+        assert mesh.attributes[mesh.attributes.active_index].name == name
+        bridge.end_preview(mesh)
+        assert differences(before, snapshot_object(plain_monkey)) == []
+
+
+@pytest.mark.parametrize("state", ["plain", "cubified keys"])
+@pytest.mark.parametrize(
+    ("failing", "call"),
+    [
+        ("preview_store.add_attribute", 1),
+        ("preview_store.write_note", 1),
+        ("preview.original_shapes", 1),
+    ],
+)
+def test_failure_to_begin_changes_nothing(bridge, fail_once, state, failing, call):
+    obj = add_monkey(bridge, state)
+    before = snapshot_object(obj)
+    fail_once(failing, call=call)
+    with pytest.raises(RuntimeError, match="disk on fire"):
+        bridge.Preview(obj.data)
+    assert differences(before, snapshot_object(obj)) == []
+
+
+@pytest.mark.parametrize("state", ["plain", "cubified keys"])
+@pytest.mark.parametrize(
+    ("failing", "call"),
+    [
+        ("preview.write_live_part", 1),
+        ("preview.write_live_part", 2),
+        ("preview.write_shapes", 1),
+        ("shapes.write_position", 1),
+        ("shapes.mark_moved", 1),
+    ],
+)
+def test_failure_to_show_can_be_ended(bridge, fail_once, state, failing, call):
+    obj = add_monkey(bridge, state)
+    before = snapshot_object(obj)
+    base = bridge.original_positions(obj.data)
+    preview = show_some(bridge, obj.data)
+    fail_once(failing, call=call)
+    with pytest.raises(RuntimeError, match="disk on fire"):
+        preview.show(obj.data, *cubic_like(base, 3))
+    assert bridge.end_preview(obj.data)
+    assert differences(before, snapshot_object(obj)) == []
+
+
+@pytest.mark.parametrize("failing", ["write_live_part", "write_shapes", "drop_live_part"])
+def test_failure_to_end_can_be_repeated(bridge, fail_once, keyed_monkey, failing):
+    before = snapshot_object(keyed_monkey)
+    show_some(bridge, keyed_monkey.data)
+    fail_once(f"preview_end.{failing}", call=1)
+    with pytest.raises(RuntimeError, match="disk on fire"):
+        bridge.end_preview(keyed_monkey.data)
+    assert bridge.end_preview(keyed_monkey.data)
+    assert differences(before, snapshot_object(keyed_monkey)) == []
+
+
+def test_property_in_the_way(bridge, error, plain_monkey):
+    plain_monkey.data[NOTE] = "of somebody else"
+    before = snapshot_object(plain_monkey)
+    with pytest.raises(error, match="rename"):
+        bridge.Preview(plain_monkey.data)
+    assert not bridge.has_preview(plain_monkey.data)
+    assert not bridge.end_preview(plain_monkey.data)
+    assert differences(before, snapshot_object(plain_monkey)) == []
+
+
+def test_edit_mode_and_changed_meshes_are_refused(bridge, error, plain_monkey):
+    mesh = plain_monkey.data
+    base = bridge.read_positions(mesh)
+    preview = bridge.Preview(mesh)
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(error, match="Edit Mode"):
+        preview.show(mesh, base)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bridge.end_preview(mesh)
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(error, match="Edit Mode"):
+        bridge.Preview(mesh)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    with pytest.raises(error, match="changed while a preview"):  # it has ended
+        preview.show(mesh, base)
+    assert position_of(mesh).tobytes() == base.tobytes()
+    preview = bridge.Preview(mesh)
+    mesh.vertices.add(1)
+    with pytest.raises(error, match="changed while a preview"):
+        preview.show(mesh, base)
+
+
+def test_no_mesh(bridge):
+    assert not bridge.has_preview(None)
+
+
+def test_mesh_without_vertices(bridge):
+    mesh = bpy.data.meshes.new("Nothing")
+    bridge.Preview(mesh).show(mesh, np.empty((0, 3), np.float32))
+    assert bridge.end_preview(mesh)
+    assert not bridge.has_traces(mesh)
+
+
+def test_end_all(bridge):
+    monkeys = [add_monkey(bridge, state) for state in ("plain", "keys", "cubified", "plain")]
+    before = [snapshot_object(obj) for obj in monkeys]
+    meshes = [obj.data for obj in monkeys]
+    for mesh in meshes[:3]:
+        show_some(bridge, mesh)
+    names = bridge.end_all_previews(except_meshes=[meshes[1]])
+    assert sorted(names) == sorted([meshes[0].name, meshes[2].name])
+    assert [bridge.has_preview(mesh) for mesh in meshes] == [False, True, False, False]
+    assert bridge.end_all_previews() == [meshes[1].name]
+    for obj, taken in zip(monkeys, before, strict=True):
+        assert differences(taken, snapshot_object(obj)) == []
+    assert bridge.end_all_previews() == []
+
+
+def test_set_position_is_seen_as_an_edit(bridge, plain_monkey):
+    mesh = plain_monkey.data
+    show_some(bridge, mesh)
+    mine = position_of(mesh) + np.float32(1)
+    set_position(mesh, mine)
+    assert bridge.end_preview(mesh)
+    assert position_of(mesh).tobytes() == mine.tobytes()
+    assert not bridge.has_traces(mesh)

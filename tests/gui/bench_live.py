@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How long the ticks of Live take while its slider is dragged; run by scripts/benchmark_live.py.
+
+For each mesh in /share it drags for ten seconds, and writes to /share/ticks.json what each tick
+took and how long each change took to be seen. Blender's own drawing is not part of either.
+"""
+
+import json
+import os
+import pathlib
+import time
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+
+SECONDS = 10.0
+FOLDER = pathlib.Path(os.environ.get("BENCH_FOLDER", "/share"))
+
+
+class Stopwatch:
+    """Times every tick of a session, and what passes from a change until it is seen.
+
+    A delay is counted twice: with what Blender does between the ticks (drawing in software, here),
+    and as the sum of the ticks alone.
+    """
+
+    def __init__(self, session):
+        self.ticks, self.delays, self.delays_of_ticks = [], [], []
+        self._session, self._changed_at, self._ticks_since = session, None, 0.0
+        self._tick, session.tick = session.tick, self.tick
+        self._show, session._show = session._show, self.show
+        self._is_seen = False
+
+    def changed(self):
+        if self._changed_at is None:
+            self._changed_at, self._ticks_since = time.perf_counter(), 0.0
+
+    def show(self, objects):
+        before = scene.positions(next(iter(objects.values())).name)
+        self._show(objects)
+        self._is_seen = scene.positions(next(iter(objects.values())).name) != before
+
+    def tick(self, context):
+        begin = time.perf_counter()
+        self._is_seen = False
+        self._tick(context)
+        end = time.perf_counter()
+        self.ticks.append(end - begin)
+        self._ticks_since += end - begin
+        if self._is_seen and self._changed_at is not None:
+            self.delays.append(end - self._changed_at)
+            self.delays_of_ticks.append(self._ticks_since)
+            self._changed_at = None
+
+
+def load(path):
+    """Make the scene hold nothing but the mesh of a file, or a monkey subdivided so many times."""
+    if isinstance(path, int):
+        scene.add_monkey(path)
+        return bpy.context.object
+    with gui.in_region():
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        read = bpy.ops.wm.ply_import if path.suffix == ".ply" else bpy.ops.wm.obj_import
+        read(filepath=str(path))
+        obj = bpy.context.selected_objects[0]
+        bpy.context.view_layer.objects.active = obj
+        size = max(obj.dimensions)
+        obj.scale = (3 / size,) * 3
+        bpy.ops.ed.undo_push(message="Load")
+    return obj
+
+
+def measure(path):
+    obj = load(path)
+    name, vertices = obj.name, len(obj.data.vertices)
+    yield from gui.wait_redraw()
+    yield from gui.open_sidebar("Cubic Craft")
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    slider = yield from gui.find_button("cubic_craft_live.cubeness")
+    watch = Stopwatch(scene.live().current())
+    properties = bpy.context.window_manager.cubic_craft_live
+    last, begin = properties.cubeness, time.monotonic()
+    ends = 0.2, 0.8
+    while time.monotonic() - begin < SECONDS:
+        drag = gui.drag(slider.at(ends[0]), slider.at(ends[1]), steps=24)
+        ends = ends[::-1]
+        for turn in drag:
+            if properties.cubeness != last:
+                last = properties.cubeness
+                watch.changed()
+            yield turn
+    yield from gui.screenshot(f"{name}.png")
+    yield from scene.press("ESC")
+    yield from gui.wait_until(scene.is_over, what="the end")
+    return {
+        "mesh": name,
+        "vertices": vertices,
+        "ticks": watch.ticks,
+        "delays": watch.delays,
+        "delays_of_ticks": watch.delays_of_ticks,
+    }
+
+
+def test():
+    gui.simplify_viewport()
+    rows = []
+    paths = sorted([*FOLDER.glob("*.obj"), *FOLDER.glob("*.ply")])
+    for path in paths or (2, 3):
+        rows.append((yield from measure(path)))
+    (FOLDER / "ticks.json").write_text(json.dumps(rows))
+
+
+gui.run(test)
