@@ -20,7 +20,7 @@ class CUBIC_UL_handles(bpy.types.UIList):
         obj = item.id_data
         row = layout.row(align=True)
         row.alert = item.group not in obj.vertex_groups
-        row.prop_search(item, "group", obj, "vertex_groups", text="", icon="GROUP_VERTEX")
+        row.prop(item, "group", text="", emboss=False, icon="GROUP_VERTEX")
         row.prop(item, "mode", text="", icon_only=True)
 
 
@@ -44,6 +44,7 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
 def draw_switch(layout, obj):
     """Draw the switch of all handles, which stands in the header of the section."""
+    layout.use_property_split = False
     layout.prop(live.own_properties(obj), "use_handles", text="")
 
 
@@ -73,14 +74,15 @@ def draw(layout, obj):
         buttons.operator("cubic_craft.handle_move", icon="TRIA_DOWN", text="").direction = "DOWN"
     layout.operator("cubic_craft.handle_pin_selection", icon="PINNED")
     if properties.active_handle < len(handles):
-        _draw_active(layout, handles[properties.active_handle])
+        _draw_active(layout, obj, handles[properties.active_handle])
     if len(handles) > 1:
         layout.label(text="Where they overlap, the first counts", icon="INFO")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 
 
-def _draw_active(layout, handle):
+def _draw_active(layout, obj, handle):
     column = layout.column()
+    column.prop_search(handle, "group", obj, "vertex_groups")
     column.prop(handle, "threshold", slider=True)
     if handle.mode == "FOLLOW":
         column.prop(handle, "target")

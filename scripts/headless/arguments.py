@@ -8,6 +8,7 @@ from typing import NoReturn
 
 from .errors import InputError
 from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
+from .handles_file import read_handles
 from .output_files import check_writable, numbered, per_cubeness
 
 __all__ = ("parse",)
@@ -17,6 +18,21 @@ The picture shows the original beside one result per cubeness. With --turntable 
 sequence name_0001.png ... in which every object turns once about its vertical axis.
 Orientation 0 0 0 means the axes of the object, which for an .obj are those of the file.
 In Blender: blender -b -P scripts/headless_render.py -- [options]
+
+--handles FILE.json poses the mesh: a list of parts to hold, and where; the rest follows.
+  [{"box": [[-1, -1, -1], [1, 1, -0.8]]},
+   {"group": "ear", "translate": [0, 0, 0.4], "rotate": [0, 30, 0]}]
+Each has one of
+  "group": name of a vertex group, with "threshold": least weight (0.5)
+  "vertices": numbers of vertices in the input file, from 0
+  "box": lowest and highest corner; all vertices in it
+and any of
+  "translate": [x, y, z]      "rotate": degrees about [x, y, z], in this order
+  "scale": number or [x, y, z]
+  "pivot": [x, y, z] that it is turned and scaled about (the middle of its bounding box)
+Coordinates are the object's own, as they stand in the file (for an .obj those of its "v" lines),
+before --turn. Without any of these the part stays in place. Where parts overlap the first counts,
+--pin before all. --cubeness 0 poses only.
 """
 
 
@@ -34,7 +50,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     -------
     argparse.Namespace
         One attribute per option; ``output``, ``save_mesh`` and ``report`` are paths or None,
-        ``input`` is a path or None for the monkey.
+        ``input`` is a path or None for the monkey; ``handles`` is a list of `GivenHandle`.
 
     Raises
     ------
@@ -52,6 +68,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     if options.input is not None:
         _check_input(options.input)
     _check_outputs(options)
+    options.handles = read_handles(options.handles_file) if options.handles_file else []
     return options
 
 
@@ -98,6 +115,13 @@ def _add_method(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--pin", nargs="+", default=[], metavar="GROUP", help="vertex groups that stay in place"
+    )
+    group.add_argument(
+        "--handles",
+        dest="handles_file",
+        type=Path,
+        metavar="FILE.json",
+        help="parts of the mesh that are held or moved, see below",
     )
     group.add_argument(
         "--map", default="", metavar="GROUP", help="vertex group that scales the cubeness"
@@ -229,8 +253,9 @@ def _check_outputs(options: argparse.Namespace) -> None:
         outputs["--report"] = [options.report]
     for option, paths in outputs.items():
         check_writable(option, paths)
-        if options.input is not None and options.input.resolve() in (p.resolve() for p in paths):
-            raise InputError(f"{option} {options.input}: this is the input; give another name")
+        for source in (options.input, options.handles_file):
+            if source is not None and source.resolve() in (path.resolve() for path in paths):
+                raise InputError(f"{option} {source}: this is the input; give another name")
 
 
 def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:

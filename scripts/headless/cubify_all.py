@@ -9,6 +9,8 @@ import bpy
 
 from .errors import InputError
 from .extension import Extension
+from .load_meshes import Loaded
+from .pose import handles_of_all
 from .progress import ProgressBar
 
 __all__ = ("Sculpture", "cubify_all")
@@ -32,22 +34,26 @@ class Sculpture:
 
 
 def cubify_all(
-    objects: list[bpy.types.Object], options: Namespace, extension: Extension, bar: ProgressBar
+    loaded: Loaded, options: Namespace, extension: Extension, bar: ProgressBar
 ) -> list[Sculpture]:
     """Solve each mesh once per cubeness; objects that share a mesh share the results.
 
     Raises
     ------
     InputError
-        No object has a vertex group that was named.
+        No object has a vertex group that was named, or a handle concerns none.
     CubicCraftError
         An object, or an option for it, cannot be used.
     """
-    _check_groups(objects, options)
+    _check_groups(loaded.objects, options)
+    handles = handles_of_all(loaded, options, extension)
     by_mesh: dict[str, list[bpy.types.Object]] = {}
-    for obj in objects:
+    for obj in loaded.objects:
         by_mesh.setdefault(obj.data.name_full, []).append(obj)
-    all_settings = [_settings(users[0], options, extension) for users in by_mesh.values()]
+    all_settings = [
+        _settings(users[0], handles[users[0].name], options, extension)
+        for users in by_mesh.values()
+    ]
     # All checks of all objects come first, so that a refusal costs no solve.
     all_prepared = [
         extension.cubify.prepare(users[0], settings)
@@ -72,13 +78,13 @@ def cubify_all(
     return sculptures
 
 
-def _settings(obj: bpy.types.Object, options: Namespace, extension: Extension) -> Any:
+def _settings(
+    obj: bpy.types.Object, handles: tuple[Any, ...], options: Namespace, extension: Extension
+) -> Any:
     """Return the Settings for one object; a group that only others have does not concern it."""
-    handle = extension.handles.Handle
-    pins = tuple(handle(group) for group in options.pin if group in obj.vertex_groups)
     return extension.settings.Settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
-        handles=pins,
+        handles=handles,
         map_group=options.map if options.map in obj.vertex_groups else "",
         rotation=options.rotation.upper(),
         device=options.device.upper(),

@@ -1,6 +1,6 @@
 """Which formats can be read, and which can be written with vertex order and count kept."""
 
-__all__ = ("KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "listing")
+__all__ = ("KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "RENUMBER_VERTICES", "listing")
 
 READABLE = (
     (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
@@ -14,6 +14,9 @@ KEEP_VERTICES = (".obj", ".ply", ".usd", ".usdc", ".usda", ".usdz", ".abc", ".bl
 # STL stores triangle corners only, glTF splits vertices at seams, FBX rounds on the way through
 # its own units and axes.
 LOSE_VERTICES = (".stl", ".glb", ".gltf", ".fbx")
+
+# What is read from these has other vertices than the file: corners are joined.
+RENUMBER_VERTICES = (".stl", ".glb", ".gltf")
 
 
 def listing(suffixes: tuple[str, ...]) -> str:

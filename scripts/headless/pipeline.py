@@ -48,7 +48,7 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
     with _timed("load", seconds):
         loaded = load(options.input, options.object, options.verbose)
     try:
-        sculptures = cubify_all(loaded.objects, options, extension, bar)
+        sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:
         raise InputError(f"{options.input or 'monkey'}: {error}") from error
     with _timed("write", seconds):

@@ -2,6 +2,7 @@
 """What the panel says before the click; the drawing itself is tested in a window."""
 
 import importlib
+import re
 from pathlib import Path
 
 import bpy
@@ -50,11 +51,22 @@ def test_edit_mode_is_named(problem):
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_every_button_of_the_panel_is_an_operator_that_exists(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.panel")
+@pytest.mark.parametrize(("module", "count"), [("panel", 4), ("handles_panel", 6)])
+def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")
-    names = [part.split('"')[0] for part in text.split('.operator("')[1:]]
-    assert len(names) >= 4
+    names = set(re.findall(r'\.operator\(\s*"([^"]+)"', text))
+    assert len(names) >= count
     for name in names:
         room, verb = name.split(".")
         assert getattr(getattr(bpy.ops, room), verb).get_rna_type().name
+
+
+def test_what_is_wrong_with_a_handle_is_named(problem):
+    obj = add_monkey()
+    handle = obj.cubic_craft.handles.add()
+    assert problem(obj).startswith('handle 1 of "Suzanne" has no vertex group')
+    handle.group = "Ears"
+    assert problem(obj) == '"Suzanne" has no vertex group "Ears"; pick another one'
+    obj.cubic_craft.use_handles = False
+    assert problem(obj) == ""

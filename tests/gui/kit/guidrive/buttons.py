@@ -79,7 +79,7 @@ def _scan(matches, met, region_type, area_type, thorough):
     Unless thorough, it looks to the left and right only in rows that have a button on the way.
     """
     place = region(region_type, area_type)
-    columns = [place.x + int(across * place.width) for across in (0.52, 0.37, 0.75, 0.12)]
+    columns = [place.x + int(across * place.width) for across in (0.52, 0.37, 0.75, 0.12, 0.83)]
     rows = range(place.y + place.height - 4, place.y, -SCAN_STEP)
     if place.width > 4 * place.height:  # a header: one row of small buttons
         columns = range(place.x + SCAN_STEP, place.x + place.width, SCAN_STEP)

@@ -1,0 +1,131 @@
+"""From the handles of the command line to those of each object."""
+
+import math
+from argparse import Namespace
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Euler, Matrix, Vector
+
+from .errors import InputError
+from .extension import Extension
+from .formats import RENUMBER_VERTICES
+from .handles_file import GivenHandle
+from .load_meshes import Loaded
+
+__all__ = ("handles_of_all",)
+
+
+def handles_of_all(
+    loaded: Loaded, options: Namespace, extension: Extension
+) -> dict[str, tuple[Any, ...]]:
+    """Return the handles (`cubic_craft_addon.handles.Handle`) of each object, by its name.
+
+    Those of ``--pin`` come first, so they hold where others overlap them. A handle that only other
+    objects have does not concern an object.
+
+    Raises
+    ------
+    InputError
+        A handle of the file concerns no object, or its vertex numbers mean nothing here.
+    """
+    make = extension.handles.Handle
+    found: dict[str, list[Any]] = {
+        obj.name: [make(group) for group in options.pin if group in obj.vertex_groups]
+        for obj in loaded.objects
+    }
+    for given in options.handles:
+        is_anywhere = False
+        for obj in loaded.objects:
+            original = extension.mesh_bridge.original_positions(obj.data)
+            members = _members(obj, original, given, loaded, options, extension)
+            if len(members):
+                is_anywhere = True
+                matrix = _matrix(given, original[members].astype(np.float64))
+                handle = make(vertices=tuple(members.tolist()), matrix=matrix)
+                found[obj.name].append(handle)
+        if not is_anywhere:
+            raise InputError(f"{given.where}: {_why_nothing(given, loaded)}")
+    return {name: tuple(handles) for name, handles in found.items()}
+
+
+def _members(
+    obj: bpy.types.Object,
+    original: np.ndarray,
+    given: GivenHandle,
+    loaded: Loaded,
+    options: Namespace,
+    extension: Extension,
+) -> np.ndarray:
+    """Return the vertices (k,) int of the object that belong to the handle."""
+    if given.group is not None:
+        if given.group not in obj.vertex_groups:
+            return np.empty(0, np.int64)
+        weights = extension.mesh_bridge.group_weights(obj, given.group)
+        return np.flatnonzero(weights >= given.threshold)
+    if given.box is not None:
+        low, high = np.array(given.box)
+        return np.flatnonzero(((original >= low) & (original <= high)).all(axis=1))
+    assert given.vertices is not None
+    numbers = _numbers_in_file(obj, len(original), given, loaded, options)
+    return np.flatnonzero(np.isin(numbers, given.vertices))
+
+
+def _numbers_in_file(
+    obj: bpy.types.Object, count: int, given: GivenHandle, loaded: Loaded, options: Namespace
+) -> np.ndarray:
+    """Return the number (n,) int that each vertex has in the input file."""
+    assert given.vertices is not None
+    suffix = options.input.suffix.lower() if options.input is not None else ""
+    if suffix in RENUMBER_VERTICES:
+        raise InputError(
+            f"{given.where}: {suffix} files do not keep the numbers of vertices; give a box"
+        )
+    rows = loaded.obj_layout.rows.get(obj.name) if loaded.obj_layout is not None else None
+    if rows is not None:
+        count = len(loaded.obj_layout.positions)
+    elif len(loaded.objects) > 1:
+        raise InputError(
+            f"{given.where}: the input has {len(loaded.objects)} meshes, each with vertices of its"
+            " own; choose one by --object, or give a group or a box"
+        )
+    if max(given.vertices) >= count:
+        raise InputError(
+            f"{given.where}: there is no vertex {max(given.vertices)}; the last is {count - 1}"
+        )
+    return np.arange(count) if rows is None else rows
+
+
+def _matrix(given: GivenHandle, held: np.ndarray) -> tuple[float, ...]:
+    """Return the map of the handle as 16 numbers, row by row."""
+    pivot = Vector(given.pivot or (held.min(axis=0) + held.max(axis=0)) / 2)
+    turn = Euler([math.radians(angle) for angle in given.rotate])
+    place = Matrix.LocRotScale(pivot + Vector(given.translate), turn, given.scale)
+    matrix = np.array(place @ Matrix.Translation(-pivot), dtype=np.float64)
+    if np.abs(matrix - np.eye(4)).max() == 0.0:
+        matrix = np.eye(4)
+    return tuple(matrix.ravel().tolist())
+
+
+def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
+    if given.vertices is not None:
+        return "none of its vertices is part of the mesh"
+    if given.box is not None:
+        points = np.concatenate([_positions(obj) for obj in loaded.objects], dtype=np.float64)
+        low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))
+        return f"no vertex lies in its box; the input extends from {low} to {high}"
+    there = dict.fromkeys(group.name for obj in loaded.objects for group in obj.vertex_groups)
+    if given.group in there:
+        return (
+            f"no vertex weighs {given.threshold:g} or more in the vertex group {given.group!r};"
+            " lower the threshold"
+        )
+    has = ", ".join(map(repr, there)) or "no vertex group at all"
+    return f"no such vertex group: {given.group}; the input has {has}"
+
+
+def _positions(obj: bpy.types.Object) -> np.ndarray:
+    points = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", points)
+    return points.reshape(-1, 3)
