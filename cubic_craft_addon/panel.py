@@ -43,7 +43,6 @@ class CUBIC_PT_main(bpy.types.Panel):
         _draw_cubify(layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
-            header.use_property_split = False
             if identifier == handles_panel.SECTION:
                 handles_panel.draw_switch(header, obj)
             header.label(text=title)

@@ -111,7 +111,7 @@ def test_format_keeps_vertices_faces_and_place(inputs, results, suffix):
         np.testing.assert_allclose(place_after, place, rtol=1e-5, atol=1e-6)
         np.testing.assert_array_equal(result[LOOSE], rest[LOOSE])
         extent = np.ptp(rest[1:5], axis=0).max()
-        assert 0.1 * extent < np.abs(result - rest).max() < 0.8 * extent
+        assert 0.1 * extent < np.abs(result - rest).max() < 1.5 * extent
 
 
 def test_formats_agree(results):
