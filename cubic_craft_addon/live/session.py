@@ -58,8 +58,9 @@ class Session:
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
         self._next_check = self._next_panel = 0.0
-        self._has_written = self._may_be_painted = False
+        self._has_written = self._may_be_painted = self._is_undone = False
         self._turn = 0
+        self._last_step = _last_step()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
         properties.adopt(objects[0])
@@ -155,8 +156,17 @@ class Session:
             self._may_be_painted = True
             self.wake()
 
+    def on_undo(self) -> None:
+        """Take in that Blender has undone or redone a step."""
+        # Steps from before Live have no preview on their meshes, those pushed since then do.
+        meshes = [obj.data for obj in self._objects(bpy.context).values()]
+        self._history.record_undo(any(mesh_bridge.has_preview(mesh) for mesh in meshes))
+        self._is_undone = True
+        self.on(Event.UNDONE)
+
     def take_back(self) -> bool:
         """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
+        self._look_outside()
         earlier = self._history.take_back()
         if earlier is TakeBack.BLENDER:
             return False
@@ -213,7 +223,16 @@ class Session:
         if self._may_be_painted:
             self._may_be_painted = False
             changed |= self._restart_painted()
-        if changed and self._values == before:
+        # The first look after an undo still finds changes: frames had not been evaluated before.
+        if changed and self._values == before and not self._is_undone:
+            self._history.record_outside()
+        self._is_undone = False
+        self._look_outside()
+
+    def _look_outside(self):
+        """Notice the operators that push undo steps, also those that do not matter to Live."""
+        before, self._last_step = self._last_step, _last_step()
+        if self._last_step not in (before, 0):
             self._history.record_outside()
 
     def _restart_changed(self):
@@ -337,6 +356,12 @@ _METHODS = {
     Action.WRITE: Session._write,
     Action.CLEAN_UP: Session._clean_up,
 }
+
+
+def _last_step():
+    """Return what tells the artist's last operator with an undo step from others, 0 for none."""
+    steps = [op for op in bpy.context.window_manager.operators if "UNDO" in op.bl_options]
+    return steps[-1].as_pointer() if steps else 0
 
 
 def _redraw_panels():
