@@ -94,4 +94,4 @@ def find_frame(name: str, active: bpy.types.Object) -> bpy.types.Object | None:
 
 
 def _plain(value):
-    return value if isinstance(value, str | int | float | None) else tuple(value)
+    return value if isinstance(value, str | int | float | bpy.types.ID | None) else tuple(value)

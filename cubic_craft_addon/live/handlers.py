@@ -11,7 +11,7 @@ _session = None
 
 @persistent
 def _on_undo(*_):
-    _session.on(Event.UNDONE)
+    _session.on_undo()
 
 
 @persistent
@@ -48,6 +48,8 @@ def _on_update(_scene, depsgraph):
         ):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself.
             _session.wake()
+        elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
+            _session.wake()  # an object was deleted, perhaps; of that itself nothing is told
 
 
 _HANDLERS = (

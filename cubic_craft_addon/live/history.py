@@ -52,6 +52,15 @@ class History:
         self._earlier.clear()
         self._is_outside = True
 
+    def record_undo(self, is_outside: bool) -> None:
+        """Take in that Blender has undone or redone a step; tell it what that leaves.
+
+        Parameters
+        ----------
+        is_outside : whether Blender's state is one from after the start of Live
+        """
+        self._is_outside = is_outside
+
     def take_back(self) -> dict[str, Any] | TakeBack:
         """Return the settings to go back to, or what else is to be done."""
         if self._earlier:

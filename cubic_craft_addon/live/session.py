@@ -60,8 +60,9 @@ class Session:
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = 0.0
-        self._has_written = self._may_be_painted = False
+        self._has_written = self._may_be_painted = self._is_undone = False
         self._turn = 0
+        self._last_step = _last_step()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
         settle(objects)
@@ -158,8 +159,17 @@ class Session:
             self._may_be_painted = True
             self.wake()
 
+    def on_undo(self) -> None:
+        """Take in that Blender has undone or redone a step."""
+        # Steps from before Live have no preview on their meshes, those pushed since then do.
+        meshes = [obj.data for obj in self._objects(bpy.context).values()]
+        self._history.record_undo(any(mesh_bridge.has_preview(mesh) for mesh in meshes))
+        self._is_undone = True
+        self.on(Event.UNDONE)
+
     def take_back(self) -> bool:
         """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
+        self._look_outside()
         earlier = self._history.take_back()
         if earlier is TakeBack.BLENDER:
             return False
@@ -220,15 +230,24 @@ class Session:
             is_changed |= self._restart_painted()
         if is_changed:
             self._last_restart = now
-            if values == self._values:
+            # The first look after an undo still finds changes: frames had not been evaluated.
+            if values == self._values and not self._is_undone:
                 self._history.record_outside()
             self._values = values
+        self._is_undone = False
+        self._look_outside()
 
     def _is_too_young(self, now):
         """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
         working = [mesh for mesh in self.meshes if mesh.is_working]
         is_seen = all(mesh.is_seen for mesh in working)
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
+
+    def _look_outside(self):
+        """Notice the operators that push undo steps, also those that do not matter to Live."""
+        before, self._last_step = self._last_step, _last_step()
+        if self._last_step not in (before, 0):
+            self._history.record_outside()
 
     def _restart_changed(self):
         for mesh in self.meshes:
@@ -351,6 +370,12 @@ _METHODS = {
     Action.WRITE: Session._write,
     Action.CLEAN_UP: Session._clean_up,
 }
+
+
+def _last_step():
+    """Return what tells the artist's last operator with an undo step from others, 0 for none."""
+    steps = [op for op in bpy.context.window_manager.operators if "UNDO" in op.bl_options]
+    return steps[-1].as_pointer() if steps else 0
 
 
 def _redraw_panels():

@@ -54,7 +54,7 @@ def tick_to_rest(session):
 def confirm(live, session):
     session.on(live.Event.CONFIRM)
     tick_to_rest(session)
-    assert session.is_ended and not session.error
+    assert session.is_ended and not session.error and not session.problems
     return session
 
 
@@ -355,15 +355,20 @@ def test_undo_to_another_shape_starts_from_that(live, begin):
     assert bits(obj) == shape
 
 
+@pytest.mark.parametrize("is_at_rest", [False, True])
 @pytest.mark.parametrize("how", ["operator", "data"])
-def test_deleting_the_object_ends_it(live, begin, how):
+def test_deleting_the_object_ends_it(live, begin, how, is_at_rest):
     obj = add_monkey()
     session = begin(obj)
     session.tick(bpy.context)
+    if is_at_rest:
+        tick_to_rest(session)
     if how == "operator":
         bpy.ops.object.delete()
     else:
         bpy.data.objects.remove(obj)
+    bpy.context.view_layer.update()
+    assert session._timer is not None, "nothing has woken it"
     session.tick(bpy.context)
     assert session.is_ended and not session.error
     check_gone(live)
@@ -586,6 +591,34 @@ def test_taking_back_leaves_moved_objects_to_blender(live, begin):
     session.tick(bpy.context)
     assert not session.take_back()
     assert not session.is_ended
+
+
+def test_taking_back_ends_live_where_blender_has_undone_all_of_it(live, begin):
+    obj = add_triangles()
+    frame = bpy.data.objects.new("Frame", None)
+    frame.rotation_euler.x = 0.5
+    bpy.context.collection.objects.link(frame)
+    obj.cubic_craft.space, obj.cubic_craft.frame = "FRAME", frame
+    bpy.ops.ed.undo_push(message="Before Live")
+    name, original = obj.name, bits(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    bpy.data.objects["Frame"].location.x = 1.0
+    bpy.ops.ed.undo_push(message="Moved")
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    bpy.ops.ed.redo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert not session.take_back(), "the move is Blender's to undo"
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert not session.is_ended
+    assert session.take_back() and session.is_ended
+    assert bits(bpy.data.objects[name]) == original
+    check_gone(live)
 
 
 def test_auto_orient_turns_the_live_cube(live, begin):

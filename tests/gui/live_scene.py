@@ -6,6 +6,7 @@ import importlib
 import bpy
 import guidrive as gui
 import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 NAME = "Suzanne"
 EXTENSION = "bl_ext.user_default.cubic_craft"
@@ -40,10 +41,44 @@ def add_monkey(levels=0):
         bpy.ops.ed.undo_push(message="Add the monkey")
 
 
+def show_front():
+    """Show what is selected from the front, well in view and out from behind the sidebar."""
+    with gui.in_region():
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_selected()
+    gui.area().spaces.active.region_3d.view_location.x += 0.7
+
+
+_buttons = {}
+
+
+def button(target):
+    """Find a button of the panel; those that Live has found once stay in their places."""
+    if target not in _buttons:
+        _buttons[target] = yield from gui.find_button(target)
+    return _buttons[target]
+
+
+def cubeness_slider():
+    prefix = "cubic_craft_live" if live().current() else "cubic_craft"
+    if "cubeness" not in _buttons:
+        _buttons["cubeness"] = yield from gui.find_button(f"{prefix}.cubeness")
+    return _buttons["cubeness"]
+
+
+def ensure_brush(paint, mode):
+    """Give a paint mode a brush, for a Blender that came without its brush assets."""
+    if paint.brush is None:
+        paint.brush = bpy.data.brushes.new("Brush", mode=mode)
+
+
 def start_live():
-    button = yield from gui.find_button("cubic_craft.live")
-    yield from gui.click(button)
+    """Click the button and wait for the first change of the active object."""
+    name = bpy.context.view_layer.objects.active.name
+    before = positions(name)
+    yield from gui.click((yield from button("cubic_craft.live")))
     yield from gui.wait_until(lambda: live().current(), timeout=120.0, what="Live")
+    yield from gui.wait_until(lambda: positions(name) != before, timeout=120.0, what="a change")
 
 
 def press(*keys):
@@ -63,6 +98,60 @@ def wait_idle():
 
 def is_over():
     return live().current() is None and "CUBIC_CRAFT_OT_live" not in gui.running_operators()
+
+
+def wait_over():
+    yield from gui.wait_until(is_over, timeout=120.0, what="the end of Live")
+    check_clean()
+
+
+def end_by(*keys):
+    """Press keys over the viewport that end Live."""
+    session = live().current()
+    yield from press(*keys)
+    yield from wait_over()
+    assert not session.error and not session.problems, (session.error, session.problems)
+    assert bool(session.summary) == (keys[-1] in ("RET", "NUMPAD_ENTER"))
+
+
+def wait_settled():
+    """Wait until Live has nothing left to compute, or has ended."""
+    yield
+    yield from gui.wait_until(lambda: is_over() or is_idle(), timeout=120.0, what="rest")
+
+
+def wait_idle_with(changed, what):
+    """Wait until a condition holds and Live has done all that there is to compute."""
+    yield from gui.wait_until(changed, timeout=60.0, what=what)
+    yield from wait_idle()
+
+
+def redo():
+    """Press Ctrl-Shift-Z over the viewport and wait until Blender has redone a step."""
+    redone = []
+    bpy.app.handlers.redo_post.append(lambda *_: redone.append(True))
+    yield from press("CTRL+SHIFT+Z")
+    yield from gui.wait_until(lambda: redone, what="redo")
+    bpy.app.handlers.redo_post.pop()
+
+
+def check_bits_of_cubify(*names):
+    """Check that Cubify, from the original again, leaves the bits that are there now."""
+    names = names or (NAME,)
+    confirmed = [positions(name) for name in names]
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+        assert all(positions(n) != c for n, c in zip(names, confirmed, strict=True))
+        bpy.ops.cubic_craft.cubify()
+    assert [positions(name) for name in names] == confirmed, "Live leaves other bits than Cubify"
+
+
+def screen_point(place):
+    """Return where a place in the scene is in the window."""
+    view = gui.region()
+    x, y = location_3d_to_region_2d(view, gui.area().spaces.active.region_3d, place)
+    assert 0 < x < gui.region("UI").x - view.x and 0 < y < view.height, (x, y)
+    return view.x + round(x), view.y + round(y)
 
 
 def check_clean():

@@ -43,3 +43,12 @@ def test_a_moved_handle_is_blenders_to_undo():
     h.record({"a": 2}, now=5.0)
     assert h.take_back() == {"a": 1}
     assert h.take_back() is TakeBack.BLENDER
+
+
+def test_blender_has_undone_all_but_the_start():
+    h = History({"a": 0})
+    h.record_outside()
+    h.record_undo(is_outside=False)
+    assert h.take_back() is TakeBack.LIVE
+    h.record_undo(is_outside=True)
+    assert h.take_back() is TakeBack.BLENDER

@@ -4,7 +4,8 @@
 A test is a generator function; ``run(test)`` at the end of the script starts it. All that needs
 Blender to react is called with ``yield from`` (without it, nothing happens); a bare ``yield`` gives
 Blender one turn of its main loop: handle events, run modal operators, redraw. Wait on conditions
-with ``wait_until``, not on seconds. Points are window pixels, from the bottom left.
+with ``wait_until``, not on seconds; ``yield 3.0`` leaves Blender alone for that long, to see that
+nothing happens. Points are window pixels, from the bottom left.
 
     import guidrive as gui
 
@@ -18,6 +19,7 @@ with ``wait_until``, not on seconds. Points are window pixels, from the bottom l
 """
 
 from .buttons import button_under_mouse, find_button, open_sidebar
+from .events import events
 from .gestures import (
     click,
     drag,
@@ -25,6 +27,7 @@ from .gestures import (
     enter_value,
     keys,
     move_mouse,
+    turn_wheel,
     type_text,
     undo,
 )
@@ -40,16 +43,18 @@ from .screen import (
     viewport_point,
     window,
 )
-from .waiting import wait_redraw, wait_until
+from .waiting import counts, wait_redraw, wait_until
 
 __all__ = [
     "Button",
     "area",
     "button_under_mouse",
     "click",
+    "counts",
     "drag",
     "drag_slider",
     "enter_value",
+    "events",
     "find_button",
     "in_region",
     "keys",
@@ -62,6 +67,7 @@ __all__ = [
     "running_operators",
     "screenshot",
     "simplify_viewport",
+    "turn_wheel",
     "type_text",
     "undo",
     "viewport_point",

@@ -39,7 +39,7 @@ def run(test, timeout=240.0):
 
     def turn():
         try:
-            next(steps)
+            pause = next(steps)
             if time.monotonic() > deadline:
                 steps.throw(TimeoutError(f"the test ran longer than {timeout:g} s"))
         except StopIteration:
@@ -48,7 +48,7 @@ def run(test, timeout=240.0):
             traceback.print_exc()
             _fail(repr(error))
         else:
-            return 0.0  # again in the next turn of the main loop
+            return pause or 0.0  # again in the next turn of the main loop
         return None
 
     bpy.app.timers.register(turn, persistent=True)

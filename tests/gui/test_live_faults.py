@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live when the solver fails in the middle of it, and when another add-on takes Taichi away."""
+
+import importlib
+import os
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+
+
+def solver_fails(original):
+    """Live ends by itself, says why, and has lost nothing."""
+    solver = importlib.import_module(f"{scene.EXTENSION}.solver")
+    step = solver.Stylization.local_step
+
+    def fail(*_args, **_options):
+        raise RuntimeError("the solver is broken")
+
+    slider = yield from scene.cubeness_slider()
+    for moment in ("working", "idle", "finishing"):
+        yield from scene.start_live()
+        if moment == "idle":
+            yield from scene.wait_idle()
+        session = scene.live().current()
+        solver.Stylization.local_step = fail
+        try:
+            if moment == "idle":
+                yield from gui.drag_slider(slider, 0.5, 0.7)
+            elif moment == "finishing":
+                session.on(scene.live().Event.CONFIRM)
+            yield from scene.wait_over()
+        finally:
+            solver.Stylization.local_step = step
+        assert "the solver is broken" in session.error
+        assert scene.positions() == original, moment
+        assert gui.counts["undo"] == 0
+        yield from gui.screenshot(f"failed_{moment}.png")
+        yield from gui.move_mouse((200, 200))  # away from the report, which goes
+        yield from gui.move_mouse(gui.viewport_point())
+        yield
+    yield from scene.start_live()  # nothing of it stays
+    yield from scene.end_by("RET")
+    scene.check_bits_of_cubify()
+
+
+def another_add_on_has_taichi():
+    """Start Taichi anew, or stop it, as another add-on may at any moment."""
+    import taichi as ti
+
+    slider = yield from scene.cubeness_slider()
+    for disturb in (lambda: ti.init(arch=ti.cpu, default_fp=ti.f32), ti.reset):
+        yield from scene.start_live()
+        disturb()
+        before = scene.positions()
+        yield from scene.wait_idle_with(lambda b=before: scene.positions() != b, "a change")
+        disturb()
+        yield from gui.drag_slider(slider, 0.4, 0.6)
+        disturb()
+        yield from scene.wait_idle()
+        assert not scene.live().current().all_problems
+        disturb()
+        yield from scene.end_by("RET")
+        scene.check_bits_of_cubify()
+
+
+def test():
+    gui.simplify_viewport()
+    scene.add_monkey()
+    original = scene.positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    yield from solver_fails(original)
+    if os.environ.get("EXPECT_DEVICE", "").startswith("taichi"):
+        yield from another_add_on_has_taichi()
+    expected = os.environ.get("EXPECT_DEVICE", "")
+    assert expected in scene.settings().status
+    assert bpy.context.object.name == scene.NAME
+
+
+gui.run(test)

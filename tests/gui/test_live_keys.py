@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All ways to confirm and to cancel Live by hand, and what looks like one but is not."""
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+
+
+def live_settings():
+    return bpy.context.window_manager.cubic_craft_live
+
+
+def confirms(original):
+    """Return and Enter over the view, and the button again."""
+    confirmed = set()
+    for way in ("RET", "NUMPAD_ENTER", "button"):
+        yield from scene.start_live()
+        yield from scene.wait_idle()
+        if way == "button":
+            yield from gui.click((yield from scene.button("cubic_craft.live")))
+            yield from scene.wait_over()
+        else:
+            yield from scene.end_by(way)
+        assert scene.positions() != original, way
+        confirmed.add(scene.positions())
+        yield from gui.undo()
+        assert scene.positions() == original, way
+    assert len(confirmed) == 1
+
+    # Before it has converged, it still goes on to the end.
+    yield from scene.start_live()
+    yield from scene.end_by("RET")
+    assert {scene.positions()} == confirmed
+    scene.check_bits_of_cubify()
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+        bpy.ops.ed.undo_push(message="Restore")
+    assert scene.positions() == original
+
+
+def cancels(original):
+    """Esc, the right mouse button in the view, the X beside the button."""
+    for way in ("ESC", "right", "X"):
+        yield from scene.start_live()
+        if way == "ESC":
+            yield from scene.press("ESC")
+        elif way == "right":
+            yield from gui.click(gui.viewport_point(), "RIGHTMOUSE")
+        else:
+            button = yield from scene.button("cubic_craft.live")
+            cross = button.right - 10, button.at()[1]
+            yield from gui.move_mouse(cross)
+            assert gui.button_under_mouse().startswith("bpy.ops.cubic_craft.live_cancel(")
+            yield from gui.click(cross)
+        yield from scene.wait_over()
+        assert scene.positions() == original, way
+
+
+def does_not_cancel(original):
+    """Use the right mouse button and Esc where they belong to the sidebar, menus and fields."""
+    slider = yield from scene.cubeness_slider()
+    yield from scene.start_live()
+    yield from gui.click(slider, "RIGHTMOUSE")
+    yield from gui.screenshot("context_menu.png")
+    yield from gui.keys("ESC")
+    for _ in range(5):
+        yield
+    yield from scene.wait_idle()
+    shape = scene.positions()
+    assert shape != original
+
+    # Esc gives a typed value up, Return takes it: both belong to the field.
+    before = live_settings().cubeness
+    yield from edit(slider, "0.123", "ESC")
+    assert live_settings().cubeness == before
+    yield from scene.wait_idle()
+    assert scene.positions() == shape
+    yield from edit(slider, "0.777", "RET")
+    assert abs(live_settings().cubeness - 0.777) < 1e-6
+    yield from scene.wait_idle_with(lambda: scene.positions() != shape, "the value typed in")
+    shape = scene.positions()
+
+    # A drag that is given up by Esc.
+    yield from gui.move_mouse(slider.at(0.5))
+    gui.events().press("LEFTMOUSE")
+    for across in (0.4, 0.3, 0.2):
+        yield from gui.move_mouse(slider.at(across))
+    assert live_settings().cubeness < 0.7
+    yield from gui.keys("ESC")
+    gui.events().release("LEFTMOUSE")
+    yield
+    yield
+    assert abs(live_settings().cubeness - 0.777) < 1e-6
+    yield from scene.wait_idle_with(lambda: scene.positions() == shape, "the value of before")
+
+    # Return over other editors is theirs.
+    outliner = gui.region("WINDOW", "OUTLINER")
+    yield from gui.move_mouse((outliner.x + outliner.width // 2, outliner.y + 20))
+    yield from gui.keys("RET")
+    yield from gui.keys("ESC")
+    for _ in range(5):
+        yield
+    assert scene.is_idle()
+
+    # So is typing into the field of a menu: F3 searches, Esc closes it.
+    yield from scene.press("F3")
+    yield from gui.type_text("cub")
+    yield from gui.screenshot("search.png")
+    yield from gui.keys("ESC")
+    if scene.live().current() is not None and any(
+        "search" in name.lower() for name in gui.running_operators()
+    ):
+        yield from gui.keys("ESC")
+    for _ in range(5):
+        yield
+    assert scene.is_idle(), "Esc has closed more than the search"
+    yield from scene.end_by("RET")
+    assert scene.positions() == shape
+    assert abs(scene.settings().cubeness - 0.777) < 1e-6
+    scene.check_bits_of_cubify()
+
+
+def edit(field, text, end):
+    gui.events().press("LEFT_CTRL")
+    yield from gui.click(field)
+    gui.events().release("LEFT_CTRL")
+    yield
+    yield from gui.keys("CTRL+A")
+    yield from gui.type_text(text)
+    yield from gui.keys(end)
+    for _ in range(5):
+        yield
+    assert scene.live().current() is not None, f"{end} in a field has ended Live"
+
+
+def test():
+    gui.simplify_viewport()
+    scene.add_monkey()
+    original = scene.positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    for moment in (confirms, cancels, does_not_cancel):
+        gui.log(moment.__name__)
+        yield from moment(original)
+
+
+gui.run(test)

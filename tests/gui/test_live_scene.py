@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the artist does to the live object and around it ends Live cleanly or lets it go on."""
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+import numpy as np
+
+
+def goes_on():
+    assert scene.live().current() is not None
+    assert "CUBIC_CRAFT_OT_live" in gui.running_operators()
+
+
+def deleted(original):
+    """By X and Return, which must not confirm; undo brings the object back as it was."""
+    for is_at_rest in (False, True):
+        yield from scene.start_live()
+        if is_at_rest:
+            yield from scene.wait_idle()
+        yield from scene.press("X")
+        yield from gui.screenshot("delete.png")
+        yield from gui.keys("RET")
+        yield from scene.wait_over()
+        assert scene.NAME not in bpy.data.objects
+        yield from gui.undo()
+        assert scene.positions() == original
+        scene.check_clean()
+
+
+def renamed(original):
+    """F2, a name, Return: Live goes on with the object of that name."""
+    yield from scene.start_live()
+    yield from scene.press("F2")
+    yield from gui.keys("CTRL+A")
+    yield from gui.type_text("other")
+    yield from gui.screenshot("rename.png")
+    yield from gui.keys("RET")
+    yield from gui.wait_until(lambda: "other" in bpy.data.objects, what="the new name")
+    goes_on()
+    bpy.data.objects["other"].data.name = "Mesh"
+    yield from scene.wait_idle()
+    goes_on()
+    yield from scene.end_by("RET")
+    assert scene.positions("other") != original
+    scene.check_bits_of_cubify("other")
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+        bpy.data.objects["other"].name = scene.NAME
+        bpy.ops.ed.undo_push(message="Name it as before")
+    assert scene.positions() == original
+
+
+def hidden(original):
+    """H and Alt-H: Live goes on, and Esc works as ever."""
+    for end in ("ESC", "RET"):
+        yield from scene.start_live()
+        yield from scene.wait_idle()
+        yield from scene.press("H")
+        yield from gui.wait_until(
+            lambda: bpy.data.objects[scene.NAME].hide_get(), what="the object to be hidden"
+        )
+        yield from scene.wait_settled()
+        yield from gui.screenshot(f"hidden_{end}.png")
+        yield from scene.press(end)
+        for _ in range(10):
+            yield
+        yield from scene.wait_settled()
+        assert scene.is_over()
+        scene.check_clean()
+        yield from scene.press("ALT+H")
+        yield from gui.wait_until(
+            lambda: not bpy.data.objects[scene.NAME].hide_get(), what="the object to be shown"
+        )
+        assert (scene.positions() == original) == (end == "ESC")
+        with gui.in_region():
+            if end == "RET":
+                scene.check_bits_of_cubify()
+                bpy.ops.cubic_craft.restore()
+            bpy.data.objects[scene.NAME].select_set(True)
+            bpy.context.view_layer.objects.active = bpy.data.objects[scene.NAME]
+            bpy.ops.ed.undo_push(message="As before")
+        assert scene.positions() == original
+
+
+def edited(original):
+    """Tab into Edit Mode and back, once while it works and once at rest."""
+    for is_at_rest in (False, True):
+        yield from scene.start_live()
+        if is_at_rest:
+            yield from scene.wait_idle()
+        yield from scene.press("TAB")
+        yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
+        yield from scene.wait_over()
+        yield from gui.screenshot("edit_mode.png")
+        yield from scene.press("TAB")
+        yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
+        assert scene.positions() == original
+        scene.check_clean()
+        yield from gui.undo()  # the two modes
+        yield from gui.undo()
+        assert scene.positions() == original and bpy.context.mode == "OBJECT"
+        scene.check_clean()
+
+
+def sculpted(original):
+    """Go to Sculpt Mode, which ends Live."""
+    yield from scene.start_live()
+    with gui.in_region():
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.ed.undo_push(message="Sculpt Mode")
+    yield from scene.wait_over()
+    assert scene.positions() == original
+    yield from gui.screenshot("sculpt_mode.png")
+    scene.ensure_brush(bpy.context.tool_settings.sculpt, "SCULPT")
+    x, y = scene.screen_point((0, -1, 0.6))
+    yield from gui.drag((x - 20, y), (x + 20, y))
+    yield from gui.wait_until(lambda: scene.positions() != original, what="a stroke")
+    yield from gui.screenshot("sculpted.png")
+    moved = np.frombuffer(scene.positions(), np.float32) != np.frombuffer(original, np.float32)
+    assert moved.mean() < 0.4, "the stroke has moved more than what is near it"
+    yield from gui.undo()
+    assert scene.positions() == original
+    with gui.in_region():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.ed.undo_push(message="Object Mode")
+    assert scene.positions() == original
+    scene.check_clean()
+
+
+def other_scene(original):
+    """Live ends where its object is not in the scene that is shown."""
+    other = bpy.data.scenes.new("Other")
+    first = gui.window().scene
+    for is_at_rest in (False, True):
+        yield from scene.start_live()
+        if is_at_rest:
+            yield from scene.wait_idle()
+        gui.window().scene = other
+        yield from scene.wait_over()
+        yield from gui.screenshot("other_scene.png")
+        gui.window().scene = first
+        yield from gui.wait_redraw()
+        assert scene.positions() == original
+    bpy.data.scenes.remove(other)
+
+
+def other_workspace(original):
+    """Live goes on, with its keys in the status bar, and ends there."""
+    first = gui.window().workspace.name
+    yield from scene.start_live()
+    gui.window().workspace = bpy.data.workspaces["Scripting"]
+    yield from gui.wait_until(lambda: gui.window().workspace.name == "Scripting")
+    yield from gui.wait_redraw()
+    goes_on()
+    yield from scene.wait_idle()
+    yield from gui.screenshot("scripting.png")
+    view = gui.region()
+    yield from gui.move_mouse((view.x + view.width // 2, view.y + view.height // 2))
+    yield from gui.keys("RET")
+    yield from scene.wait_over()
+    assert scene.positions() != original
+    scene.check_bits_of_cubify()
+    gui.window().workspace = bpy.data.workspaces[first]
+    yield from gui.wait_until(lambda: gui.window().workspace.name == first)
+    yield from gui.wait_redraw()
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+        bpy.ops.ed.undo_push(message="As before")
+    assert scene.positions() == original
+
+    # A workspace of another mode: Blender changes the mode along.
+    yield from scene.start_live()
+    gui.window().workspace = bpy.data.workspaces["Modeling"]
+    yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
+    yield from scene.wait_over()
+    gui.window().workspace = bpy.data.workspaces[first]
+    yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
+    yield from gui.wait_redraw()
+    assert scene.positions() == original
+
+
+def test():
+    gui.simplify_viewport()
+    scene.add_monkey()
+    scene.show_front()
+    original = scene.positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    moments = (deleted, renamed, hidden, edited, sculpted, other_scene, other_workspace)
+    for moment in moments:
+        gui.log(moment.__name__)
+        yield from moment(original)
+        scene.check_clean()
+
+
+gui.run(test)
