@@ -3,8 +3,6 @@
 
 from . import (
     group_renames,
-    handle_properties,
-    handles_panel,
     live,
     overlay,
     panel,
@@ -12,9 +10,11 @@ from . import (
     presets,
     properties,
 )
+from .handles import panel as handles_panel
+from .handles import properties as handles_properties
 
 _modules = (
-    handle_properties,
+    handles_properties,
     properties,
     preferences,
     live,

@@ -12,8 +12,8 @@ from typing import Any
 import bpy
 
 from ..solver import CubicCraftError
-from .handle_pose import posed_handles
 from .handles import Handle
+from .handles.pose import posed_handles
 from .object_properties import object_properties
 from .properties import RunProperties, settings_of
 from .settings import Settings

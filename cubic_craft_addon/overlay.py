@@ -16,7 +16,7 @@ from mathutils import Vector
 
 from ..solver import CubicCraftError
 from . import live
-from .handle_owner import panel_object
+from .handles.owner import panel_object
 from .object_frame import world_axes
 
 PROPERTY = "cubic_craft_overlay"

@@ -4,9 +4,10 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import handles_panel, live, mesh_bridge, overlay
-from .handle_owner import panel_object
-from .handle_pose import object_handles
+from . import live, mesh_bridge, overlay
+from .handles import panel as handles_panel
+from .handles.owner import panel_object
+from .handles.pose import object_handles
 from .object_properties import object_properties
 from .presets import CUBIC_PT_presets
 from .requirements import check_requirements

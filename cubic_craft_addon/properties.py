@@ -16,9 +16,9 @@ from bpy.props import (
     StringProperty,
 )
 
-from .handle_pose import object_handles
-from .handle_properties import CubicCraftHandle
 from .handles import Handle
+from .handles.pose import object_handles
+from .handles.properties import CubicCraftHandle
 from .object_properties import PROPERTY, object_properties
 from .settings import Settings
 

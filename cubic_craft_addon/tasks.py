@@ -9,8 +9,8 @@ import numpy as np
 
 from ..solver import CubicCraftError
 from . import cubify, mesh_bridge
-from .baked_pose import remember_pose
 from .choice import Choice
+from .handles.baked_pose import remember_pose
 from .object_frame import stretch_and_orientation
 from .object_properties import object_properties
 

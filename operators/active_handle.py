@@ -4,7 +4,7 @@
 from typing import Any
 
 from ..cubic_craft_addon import mesh_bridge
-from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..cubic_craft_addon import mesh_bridge
-from ..cubic_craft_addon.baked_pose import rest_in_pose
+from ..cubic_craft_addon.handles.baked_pose import rest_in_pose
 from .originals import for_each_original, poll_originals
 from .selection import poll_meshes
 

@@ -12,11 +12,11 @@ from bpy.props import CollectionProperty, StringProperty
 
 from .. import solver
 from ..cubic_craft_addon import cubify
-from ..cubic_craft_addon.baked_pose import settle
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
-from ..cubic_craft_addon.handle_owner import panel_object
-from ..cubic_craft_addon.handle_properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.handles import Handle
+from ..cubic_craft_addon.handles.baked_pose import settle
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties
 from ..cubic_craft_addon.tasks import plan, write_all

@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from .active_handle import add_handle, poll_mesh
 from .selection import report_all

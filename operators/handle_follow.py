@@ -5,8 +5,8 @@ import bpy
 import numpy as np
 
 from ..cubic_craft_addon import mesh_bridge
-from ..cubic_craft_addon.handle_owner import panel_object
-from ..cubic_craft_addon.handle_pose import live_target
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.handles.pose import live_target
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 from .active_handle import active_handle, members, poll_handle

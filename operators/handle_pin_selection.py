@@ -8,7 +8,7 @@ when its vertex group goes. So one undo takes all of it back, into Edit Mode.
 import bpy
 import numpy as np
 
-from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handles.owner import panel_object
 from .active_handle import add_handle, poll_mesh
 from .selection import report_all
 

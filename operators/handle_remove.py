@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..cubic_craft_addon.handle_owner import panel_object
+from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from .active_handle import active_handle, poll_handle
 

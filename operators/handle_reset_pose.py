@@ -3,8 +3,8 @@
 
 import bpy
 
-from ..cubic_craft_addon.handle_owner import panel_object
-from ..cubic_craft_addon.handle_pose import followed, reset
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.handles.pose import followed, reset
 from .active_handle import poll_mesh
 
 

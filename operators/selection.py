@@ -2,7 +2,7 @@
 """Which objects an operator works on."""
 
 from ..cubic_craft_addon import live, mesh_bridge
-from ..cubic_craft_addon.handle_owner import panel_object, posed_mesh
+from ..cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ..solver import CubicCraftError
 
 _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted

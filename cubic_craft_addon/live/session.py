@@ -11,8 +11,8 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..baked_pose import settle
 from ..choice import Choice
+from ..handles.baked_pose import settle
 from ..tasks import Task, plan, write_all
 from . import handlers, properties, status_bar, wake
 from .history import History, TakeBack

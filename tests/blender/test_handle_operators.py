@@ -18,14 +18,14 @@ IDENTITY = tuple(np.eye(4).ravel())
 @pytest.fixture
 def posed(extension):
     """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handle_pose"
+    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
     return importlib.import_module(module).object_handles
 
 
 @pytest.fixture
 def shown(extension):
     """Return `panel_object` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handle_owner"
+    module = f"{extension.__name__}.cubic_craft_addon.handles.owner"
     return importlib.import_module(module).panel_object
 
 

@@ -16,7 +16,7 @@ FAR = {"location": (40, -30, 20), "rotation_euler": (1, 2, 3), "scale": (2, 2, 2
 @pytest.fixture
 def posed(extension):
     """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handle_pose"
+    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
     return importlib.import_module(module).object_handles
 
 

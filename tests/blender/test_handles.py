@@ -17,7 +17,7 @@ IDENTITY = tuple(np.eye(4).ravel())
 @pytest.fixture
 def posed(extension):
     """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handle_pose"
+    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
     return importlib.import_module(module).object_handles
 
 

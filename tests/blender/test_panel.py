@@ -51,7 +51,7 @@ def test_edit_mode_is_named(problem):
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-@pytest.mark.parametrize(("module", "count"), [("panel", 4), ("handles_panel", 6)])
+@pytest.mark.parametrize(("module", "count"), [("panel", 4), ("handles.panel", 6)])
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..solver.errors import CubicCraftError
-from . import mesh_bridge
+from ...solver.errors import CubicCraftError
+from .. import mesh_bridge
 
 THRESHOLD = 0.5
 """least weight in a vertex group that makes a vertex part of a handle, by default"""

@@ -3,16 +3,16 @@
 
 Apply makes the posed shape the original, and so does an edit by hand. The next Cubify starts from
 that, where the vertices are with their targets already; without a new rest it would move them by
-the same way once more. So each handle remembers the relation of its target (see `handle_pose`) with
+the same way once more. So each handle remembers the relation of its target (see `pose`) with
 which the mesh was last written.
 """
 
 import bpy
 from mathutils import Matrix
 
-from . import mesh_bridge
-from .handle_pose import followed, relation
-from .object_properties import has_properties, object_properties
+from .. import mesh_bridge
+from ..object_properties import has_properties, object_properties
+from .pose import followed, relation
 
 
 def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:

@@ -19,12 +19,12 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..solver.errors import CubicCraftError
-from .handles import IDENTITY, Handle
-from .object_properties import has_properties, object_properties
+from ...solver.errors import CubicCraftError
+from ..object_properties import has_properties, object_properties
+from .handle import IDENTITY, Handle
 
 if TYPE_CHECKING:
-    from .handle_properties import CubicCraftHandle
+    from .properties import CubicCraftHandle
 
 _SMALLEST_SCALE = 1e-6  # relative; a flatter target or object has no inverse worth the name
 _STILL = 1e-6  # relative; a target that has moved less has not moved

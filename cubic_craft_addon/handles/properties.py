@@ -14,8 +14,8 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import handle_pose
-from .handles import THRESHOLD
+from . import pose
+from .handle import THRESHOLD
 
 _MODES = (
     ("PINNED", "Pinned", "The vertices stay exactly in place", "PINNED", 0),
@@ -28,7 +28,7 @@ def _bind_target(handle, _context):
     """Take the place that the target has now as the one in which nothing moves."""
     if handle.target is not None:
         handle.mode = "FOLLOW"
-        handle_pose.bind(handle.id_data, handle)
+        pose.bind(handle.id_data, handle)
 
 
 class _MemberProperties:

@@ -3,10 +3,10 @@
 
 import bpy
 
-from . import live
-from .handle_owner import panel_object
-from .handle_pose import live_target
-from .object_properties import object_properties
+from .. import live
+from ..object_properties import object_properties
+from .owner import panel_object
+from .pose import live_target
 
 SECTION = "CUBIC_PT_handles"
 _ROWS, _FEWEST_ROWS = 5, 3  # as high as the buttons beside the list
