@@ -205,7 +205,7 @@ class Session:
             self._next_check = now + (now - begin) / _CHECK_SHARE
         self._compute(begin + SLICE)
         self._show(objects)
-        if any(mesh.is_working for mesh in self.meshes) or self._is_painted_at_rest(objects):
+        if self._is_working or self._is_changed_at_rest(list(objects.values())):
             if begin >= self._next_panel:
                 self._next_panel = begin + _PANEL_STEP
                 _redraw_panels()
@@ -237,6 +237,10 @@ class Session:
         self._is_undone = False
         self._look_outside()
 
+    @property
+    def _is_working(self):
+        return any(mesh.is_working for mesh in self.meshes)
+
     def _is_too_young(self, now):
         """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
         working = [mesh for mesh in self.meshes if mesh.is_working]
@@ -258,10 +262,15 @@ class Session:
     def _restart_painted(self):
         return any([mesh.restart_if_painted(self._task_of(mesh)) for mesh in self.meshes])
 
-    def _is_painted_at_rest(self, objects):
-        """Look once more for strokes that went unnoticed while Live itself changed the mesh."""
-        is_painting = any(obj.mode == "WEIGHT_PAINT" for obj in objects.values())
-        return is_painting and self._restart_painted()
+    def _is_changed_at_rest(self, objects):
+        """Look a last time: what is confirmed must be what the settings say.
+
+        Changes may have waited for the run to be seen, and strokes may have gone unnoticed while
+        Live itself changed the mesh.
+        """
+        self._may_be_painted |= any(obj.mode == "WEIGHT_PAINT" for obj in objects)
+        self._check(objects, time.perf_counter())
+        return self._is_working
 
     def _compute(self, deadline):
         """Advance all runs in turn, so that they are seen to move together."""

@@ -102,6 +102,22 @@ def test_the_path_does_not_matter(live, begin):
     assert bits(obj) == bits(twin)
 
 
+def test_a_change_that_had_to_wait_is_not_forgotten(live, begin):
+    """Runs are left alone until they are seen; confirming at once must not write such a run."""
+    twin, obj = add_monkey("Twin"), add_monkey()
+    session = begin(obj, cubeness=0.2)
+    tick_to_rest(session)
+    live.live_properties().cubeness = 0.6
+    session.tick(bpy.context)
+    session._last_restart = float("inf")  # the run stays young until it has ended
+    live.live_properties().cubeness = 0.7
+    confirm(live, session)
+    select(twin)
+    bpy.ops.cubic_craft.cubify(cubeness=obj.cubic_craft.cubeness)
+    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
+    assert bits(obj) == bits(twin)
+
+
 def test_a_change_restarts_within_one_tick(live, begin):
     obj = add_triangles()
     session = begin(obj)
