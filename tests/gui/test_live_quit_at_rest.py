@@ -10,8 +10,11 @@ def test():
     gui.simplify_viewport()
     scene.add_monkey()
     yield from gui.open_sidebar("Cubic Craft")
+    yield from scene.button("cubic_craft.live")
     with gui.in_region():
         bpy.ops.wm.window_new()
+    for _ in range(10):
+        yield
     yield from scene.start_live()
     yield from scene.wait_idle()
 

@@ -133,6 +133,30 @@ def maximized(original):
     yield from scene.press("CTRL+SPACE")
     yield from gui.wait_until(lambda: not gui.window().screen.show_fullscreen, what="all areas")
     scene.check_bits_of_cubify()
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+
+
+def area_closed(original):
+    """Close the viewport in which Live was started: it goes on in the other."""
+    with gui.in_region():
+        bpy.ops.screen.area_split(direction="HORIZONTAL", factor=0.3)
+    for _ in range(10):
+        yield
+    yield from scene.start_live()
+    first = gui.area()
+    with bpy.context.temp_override(window=gui.window(), area=first):
+        bpy.ops.screen.area_close()
+    yield from gui.wait_until(
+        lambda: sum(area.type == "VIEW_3D" for area in gui.window().screen.areas) == 1, what="close"
+    )
+    yield from gui.wait_redraw()
+    yield from scene.wait_idle()
+    yield from gui.screenshot("area_closed.png")
+    view = gui.region()
+    yield from gui.click((view.x + view.width // 4, view.y + view.height // 3), "RIGHTMOUSE")
+    yield from scene.wait_over()
+    assert scene.positions() == original
 
 
 def test():
@@ -142,7 +166,8 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     yield from scene.cubeness_slider()
     yield from scene.button("cubic_craft.live")
-    for moment in (closed_with_live, closed_without_live, confirmed_there, maximized):
+    moments = (closed_with_live, closed_without_live, confirmed_there, maximized, area_closed)
+    for moment in moments:
         gui.log(moment.__name__)
         yield from moment(original)
         scene.check_clean()
