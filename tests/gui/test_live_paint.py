@@ -56,7 +56,7 @@ def set_brush(weight):
 
 
 def test():
-    scene.add_monkey(levels=1)
+    scene.add_monkey()
     scene.show_front()
     obj = bpy.data.objects[scene.NAME]
     obj.vertex_groups.new(name="Map").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
