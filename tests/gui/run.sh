@@ -65,9 +65,9 @@ if [ -n "$REASON" ]; then
     exit $((2 * $?))
 fi
 
-PASSED=0 FAILED=0
-for suite in "${SUITES[@]}"; do
-    ready=1
+# Runs all tests of a suite; fails if one did.
+run_suite() {
+    local suite=$1 ready=1 failed=0 total=0 test name folder seconds code
     [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite" || ready=0
     for test in "$HERE"/test_*.py; do
         name=$(basename "$test" .py)
@@ -75,6 +75,7 @@ for suite in "${SUITES[@]}"; do
         rm -rf "$folder"
         mkdir -p "$folder"
         seconds=$SECONDS
+        total=$((total + 1))
         if [ $ready = 0 ]; then
             code="not run, the set-up failed"
         else
@@ -82,14 +83,23 @@ for suite in "${SUITES[@]}"; do
             code=$?
         fi
         if [ "$code" = 0 ]; then
-            PASSED=$((PASSED + 1))
             echo "passed: $name on $suite ($((SECONDS - seconds)) s), pictures in $folder"
         else
-            FAILED=$((FAILED + 1))
+            failed=$((failed + 1))
             [ ! -e "$folder/log.txt" ] || cat "$folder/log.txt"
             echo "failed: $name on $suite ($code), pictures in $folder"
         fi
     done
+    echo "$suite: $((total - failed)) passed, $failed failed"
+    [ $failed = 0 ]
+}
+
+# Side by side: each has a screen, a chroot and a folder of its own.
+JOBS=()
+for suite in "${SUITES[@]}"; do
+    run_suite "$suite" &
+    JOBS+=($!)
 done
-echo "$PASSED passed, $FAILED failed"
-[ $FAILED = 0 ]
+RESULT=0
+for job in "${JOBS[@]}"; do wait "$job" || RESULT=1; done
+exit $RESULT
