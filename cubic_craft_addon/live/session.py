@@ -291,8 +291,7 @@ class Session:
 
     def _follow(self):
         self._put_back()
-        objects = self._objects(bpy.context)
-        self._plan(list(objects.values()))
+        self._plan(list(self._objects(bpy.context).values()))
         for mesh in self.meshes:
             task = self._task_of(mesh)
             if task is not None and task.obj.mode in _MODES:
@@ -300,14 +299,14 @@ class Session:
                 mesh.begin_preview(task.mesh)
 
     def _show_again(self):
+        self._plan(list(self._objects(bpy.context).values()))
         for mesh in self.meshes:
             task = self._task_of(mesh)
             if task is not None:
                 mesh.begin_preview(task.mesh)
 
     def _write(self):
-        objects = self._objects(bpy.context)
-        self._plan(list(objects.values()))
+        self._plan(list(self._objects(bpy.context).values()))
         for mesh in self.meshes:
             task = self._task_of(mesh)
             if task is not None:

@@ -10,6 +10,15 @@ def bridge(extension):
     return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
 
 
+@pytest.fixture(autouse=True)
+def no_healing(extension):
+    """Keep the extension from ending previews by itself after undo and load."""
+    healing = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.healing")
+    healing.unregister()
+    yield
+    healing.register()
+
+
 @pytest.fixture
 def error(extension):
     return importlib.import_module(f"{extension.__name__}.solver.errors").CubicCraftError
