@@ -64,6 +64,7 @@ _X_KEYS = {
     "LEFT_ARROW": "Left",
     "LEFT_CTRL": "Control_L",
     "LEFT_SHIFT": "Shift_L",
+    "NUMPAD_1": "KP_1",
     "NUMPAD_ENTER": "KP_Enter",
     "RET": "Return",
     "RIGHT_ARROW": "Right",
