@@ -35,7 +35,8 @@ class CUBIC_PT_main(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        obj = panel_object(context)
+        session = live.current()
+        obj = panel_object(context) or (session and session.first_object(context))
         if obj is None:
             layout.label(text="Select a mesh to make cubic", icon="INFO")
             return

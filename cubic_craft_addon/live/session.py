@@ -121,9 +121,9 @@ class Session:
         """``session_uid`` of all meshes of the session."""
         return {mesh.mesh_uid for mesh in self.meshes}
 
-    def has_object(self, obj: bpy.types.Object) -> bool:
-        """Tell whether an object is live."""
-        return obj.session_uid in self._object_uids
+    def first_object(self, context: bpy.types.Context) -> bpy.types.Object | None:
+        """Return the object whose settings are those of Live, or the next that is left."""
+        return next(iter(self._objects(context).values()), None)
 
     def mesh_of(self, obj: bpy.types.Object) -> LiveMesh | None:
         """Return what is done for an object, or for the mesh that it shares."""

@@ -649,6 +649,15 @@ def test_auto_orient_turns_the_live_cube(live, begin):
     assert tuple(obj.cubic_craft.orientation) == pytest.approx(found, abs=1e-6)
 
 
+def test_the_panel_stays_that_of_live_whatever_is_active(live, begin):
+    a, b = add_monkey("A"), add_monkey("B")
+    session = begin(a, b)
+    bpy.context.view_layer.objects.active = None
+    assert session.first_object(bpy.context) == a
+    bpy.data.objects.remove(a)
+    assert session.first_object(bpy.context) == b
+
+
 def test_the_other_operators_wait(live, begin):
     session = begin(add_monkey())
     for name in ("cubify", "restore", "apply"):
