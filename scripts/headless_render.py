@@ -6,6 +6,7 @@ Runs under the ``bpy`` module and in Blender alike::
     blender -b -P scripts/headless_render.py -- bunny.obj --cubeness 0.2 0.4
 """
 
+import os
 import signal
 import sys
 import time
@@ -19,6 +20,7 @@ from headless.arguments import parse  # noqa: E402
 from headless.errors import InputError  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 
+IS_INSIDE_BLENDER = "bpy" in sys.modules
 INTERRUPTED = 130
 """exit code after Ctrl-C, as shells have it"""
 
@@ -27,8 +29,21 @@ def arguments_of_script() -> list[str]:
     """Return the script's own arguments; in Blender those behind ``--``."""
     if "--" in sys.argv:
         return sys.argv[sys.argv.index("--") + 1 :]
-    is_inside_blender = "bpy" in sys.modules
-    return [] if is_inside_blender else sys.argv[1:]
+    return [] if IS_INSIDE_BLENDER else sys.argv[1:]
+
+
+def leave(code: int) -> None:
+    """End the process.
+
+    Blender 4.2 as a Python module crashes while it is freed, if property groups with callbacks were
+    ever registered: it keeps the callbacks, and with them itself.
+    """
+    bpy = sys.modules.get("bpy")
+    if bpy is not None and not IS_INSIDE_BLENDER and bpy.app.version < (4, 3):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 def main() -> int:
@@ -54,4 +69,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())

@@ -33,8 +33,7 @@ class Extension:
 def registered(root: Path) -> Iterator[Extension]:
     """Import the repository root as the package ``cubic_craft``, and register it for the block.
 
-    The root may have any folder name; inside, all imports are relative to the package. Blender 4.2
-    as a Python module crashes at its end if anything is still registered then.
+    The root may have any folder name; inside, all imports are relative to the package.
     """
     spec = importlib.util.spec_from_file_location(
         PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]

@@ -47,3 +47,17 @@ def extension():
 def empty_file(extension):
     """Start each test with an empty file; the extension stays enabled."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+def pytest_unconfigure(config):
+    """Leave Blender 4.2 without freeing it, which crashes; see `leave` in headless_render.py."""
+    if bpy.app.version < (4, 3) and hasattr(config, "exit_status_of_session"):
+        _user_folder.cleanup()
+        sys.stdout.flush()
+        os._exit(config.exit_status_of_session)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session, exitstatus):
+    """Keep the result for `pytest_unconfigure`."""
+    session.config.exit_status_of_session = int(exitstatus)
