@@ -163,7 +163,7 @@ class LiveMesh:
 
     def release(self) -> None:
         """Let go of all arrays."""
-        self._preview = self._prepared = self._run = None
+        self._preview = self._prepared = self._run = self.solution = None
 
     def follow(self, task: Task) -> None:
         """Go on with a mesh that Blender has undone or redone, which may have another shape now.

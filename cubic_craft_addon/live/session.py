@@ -334,6 +334,8 @@ class Session:
         handlers.remove()
         wake.listen(None)
         status_bar.hide()
+        self._tasks.clear()
+        self._choice = Choice({})
         for mesh in self.meshes:
             mesh.release()
         _redraw_panels()

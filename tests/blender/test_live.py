@@ -65,7 +65,11 @@ def check_gone(live):
     assert not handlers.is_installed() and wake._listener is None
     for name, handler in handlers._HANDLERS:
         assert handler not in getattr(bpy.app.handlers, name)
-    assert live._session._timer is None
+    session = live._session
+    assert session._timer is None
+    assert not session.tasks and session._choice.frame is None
+    for mesh in session.meshes:
+        assert mesh._preview is None and mesh._prepared is None and mesh._run is None
     for mesh in bpy.data.meshes:
         assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_live")]
 
