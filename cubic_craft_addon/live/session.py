@@ -204,14 +204,16 @@ class Session:
             now = time.perf_counter()
             self._next_check = now + (now - begin) / _CHECK_SHARE
         self._compute(begin + SLICE)
-        self._show(objects)
-        if self._is_working or self._is_changed_at_rest(list(objects.values())):
+        # Not at rest before Blender has evaluated what was shown: a stroke could go unnoticed.
+        is_new = self._show(objects)
+        if self._is_working or is_new or self._is_changed_at_rest(list(objects.values())):
             if begin >= self._next_panel:
                 self._next_panel = begin + _PANEL_STEP
                 _redraw_panels()
             return
         if self.is_finishing and not any(mesh.solution for mesh in self.meshes):
             self.on(Event.REFUSED)
+        self._has_written = False
         self.on(Event.DONE)
         _redraw_panels()
 
@@ -268,7 +270,7 @@ class Session:
         Changes may have waited for the run to be seen, and strokes may have gone unnoticed while
         Live itself changed the mesh.
         """
-        self._may_be_painted |= any(obj.mode == "WEIGHT_PAINT" for obj in objects)
+        self._may_be_painted = True
         self._check(objects, time.perf_counter())
         return self._is_working
 
@@ -283,9 +285,9 @@ class Session:
             working = [mesh for mesh in working if mesh.is_working]
 
     def _show(self, objects):
-        for mesh in self.meshes:
-            if mesh.show(objects[mesh.object_uid].data):
-                self._has_written = True
+        shown = [mesh.show(objects[mesh.object_uid].data) for mesh in self.meshes]
+        self._has_written |= any(shown)
+        return any(shown)
 
     # -- what the state machine asks for -----------------------------------------------------------
 

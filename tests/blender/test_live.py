@@ -213,6 +213,26 @@ def test_painted_weights_restart_it(live, begin):
     assert bits(obj) == shape
 
 
+def test_weights_changed_before_the_last_shape_is_evaluated_count(live, begin):
+    """Blender tells of both at once then, so that it looks like the update of Live alone."""
+    obj = add_monkey()
+    group = obj.vertex_groups.new(name="Map")
+    group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    session = begin(obj, map_group="Map")
+    for _ in range(STEPS):
+        session.tick(bpy.context)
+        if not session.meshes[0].is_working:
+            break
+        bpy.context.view_layer.update()
+    group.add(range(100), 1.0, "REPLACE")
+    obj.data.update()
+    bpy.context.view_layer.update()
+    shape = bits(obj)
+    tick_to_rest(session)
+    assert bits(obj) != shape
+    session.on(live.Event.CANCEL)
+
+
 def test_a_handle_is_posed_live(live, begin):
     obj, _, right = add_posable()
     pin(obj, LEFT)
