@@ -188,9 +188,9 @@ def start(prepared: Prepared, settings: Settings) -> solver.Run:
             prepared.orientation,
             targets @ prepared.stretch.T,
             device=settings.device.lower(),
+            keep_rotation=_keeps_rotation(prepared, settings),
         )
-        keep_rotation = _keeps_rotation(prepared, settings)
-        return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_rotation)
+        return solver.Run(stylization, settings.max_iterations, settings.tolerance)
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{prepared.name}": {error}') from error
 
@@ -279,7 +279,7 @@ def _unstretched_positions(prepared, stretched):
 
 
 def _keeps_rotation(prepared, settings):
-    """Tell whether each free part is turned back as a whole at the end.
+    """Tell whether each free part is held in its orientation.
 
     A part may turn by some degrees to fit the cube. Several parts would each turn their own way and
     come apart, such as eyes from their sockets; a single one shows the sides of the cube as they

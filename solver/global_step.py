@@ -5,6 +5,10 @@ import numpy as np
 
 from .errors import CubicCraftError
 from .factorization import factorize
+from .multigrid import Multigrid, has_multigrid
+
+FACTORIZED_VERTICES = 200_000
+"""Larger meshes get multigrid. The factorisation of one of 400 k takes four times its set-up."""
 
 
 class GlobalStep:
@@ -43,7 +47,7 @@ class GlobalStep:
         L = rest.matrices.matrix(rest.matrices.laplacian)
         free_rows = L[self._free]
         self._coupling = free_rows[:, self._held]
-        self._solve = factorize(free_rows[:, self._free]) if len(self._free) else None
+        self._solve = _solver(free_rows[:, self._free]) if len(self._free) else None
         self._floating = None if has_pin.all() else self._centring_weights(has_pin)
 
     def _centring_weights(self, has_pin):
@@ -53,13 +57,21 @@ class GlobalStep:
         total = np.bincount(rest.component, weight, rest.component_count)
         return weight / np.where(total > 0.0, total, 1.0)[rest.component]
 
-    def positions(self, rhs, U):
-        """Return new positions (n,3) from the right-hand side (n,3) and the last positions U."""
-        result = U.copy()  # pinned vertices keep their exact positions
+    def positions(self, rhs, near):
+        """Return new positions (n,3).
+
+        Parameters
+        ----------
+        rhs : (n,3) array
+            Right-hand side.
+        near : (n,3) array
+            Positions to start from, where the solution is iterative. Pinned vertices stay there.
+        """
+        result = near.copy()
         if self._solve is None:
             return result
-        free_rhs = rhs[self._free] - self._coupling @ U[self._held]
-        result[self._free] = self._solve(free_rhs)
+        free_rhs = rhs[self._free] - self._coupling @ near[self._held]
+        result[self._free] = self._solve(free_rhs, near[self._free])
         if self._floating is not None:
             self._centre(result, self._floating)
         return result
@@ -76,3 +88,11 @@ class GlobalStep:
         )
         moving = weight > 0.0
         U[moving] += shift[rest.component[moving]]
+
+
+def _solver(A):
+    """Return a function of B (n,3) and X (n,3): the solution of A X = B, or one nearer to it."""
+    if A.shape[0] > FACTORIZED_VERTICES and has_multigrid():
+        return Multigrid(A).solve
+    solve = factorize(A)
+    return lambda B, near: solve(B)

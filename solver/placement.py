@@ -6,7 +6,7 @@ import numpy as np
 from .rotation_fit import svd_rotations
 
 
-def keep_rotation(rest, U, has_pin):
+def turn_back(rest, U, has_pin):
     """Turn each free component back by its best-fit rotation about its centroid.
 
     Parameters
@@ -19,11 +19,12 @@ def keep_rotation(rest, U, has_pin):
 
     Returns
     -------
-    U : (n,3) float array
-    back : (component_count,3,3) float array
-        The rotation of each component.
+    (n,3) float array
+        The positions after it.
     """
     weight = rest.areas + 1e-300
+    if rest.component_count == 1:
+        return U.copy() if has_pin[0] else _turned_back(rest.V, U, weight / weight.sum())
     label, count = rest.component, rest.component_count
 
     def sums(values):
@@ -36,7 +37,13 @@ def keep_rotation(rest, U, has_pin):
     centred, target = U - now[label], rest.V - before[label]
     covariance = sums(centred[:, :, None] * target[:, None, :]).reshape(-1, 3, 3)
     back = svd_rotations(covariance)  # maximises tr(B sum (u - c) (v - c)')
-    back[has_pin] = np.eye(3)
     turned = np.einsum("nij,nj->ni", back[label], centred) + now[label]
-    turned[has_pin[label]] = U[has_pin[label]]
-    return turned, back
+    return np.where(has_pin[label][:, None], U, turned)
+
+
+def _turned_back(V, U, share):
+    """Do it for a single component, with the share (n,) of each vertex in its area."""
+    centre = share @ U
+    centred = U - centre
+    covariance = (centred * share[:, None]).T @ (V - share @ V)
+    return centred @ svd_rotations(covariance[None])[0].T + centre

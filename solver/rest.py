@@ -8,10 +8,14 @@ import numpy as np
 
 from .components import components
 from .cotangents import cotangents
+from .decimation import decimate
 from .mesh_checks import check_mesh
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .unit_box import UnitBox, unit_box
+
+COARSENING = 4
+"""triangles of a mesh for each triangle of its coarser mesh"""
 
 
 @dataclass(frozen=True)
@@ -49,11 +53,29 @@ class RestMesh:
         weighted = -matrices.laplacian * (edges * edges).sum(axis=1)
         return np.bincount(self.component[rows], weighted, self.component_count)
 
+    @cached_property
+    def coarse(self):
+        """The Coarsening, or None where it cannot be had."""
+        decimated = decimate(self.V, self.F, COARSENING)
+        if decimated is None:
+            return None
+        V, F, cluster = decimated
+        return Coarsening(rest_mesh(V, F), cluster)
+
     def sum_parts(self, values):
         """Sum values (n,) over each component, to (component_count,)."""
         if self.component_count == 1:
             return values.sum(keepdims=True)
         return np.bincount(self.component, values, self.component_count)
+
+
+@dataclass(frozen=True)
+class Coarsening:
+    """A coarser mesh of the same shape."""
+
+    rest: RestMesh
+    cluster: np.ndarray
+    """(n,) int vertex of the coarser mesh that each vertex has been merged into"""
 
 
 def rest_mesh(V, F):

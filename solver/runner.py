@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .coarse_start import MAX_ITERATIONS, TOLERANCE, carry_up, coarse_stylization
 from .errors import CubicCraftError
 from .rest import rest_mesh
 from .setup import Setup
@@ -44,7 +45,6 @@ def stylize(
     *,
     max_iterations=1000,
     tolerance=1e-3,
-    keep_rotation=False,
     on_iteration=None,
     **options,
 ):
@@ -60,10 +60,10 @@ def stylize(
         0 keeps the shape; 0.1 to 1 are common.
     pinned : (k,) array_like of int
         Vertices held exactly in place.
-    max_iterations, tolerance, keep_rotation, on_iteration
+    max_iterations, tolerance, on_iteration
         See `run`.
     **options
-        See `Stylization`: orientation, targets, device, precision, admm.
+        See `Stylization`: orientation, targets, device, precision, keep_rotation and more.
 
     Returns
     -------
@@ -84,10 +84,10 @@ def stylize(
     True
     """
     stylization = Stylization(Setup(rest_mesh(V, F), pinned), cubeness, **options)
-    return run(stylization, max_iterations, tolerance, keep_rotation, on_iteration)
+    return run(stylization, max_iterations, tolerance, on_iteration)
 
 
-def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, on_iteration=None):
+def run(stylization, max_iterations=1000, tolerance=1e-3, on_iteration=None):
     """Iterate a fresh Stylization to its end.
 
     Parameters
@@ -96,9 +96,6 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
     max_iterations : int
     tolerance : float
         See `StopRule`.
-    keep_rotation : bool
-        Turn each free component back as a whole at the end. The energy of the result is that of
-        the cube turned by the same rotation.
     on_iteration : callable, optional
         Called with the Stylization after each iteration; a true value cancels the run.
 
@@ -111,7 +108,7 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False, o
     CubicCraftError
         The tolerance is not positive, or there is no iteration to do.
     """
-    run = Run(stylization, max_iterations, tolerance, keep_rotation)
+    run = Run(stylization, max_iterations, tolerance)
     run.complete(on_iteration)
     return run.result()
 
@@ -123,7 +120,7 @@ class Run:
 
     Parameters
     ----------
-    stylization, max_iterations, tolerance, keep_rotation
+    stylization, max_iterations, tolerance
         As in `run`.
 
     Attributes
@@ -137,7 +134,7 @@ class Run:
         As `run`.
     """
 
-    def __init__(self, stylization, max_iterations=1000, tolerance=1e-3, keep_rotation=False):
+    def __init__(self, stylization, max_iterations=1000, tolerance=1e-3):
         if not (np.isfinite(tolerance) and tolerance > 0.0):
             raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
         if not max_iterations >= 1:
@@ -145,14 +142,28 @@ class Run:
         self.stylization = stylization
         self.reason = None
         self._max_iterations = max_iterations
-        self._keep_rotation = keep_rotation
         self._rule = StopRule(tolerance, stylization.resolution)
         self._is_local_next = True
         self._seconds = 0.0
+        coarse = coarse_stylization(stylization)
+        self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
 
     def advance(self):
         """Do one phase: a local or a global step. At the end, `reason` is set."""
         begin = time.perf_counter()
+        if self._coarse is not None:
+            self._advance_coarse()
+        else:
+            self._advance_fine()
+        self._seconds += time.perf_counter() - begin
+
+    def _advance_coarse(self):
+        self._coarse.advance()
+        if self._coarse.reason is not None:
+            carry_up(self._coarse.stylization, self.stylization)
+            self._coarse = None
+
+    def _advance_fine(self):
         state = self.stylization
         if self._is_local_next:
             state.local_step()
@@ -163,7 +174,6 @@ class Run:
             elif state.iteration >= self._max_iterations:
                 self.reason = "max_iterations"
         self._is_local_next = not self._is_local_next
-        self._seconds += time.perf_counter() - begin
 
     def complete(self, on_iteration=None):
         """Advance to the end; `on_iteration` as in `run`."""
@@ -176,11 +186,11 @@ class Run:
 
     def positions(self):
         """Return the positions (n,3) as they are now, in the unit of the input."""
-        return self.stylization.placed_positions(self._keep_rotation)
+        return self.stylization.placed_positions()
 
     def placed(self):
         """Return the positions (n,3) and the rotations (n,3,3) as they are now."""
-        return self.stylization.placed(self._keep_rotation)
+        return self.stylization.placed()
 
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""

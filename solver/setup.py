@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is done once per mesh and set of pins."""
 
+from functools import cached_property
+
 import numpy as np
 
 from .errors import CubicCraftError
@@ -45,3 +47,14 @@ class Setup:
         self.has_pin = np.zeros(rest.component_count, dtype=bool)
         self.has_pin[rest.component[self.pinned]] = True
         self.global_step = GlobalStep(rest, self.pinned)
+
+    @cached_property
+    def coarse(self):
+        """The Setup of the coarser mesh, with the pins merged, or None where there is none."""
+        coarsening = self.rest.coarse
+        if coarsening is None:
+            return None
+        pinned = np.unique(coarsening.cluster[self.pinned])
+        if len(pinned) == len(coarsening.rest.V):
+            return None
+        return Setup(coarsening.rest, pinned)

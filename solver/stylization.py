@@ -10,7 +10,9 @@ from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
 from .mesh_checks import per_vertex
-from .placement import keep_rotation
+from .placement import turn_back
+
+_FIRST_SOLVES = 4  # where a solve only comes nearer to the positions, the first is far from them
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,17 @@ class Stylization:
     admm : AdmmOptions, optional
     is_accelerated : bool
         False for the plain iteration, in which the energy falls in every step.
+    keep_rotation : bool
+        Hold each component without pins in the orientation it has at rest, by turning it back after
+        each global step. Otherwise it may turn as a whole to fit the cube.
+    is_coarse : bool
+        Of a coarser mesh, to start another one from.
 
     Attributes
     ----------
+    setup, is_accelerated, is_coarse
+        As given.
+    rest : RestMesh
     iteration : int
         Number of steps done.
     energy : Energy or None
@@ -66,15 +76,24 @@ class Stylization:
         precision=None,
         admm=None,
         is_accelerated=True,
+        keep_rotation=False,
+        is_coarse=False,
     ):
-        self._setup = setup
+        self.setup = setup
+        self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
+        self._keep_rotation = keep_rotation
+        self._options = {
+            "device": device,
+            "precision": precision,
+            "admm": admm,
+            "keep_rotation": keep_rotation,
+        }
         rest = self.rest = setup.rest
         lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))[rest.used].copy()
         lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
+        self._lam, self._Q = lam, _orientation(orientation, rest)
         make_local_step = local_step_class(device, precision)
-        self._local = make_local_step(
-            rest, lam, _orientation(orientation, rest), admm or AdmmOptions()
-        )
+        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         self._targets = _targets(targets, setup)
         self._U = rest.V.copy()
         held = rest.used[setup.pinned]
@@ -101,6 +120,44 @@ class Stylization:
         """Seconds spent compiling kernels or loading them from a cache."""
         return self._local.compile_seconds
 
+    @property
+    def rotations(self):
+        """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
+        return self._local.R
+
+    def coarser(self):
+        """Return a fresh Stylization of the coarser mesh of the setup."""
+        setup, coarsening = self.setup.coarse, self.rest.coarse
+        areas = self.rest.areas + 1e-300
+        count = len(coarsening.rest.V)
+        _, first = np.unique(coarsening.cluster, return_index=True)
+
+        def means(values, weights):
+            sums = np.bincount(coarsening.cluster, weights * values, count)
+            total = np.bincount(coarsening.cluster, weights, count)
+            return sums / np.where(total > 0.0, total, 1.0)
+
+        is_pinned = np.zeros(len(self.rest.V))
+        is_pinned[self.setup.pinned] = 1.0
+        moved = (self._U - self.rest.V).T
+        return Stylization(
+            setup,
+            means(self._lam, areas * (1.0 - is_pinned) + 1e-300),
+            self._Q[first] if len(self._Q) > 1 else self._Q[0],
+            coarsening.rest.input_positions
+            + np.stack([means(column, is_pinned) for column in moved], axis=1),
+            **self._options,
+            is_coarse=True,
+        )
+
+    def start_from(self, R):
+        """Let the iteration begin with rotations (n,3,3) of the vertices of `rest`."""
+        self._local.start_from(R)
+        rhs = self._local.right_hand_side()
+        for _ in range(_FIRST_SOLVES):
+            self._U = self.setup.global_step.positions(rhs, self._U)
+        self._start = self._U
+
     def step(self):
         """Do one local and one global step."""
         self.local_step()
@@ -115,7 +172,9 @@ class Stylization:
 
     def global_step(self):
         """Move the positions toward the rotations of the local step before."""
-        U = self._setup.global_step.positions(self._local.right_hand_side(), self._U)
+        U = self.setup.global_step.positions(self._local.right_hand_side(), self._start)
+        if self._keep_rotation:
+            U = turn_back(self.rest, U, self.setup.has_pin)
         self.displacement = float(np.abs(U - self._U).max())
         self.distance = float(np.abs(U - self.rest.V).max())
         if self._acceleration is None:
@@ -145,32 +204,21 @@ class Stylization:
         self._U = self.rest.box.to_unit(used)
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
-    def placed(self, with_rotation_kept=False):
+    def placed(self):
         """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
 
         Loose vertices have exactly their given positions, pinned ones their targets.
         """
-        rest = self.rest
-        U, R = self._U, self._local.R.astype(np.float64, copy=False)
-        if with_rotation_kept:
-            U, back = keep_rotation(rest, U, self._setup.has_pin)
-            R = back[rest.component] @ R
-        rotations = np.tile(np.eye(3), (len(rest.input_positions), 1, 1))
-        rotations[rest.used] = R
-        return self._placed_positions(U), rotations
+        rotations = np.tile(np.eye(3), (len(self.rest.input_positions), 1, 1))
+        rotations[self.rest.used] = self._local.R
+        return self.placed_positions(), rotations
 
-    def placed_positions(self, with_rotation_kept=False):
+    def placed_positions(self):
         """Return the positions alone, for those who look on while it runs."""
-        U = self._U
-        if with_rotation_kept:
-            U, _ = keep_rotation(self.rest, U, self._setup.has_pin)
-        return self._placed_positions(U)
-
-    def _placed_positions(self, U):
         rest = self.rest
         positions = rest.input_positions.copy()
-        positions[rest.used] = rest.box.from_unit(U)
-        held = self._setup.pinned_input
+        positions[rest.used] = rest.box.from_unit(self._U)
+        held = self.setup.pinned_input
         positions[held] = self._targets[held]
         return positions
 

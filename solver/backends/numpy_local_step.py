@@ -43,12 +43,19 @@ class NumpyLocalStep:
         self._gather = [matrices.matrix(matrices.gather[:, c]) for c in range(3)]
         self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
         self._area_scale = area_scale(rest.areas)
+        _, first = np.unique(rest.component, return_index=True)
+        self._origins = rest.V[first][rest.component]
         self._rest_quadratic = self._quadratic(rest.V)
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         self._z = np.einsum("nij,nj->ni", self._Q, rest.normals)
         self._u = np.zeros((n, 3))
         self._rho = np.full(n, options.rho_start)
+
+    def start_from(self, R):
+        """Begin with rotations (n,3,3)."""
+        self.R[:] = R
+        self._z[:] = np.einsum("nij,njk,nk->ni", self._Q, R, self._rest.normals)
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3).
@@ -70,6 +77,7 @@ class NumpyLocalStep:
         return arap, cubic
 
     def _quadratic(self, U):
+        U = U - self._origins  # else a tiny part far away would lose its digits
         return 1.5 * self._rest.sum_parts((U * (self._laplacian @ U)).sum(axis=1))
 
     def right_hand_side(self):

@@ -90,6 +90,12 @@ class TaichiLocalStep:
         )
         self.compile_seconds = _compile(self._kernels, self._arguments, precision)
 
+    def start_from(self, R):
+        """Begin with rotations (n,3,3)."""
+        self.R[:] = R
+        Q = np.broadcast_to(self._Q, self.R.shape)
+        self._z[:] = np.einsum("nij,njk,nk->ni", Q, R, self._rest.normals)
+
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         taichi_runtime.start(self._wanted)  # another add-on may have reset it since

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Start a large mesh from the cubic version of a coarser one.
+
+The iteration moves details at once and the whole only slowly, the more slowly the finer the mesh
+is. On a mesh of a quarter of the vertices an iteration costs a quarter, and fewer are needed; its
+rotations bring the fine mesh so near to its end that 30 iterations do what takes 134 from the rest
+shape (98,721 vertices, cubeness 0.4, to a gap of 1 %). The coarse mesh is started in the same way.
+"""
+
+import numpy as np
+
+from .rotation_fit import orthonormalize
+
+LEAST_VERTICES = 60_000
+"""A smaller mesh gains no more than its coarse meshes cost (48 k vertices, to a gap of 1 %)."""
+COARSEST_VERTICES = 2_000
+"""Meshes of up to so many are started from the rest shape."""
+TOLERANCE = 1e-2
+"""of the stop rule on coarse meshes: a more exact start saves less than it costs"""
+MAX_ITERATIONS = 100
+
+_AVERAGINGS = 2  # over the neighbours: clusters would leave a step at each of their borders
+_ORTHONORMALIZATIONS = 4
+_LEAST_DETERMINANT = 0.9  # less was no average of similar rotations
+
+
+def coarse_stylization(fine):
+    """Return the Stylization of a coarser mesh whose end `carry_up` takes to a fresh one, or None.
+
+    None for small meshes, for the plain iteration, and where there is no coarser mesh.
+    """
+    count = len(fine.rest.V)
+    least = COARSEST_VERTICES if fine.is_coarse else LEAST_VERTICES
+    if count < least or not fine.is_accelerated or fine.setup.coarse is None:
+        return None
+    return fine.coarser()
+
+
+def carry_up(coarse, fine):
+    """Let a fresh Stylization start from the rotations that a coarser one has come to."""
+    merged = coarse.rotations[fine.rest.coarse.cluster]
+    fine.start_from(_smoothed(fine.rest, merged))
+
+
+def _smoothed(rest, R):
+    """Average rotations (n,3,3) over the neighbours of each vertex."""
+    neighbours = rest.matrices.matrix(np.ones(len(rest.matrices.indices)))
+    counts = np.diff(rest.matrices.indptr)[:, None]
+    average = R.reshape(-1, 9)
+    for _ in range(_AVERAGINGS):
+        average = (neighbours @ average) / counts
+    average = average.reshape(-1, 3, 3)
+    for _ in range(_ORTHONORMALIZATIONS):
+        average = orthonormalize(average)
+    is_rotation = np.linalg.det(average) > _LEAST_DETERMINANT
+    return np.where(is_rotation[:, None, None], average, R)

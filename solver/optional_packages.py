@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packages that only large meshes gain from: imported when one comes, done without if missing."""
+
+from functools import cache
+from importlib import import_module
+
+
+@cache
+def optional_package(name):
+    """Return the package, or None where it cannot be imported."""
+    try:
+        return import_module(name)
+    except Exception:  # a broken installation can raise anything
+        return None
