@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Look long for the lowest energy of a case, from several starts and with several settings.
 
-The problem has more than one minimum, so what is found is the lowest known energy, not a proven one.
+The problem has more than one minimum, so what is found is the lowest known energy and
+not a proven one.
 """
 
 import time
@@ -53,18 +54,15 @@ def find_best(path, cubeness, seconds):
     harder = descend("", weight=2 * cubeness)
     descend("accelerated, from twice the cubeness", start=harder)
     _, name, positions = min(found, key=lambda item: item[0])
-    descend(f"{name}, then plain with exact local step", start=positions, admm=EXACT)
+    plain = {"admm": EXACT, "is_accelerated": False}
+    descend(f"{name}, then plain with exact local step", start=positions, **plain)
     energy, found_by, _ = min(found, key=lambda item: item[0])
     return energy, found_by
 
 
-def _descend(setup, cubeness, start, seconds, admm=None):
-    """Return the positions at which the energy no longer falls, or the time is over.
-
-    From a start it goes without acceleration only if the local step is exact.
-    """
-    is_accelerated = start is None or admm is None
-    state = Stylization(setup, cubeness, admm=admm, is_accelerated=is_accelerated)
+def _descend(setup, cubeness, start, seconds, **options):
+    """Return the positions at which the energy no longer falls, or the time is over."""
+    state = Stylization(setup, cubeness, **options)
     if start is not None:
         state.energy_of(start)
     end = time.perf_counter() + seconds

@@ -9,8 +9,9 @@ import time
 
 sys.path.insert(0, sys.argv[1])
 
-import numpy as np  # noqa: E402
-from solver import stylize  # noqa: E402
+import numpy as np
+
+from solver import stylize
 
 SEGMENTS, RINGS = 32, 16
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Memory of this process.
 
-Linux counts the peak since the last reset, so that a measurement can leave out what came before. The
-peak of getrusage, used elsewhere, also holds that of the parent before it became this program.
+Linux counts the peak since the last reset, so that a measurement can leave out what came before.
+The peak of getrusage, used elsewhere, cannot be reset.
 """
 
 import resource

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The meshes that are measured.
 
-Each is kept as ``.npz``, so that reading it needs NumPy alone and adds nothing else to the memory of
-the process that is measured.
+Each is kept as ``.npz``, so that reading it needs NumPy alone and adds nothing else to the memory
+of the process that is measured.
 """
 
 from dataclasses import dataclass

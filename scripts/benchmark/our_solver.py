@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
+
 from solver import Setup, Stylization, rest_mesh, run
 
 from .primitives import blob

@@ -2,11 +2,11 @@
 """The page of results."""
 
 from . import tables
-from .fit import FIT_FROM, fit_of
+from .fit import FIT_FROM, FITTED_GAP, fit_of
 from .plots import plot_gaps, plot_scaling
-from .suite import PHASES_CUBENESS
-from .ten_iterations import CUBENESS as TEN_CUBENESS
-from .ten_iterations import ITERATIONS
+from .race import PLAIN_GAP, PLAIN_ITERATIONS, PLAIN_SECONDS
+from .suite import LARGE, LARGE_SCALING, PHASES_CUBENESS
+from .ten_iterations import CUBENESS, ITERATIONS
 
 GAPS_IMAGE, SCALING_IMAGE = "benchmark_gaps.png", "benchmark_scaling.png"
 
@@ -21,126 +21,134 @@ def write_page(results, folder):
         plot_scaling(results["scaling"], power, factor, FIT_FROM, images / SCALING_IMAGE)
     path = folder / "benchmarks.md"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("\n".join(page(results, power)) + "\n", encoding="utf-8")
+    path.write_text("\n\n".join(page(results, power)) + "\n", encoding="utf-8")
     return path
 
 
 def page(results, power):
-    """Return the lines of the page; `power` is that of the fit, or None."""
-    lines = _introduction(results)
+    """Return the paragraphs of the page; `power` is that of the fit, or None."""
+    paragraphs = _introduction(results["runs"], results["machine"])
     if results["ten"]:
-        lines += _ten(results["ten"])
+        paragraphs += _ten(results["ten"])
     if results["race"]:
-        lines += _race(results["race"])
+        paragraphs += _race(results["race"])
     if results["phases"]:
-        lines += _phases(results["phases"])
+        paragraphs += _phases(results["phases"])
     if results["scaling"]:
-        lines += _scaling(results["scaling"], power)
+        paragraphs += _scaling(results["scaling"], power)
     if results["startup"]:
-        lines += _startup(results["startup"])
-    return lines
+        paragraphs += _startup(results["startup"])
+    return paragraphs
 
 
-def _introduction(results):
-    return f"""\
-# Benchmarks
-
-Written by `make bench`; `make bench-quick` measures a part of it in less than two minutes and
-writes to `build/bench`. `CUBIC_CRAFT_MESHES=folder` tells where the meshes are; without them, bumpy
-spheres take their place. All programs run in turn on the same machine; figures are medians of
-{results["runs"]} runs, of one where a run takes long (peers from 10,000 vertices on, sizes from
-50,000 on). On another machine or a busy one the seconds change more than their ratios.
-
-{results["machine"]}
-
-Unless a table says otherwise, times begin with the arrays of the mesh in memory and hold all set-up.
-Python, the libraries and the compiled kernels are loaded before; see the last table for these.""".split(
-        "\n"
+def _introduction(runs, machine):
+    how_often = (
+        f"Figures are medians of {runs} runs, but of one where a run takes long: of the peers from"
+        f" {LARGE:,} vertices on, in the scaling run from {LARGE_SCALING:,} on."
+        if runs > 1
+        else "Each figure is that of a single run."
     )
+    return [
+        "# Benchmarks",
+        f"""\
+Written by `make bench`; `make bench-quick` measures a part of it in about two minutes and writes to
+`build/bench`. `CUBIC_CRAFT_MESHES=folder` tells where the meshes are; without them, bumpy spheres
+take their place. All programs run in turn on the same machine. {how_often}
+On another machine, or a busy one, the seconds change more than their ratios.""",
+        machine,
+        """\
+Unless a section says otherwise, times begin with the arrays of the mesh in memory and hold all
+set-up. Python, the libraries and the compiled kernels are loaded before; the last section tells how
+long that takes.""",
+    ]
 
 
 def _ten(results):
-    text = f"""\
-
-## Ten iterations
-
-{ITERATIONS} outer iterations from the mesh file to the result: reading the file and set-up are counted,
-the kernels are loaded already. Cubeness {TEN_CUBENESS}. The columns of the paper are the figures
-published in Table 1 of "CubicCraft: A Mesh Stylization Tool", taken on other hardware (NVIDIA RTX
-3050 Ti; AMD R9 5900HS with the program of Liu and Jacobson), not on this machine. After ten
-iterations no program has converged: this says how fast iterations are, not how soon a shape is done.
-"""
-    return [*text.split("\n"), *tables.ten_iterations(results)]
+    return [
+        "## Ten iterations",
+        f"""\
+{ITERATIONS} outer iterations from the mesh file to the result at cubeness {CUBENESS}: reading the
+file and set-up are counted, the kernels are loaded already. The columns of the paper are the
+figures published in Table 1 of "CubicCraft: A Mesh Stylization Tool"; they were taken on other
+hardware (NVIDIA RTX 3050 Ti; AMD R9 5900HS with the program of Liu and Jacobson), not on this
+machine. The table says how fast set-up and iterations are, not how soon a shape is done: most
+shapes are not after so few.""",
+        tables.ten_iterations(results),
+    ]
 
 
 def _race(cases):
-    first = """\
-
-## To the best shape
-
-The gap of a shape is (E - best) / (rest - best): E is its energy in the unit box, with the rotations
-that fit it best; rest is that of the undeformed mesh; best is the lowest that any run of any program
-has ever reached (`scripts/benchmark/best_energies.json`; `python scripts/benchmark --find-best`
-looks for lower ones). All programs are judged by the same function. A time in brackets is that of
-one run that goes on beyond our own stop; a dash, that the gap was not reached.
-"""
-    plot = f"""\
-
-![Gap over time](images/{GAPS_IMAGE})
-
+    paragraphs = [
+        "## To the best shape",
+        """\
+The gap of a shape is (E - best) / (rest - best). E is its energy in the unit box, with the
+rotations that fit it best; rest is that of the undeformed mesh; best is the lowest energy that any
+run of any program is known to have reached. These are kept in
+`scripts/benchmark/best_energies.json`, and `python scripts/benchmark --find-best 60` looks for
+lower ones. One function judges the shapes of all programs. A time in brackets is of a run that goes
+on beyond our own stop; a dash means that the gap was not reached.""",
+        tables.gaps(cases),
+        f"![Gap over time](images/{GAPS_IMAGE})",
+        f"""\
 The plot shows one run of each program. Where a curve ends, the program stops by itself, except that
-the plain iteration is left at a gap of 1 %, after 400 iterations or after 30 seconds.
-
-### Beside the plain iteration
-
+the plain iteration is left at a gap of {tables.percent(PLAIN_GAP)}, after {PLAIN_ITERATIONS}
+iterations or after {PLAIN_SECONDS:g} seconds.""",
+    ]
+    if any(case["plain"] for case in cases):
+        paragraphs += [
+            "### Beside the plain iteration",
+            """\
 The same solver without acceleration (`is_accelerated=False`), left as said above. "Times sooner
-there" is how many times sooner our solver is as low as the plain one is when it is left.
-"""
-    peer = """\
-
-### Beside PyMeshLab
-
-PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop. "Ours as low" is when our
-solver reaches the energy that PyMeshLab ends with; "times faster" compares both at their own stop.
-The meshes that are missing here take PyMeshLab many minutes.
-"""
-    lines = [*first.split("\n"), *tables.gaps(cases), *plot.split("\n"), *tables.plain(cases)]
+there" is how many times sooner ours is as low as the plain one is where it is left.""",
+            tables.plain(cases),
+        ]
     if any(case["pymeshlab"] for case in cases):
-        lines += [*peer.split("\n"), *tables.pymeshlab(cases)]
-    return lines
+        paragraphs += [
+            "### Beside PyMeshLab",
+            """\
+PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop. "Ours as low" is when ours
+reaches the energy at which PyMeshLab ends; "times faster" compares both at their own stop. Cases
+that are not listed were not run with it, for the time that this would take.""",
+            tables.pymeshlab(cases),
+        ]
+    return paragraphs
 
 
 def _phases(results):
-    text = f"""\
-
-## Where the time goes, and memory
-
-One run to our own stop at cubeness {PHASES_CUBENESS}, in a process of its own. Set-up in seconds, then milliseconds
-of each phase per iteration. Peak memory is that of the whole process; of it for the run is what it
-takes above Python, the libraries and the kernels.
-"""
-    return [*text.split("\n"), *tables.phases(results)]
+    return [
+        "## Where the time goes, and memory",
+        f"""\
+One run to our own stop at cubeness {PHASES_CUBENESS}, in a process of its own: the phases of set-up
+in seconds, then those of an iteration in milliseconds, the mean of all iterations but the first.
+Peak memory is that of the whole process; "for the run" is what it takes above Python, the libraries
+and the kernels.""",
+        tables.phases(results),
+    ]
 
 
 def _scaling(cases, power):
-    fit = "" if power is None else f" Fitted from 10,000 vertices on, it grows as vertices^{power:.2f}."
-    text = f"""\
-
-## Time over size
-
-The {cases[0]["mesh"]}, simplified or subdivided, at cubeness {cases[0]["cubeness"]}; each size in a process of its own.
-{fit}
-
-![Time over size](images/{SCALING_IMAGE})
-"""
-    return [*text.split("\n"), *tables.scaling(cases)]
+    fit = ""
+    if power is not None:
+        fit = (
+            f"\nFrom {FIT_FROM:,} vertices on, the time to a gap of {tables.percent(FITTED_GAP)}"
+            f" grows as vertices^{power:.2f} (least squares of the logarithms)."
+        )
+    return [
+        "## Time over size",
+        f"""\
+One shape, the {cases[0]["mesh"]}, simplified or subdivided to each size, at cubeness
+{cases[0]["cubeness"]}; each size in a process of its own. A dash means that no best energy is known
+yet, or that the gap was not reached.{fit}""",
+        tables.scaling(cases),
+        f"![Time over size](images/{SCALING_IMAGE})",
+    ]
 
 
 def _startup(programs):
-    text = """\
-
-## From start to first result
-
-Fresh processes, with the files in the system's cache and the compiled kernels on disk.
-"""
-    return [*text.split("\n"), *tables.startup(programs)]
+    return [
+        "## From start to first result",
+        """\
+Fresh processes, with the files in the system's cache and the compiled kernels on disk. The solver
+without Blender stylizes a sphere of about 500 vertices, as many as the monkey has.""",
+        tables.startup(programs),
+    ]

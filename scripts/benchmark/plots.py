@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The two plots of the page."""
 
-import matplotlib as mpl
+from matplotlib import ticker  # pyright: ignore[reportMissingImports]
+from matplotlib.figure import Figure  # pyright: ignore[reportMissingImports]
 
-mpl.use("Agg")  # no window
-
-import matplotlib.pyplot as plt  # noqa: E402
-
-from . import summary  # noqa: E402
-from .gap import gap  # noqa: E402
+from . import summary
+from .gap import gap
 
 PANELS = (("bunny", 0.2), ("horse", 0.4), ("armadillo", 0.2))
 """cases with a panel; where none of them has been measured, the first three are shown"""
@@ -20,30 +17,52 @@ DOTS_PER_INCH = 110
 def plot_gaps(cases, path):
     """Draw the gap over time of ours and the plain iteration, and where PyMeshLab ends."""
     chosen = [case for case in cases if (case["mesh"], case["cubeness"]) in PANELS] or cases[:3]
-    figure, panels = plt.subplots(
-        *(1, len(chosen)), figsize=(3.2 * len(chosen) + 0.6, 3.6), sharey=True, squeeze=False
-    )
-    for case, axes in zip(chosen, panels[0], strict=True):
-        rest, best = case["rest"], summary.lowest(case)
-
-        def gaps(energies, rest=rest, best=best):
-            return [max(gap(energy, rest, best), LOWEST_GAP / 10) for energy in energies]
-
-        for program, label, colour in (("ours", "CubicCraft", OURS), ("plain", "plain", PLAIN)):
-            if case[program]:
-                seconds, energies = zip(*case[program][0]["curve"], strict=True)
-                axes.loglog(seconds, gaps(energies), color=colour, label=label)
-        if case["pymeshlab"]:
-            end = [summary.median_of(case, "pymeshlab", name) for name in ("seconds", "energy")]
-            axes.loglog(end[0], gaps(end[1:]), "o", color=PEER, label="PyMeshLab ends")
-        axes.set_title(f"{case['mesh']}, cubeness {case['cubeness']}", fontsize=10)
-        axes.set_xlabel("seconds, set-up included")
-        axes.set_ylim(LOWEST_GAP, 1.2)
-        axes.grid(alpha=0.3)
-        axes.legend(fontsize=8, loc="lower left")
-    panels[0][0].set_ylabel("gap to the lowest known energy")
+    figure = Figure(figsize=(3.2 * len(chosen) + 0.6, 3.8))
+    panels = figure.subplots(1, len(chosen), sharey=True, squeeze=False)[0]
+    for case, axes in zip(chosen, panels, strict=True):
+        _plot_case(axes, case)
+    panels[0].set_ylabel("gap to the lowest known energy, %")
+    handles = {
+        label: handle for axes in panels for handle, label in zip(*_legend(axes), strict=True)
+    }
+    figure.legend(handles.values(), handles, loc="lower center", ncols=len(handles), frameon=False)
     figure.suptitle("How near the best shape, and when")
-    _save(figure, path)
+    _save(figure, path, bottom=0.07)
+
+
+def _plot_case(axes, case):
+    rest, best = case["rest"], summary.lowest(case)
+
+    def gaps(energies):
+        return [100 * max(gap(energy, rest, best), LOWEST_GAP / 10) for energy in energies]
+
+    for program, label, colour in (("ours", "CubicCraft", OURS), ("plain", "plain", PLAIN)):
+        if case[program]:
+            seconds, energies = zip(*case[program][0]["curve"], strict=True)
+            axes.loglog(seconds, gaps(energies), color=colour, label=label)
+    if case["pymeshlab"]:
+        end = [summary.median_of(case, "pymeshlab", name) for name in ("seconds", "energy")]
+        axes.loglog(end[:1], gaps(end[1:]), "o", color=PEER, label="PyMeshLab ends")
+    axes.set_title(f"{case['mesh']}, cubeness {case['cubeness']}", fontsize=10)
+    axes.set_xlabel("seconds, set-up included")
+    axes.set_ylim(100 * LOWEST_GAP, 120)
+    _write_numbers(axes)
+    axes.grid(alpha=0.3)
+
+
+def _legend(axes):
+    return axes.get_legend_handles_labels()
+
+
+def _write_numbers(axes):
+    """Label both axes with plain numbers, not with powers of ten."""
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(ticker.LogLocator(subs=(1.0,), numticks=12))
+        axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,g}"))
+        axis.set_minor_formatter(ticker.NullFormatter())
+    low, high = axes.get_xlim()
+    if high < 100 * low:  # one power of ten would be the only number
+        axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0), numticks=12))
 
 
 def plot_scaling(cases, power, factor, fit_from, path):
@@ -58,7 +77,8 @@ def plot_scaling(cases, power, factor, fit_from, path):
         Smallest size that was fitted.
     path : Path
     """
-    figure, axes = plt.subplots(figsize=(5.6, 3.8))
+    figure = Figure(figsize=(5.6, 3.8))
+    axes = figure.subplots()
     known = [case for case in cases if case["best"]]
     times = [(case["vertices"], summary.seconds_to_gap(case, "ours", 0.01)) for case in known]
     times = [(size, seconds) for size, seconds in times if seconds is not None]
@@ -74,13 +94,14 @@ def plot_scaling(cases, power, factor, fit_from, path):
     axes.set_title(f"Time over size: {cases[0]['mesh']}, cubeness {cases[0]['cubeness']}")
     axes.set_xlabel("vertices")
     axes.set_ylabel("seconds, set-up included")
+    _write_numbers(axes)
     axes.grid(alpha=0.3)
     axes.legend(fontsize=8)
     _save(figure, path)
 
 
-def _save(figure, path):
+def _save(figure, path, bottom=0.0):
+    """Save it, with a strip left free at the bottom, as a share of the height."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.tight_layout()
+    figure.tight_layout(rect=(0.0, bottom, 1.0, 1.0))
     figure.savefig(path, dpi=DOTS_PER_INCH)
-    plt.close(figure)

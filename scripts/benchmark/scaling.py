@@ -24,13 +24,11 @@ def one_size(path, runs):
     before = memory.resident_bytes()
     memory.reset_peak()
     V, F = read(path)
-    ours, peak, setup = [], None, None
-    for _ in range(runs):
+    ours, rest, peak = [], 0.0, 0
+    for number in range(runs):
         run = solve(V, F, CUBENESS, over(LIMIT_SECONDS))
-        if peak is None:
+        if number == 0:
             peak = memory.peak_bytes()
-        setup = run.setup
-        energy = energy_of(setup, CUBENESS, run.positions)
-        ours.append(run.figures() | {"energy": energy})
-    rest = energy_of(setup, CUBENESS, V)
+            rest = energy_of(run.setup, CUBENESS, V)
+        ours.append(run.figures() | {"energy": energy_of(run.setup, CUBENESS, run.positions)})
     return {"rest": rest, "ours": ours, "peak": peak, "above": peak - before}

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What tables, plots and targets say about the runs of one case, from the figures of `race`.
 
-A case is a dict as `race` returns it (`one_size` without the peers), with ``best`` the lowest energy
-known.
+A case is a dict as `race` or `one_size` returns it, with the ``best`` energy known so far, or None.
 """
 
 from statistics import median
@@ -56,4 +55,6 @@ def seconds_to_end_of(case, peer):
 
 def milliseconds_per_iteration(case):
     """Return the median over our runs of the time after set-up per iteration."""
-    return median(1000 * (run["seconds"] - run["setup"]) / run["iterations"] for run in case["ours"])
+    return median(
+        1000 * (run["seconds"] - run["setup"]) / run["iterations"] for run in case["ours"]
+    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of the page, as lines of Markdown."""
+"""The tables of the page, in Markdown."""
 
 from statistics import median
 
@@ -7,15 +7,15 @@ from . import summary
 from .gap import GAPS
 from .ten_iterations import PAPER_SECONDS
 
-NONE = "–"
+NONE = "-"
 """where there is nothing to show"""
 MEBIBYTE = 1024.0**2
 
 
 def table(headings, rows):
-    """Return the lines of a table."""
+    """Return a table in Markdown."""
     lines = [headings, ["---"] * len(headings), *rows]
-    return [f"| {' | '.join(map(str, line))} |" for line in lines]
+    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
 
 
 def seconds(value):
@@ -99,7 +99,13 @@ def plain(cases):
     for wanted in GAPS[:2]:
         headings += [f"plain to gap {percent(wanted)}", "times faster"]
     return table(
-        [*_CASE_HEADINGS, *headings, "plain left at (iterations)", "gap there", "times sooner there"],
+        [
+            *_CASE_HEADINGS,
+            *headings,
+            "plain left at (iterations)",
+            "gap there",
+            "times sooner there",
+        ],
         rows,
     )
 
@@ -180,7 +186,7 @@ def startup(programs):
 
 
 _CASE_HEADINGS = ["mesh", "vertices", "cubeness"]
-_MEMORY_HEADINGS = ["peak memory", "of it for the run"]
+_MEMORY_HEADINGS = ["peak memory", "for the run"]
 _SETUP_PHASES = ("rest mesh", "factorisation")
 _PHASES = ("local step", "right-hand side", "solve", "remainder")
 
