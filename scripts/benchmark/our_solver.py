@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the solver under a clock, and judge shapes, whoever made them."""
 
+import math
 import time
 from dataclasses import dataclass
 
@@ -74,6 +75,11 @@ def solve(V, F, cubeness, is_over=None, is_accelerated=True, **stop):
     return Run(
         setup, setup_seconds, seconds, result.iterations, result.reason, result.positions, curve
     )
+
+
+def over(seconds, energy=-math.inf):
+    """Return an `is_over` for `solve`: after these seconds, or once down at this energy."""
+    return lambda elapsed, reached, _: elapsed > seconds or reached <= energy
 
 
 def energy_of(setup, cubeness, positions):

@@ -22,10 +22,11 @@ def plot_gaps(cases, path):
     for case, axes in zip(chosen, panels, strict=True):
         _plot_case(axes, case)
     panels[0].set_ylabel("gap to the lowest known energy, %")
-    handles = {
-        label: handle for axes in panels for handle, label in zip(*_legend(axes), strict=True)
-    }
-    figure.legend(handles.values(), handles, loc="lower center", ncols=len(handles), frameon=False)
+    entries = {}  # {label: handle}, each once
+    for axes in panels:
+        handles, labels = axes.get_legend_handles_labels()
+        entries |= dict(zip(labels, handles, strict=True))
+    figure.legend(entries.values(), entries, loc="lower center", ncols=len(entries), frameon=False)
     figure.suptitle("How near the best shape, and when")
     _save(figure, path, bottom=0.07)
 
@@ -48,10 +49,6 @@ def _plot_case(axes, case):
     axes.set_ylim(100 * LOWEST_GAP, 120)
     _write_numbers(axes)
     axes.grid(alpha=0.3)
-
-
-def _legend(axes):
-    return axes.get_legend_handles_labels()
 
 
 def _write_numbers(axes):

@@ -6,7 +6,7 @@ import math
 from . import peer_pymeshlab
 from .gap import GAPS, energy_at_gap, seconds_to_energy
 from .meshes import read
-from .our_solver import energy_of, load_kernels, solve
+from .our_solver import energy_of, load_kernels, over, solve
 
 OUR_SECONDS = 120.0
 """after which a run of ours is given up"""
@@ -73,8 +73,3 @@ def race(path, cubeness, best, runs, plain_runs, pymeshlab_runs):
         "pymeshlab": pymeshlab,
         "long": long,
     }
-
-
-def over(seconds, energy=-math.inf):
-    """Return an `is_over` for `solve`: after these seconds, or once down at this energy."""
-    return lambda elapsed, reached, _: elapsed > seconds or reached <= energy
