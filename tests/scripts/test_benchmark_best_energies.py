@@ -32,16 +32,11 @@ def test_size_and_cubeness_are_told_apart(path):
     best.offer("bunny", 6172, 0.2, 0.6, "")
     best.offer("bunny", 1000, 0.2, 0.7, "")
     best.offer("bunny", 6172, 0.4, 0.8, "")
-    assert [best.get("bunny", *key) for key in ((6172, 0.2), (1000, 0.2), (6172, 0.4))] == [
-        0.6,
-        0.7,
-        0.8,
-    ]
-    assert list(json.loads(path.read_text())) == [
-        "bunny 1000 0.2",
-        "bunny 6172 0.2",
-        "bunny 6172 0.4",
-    ]
+    assert best.get("bunny", 6172, 0.2) == 0.6
+    assert best.get("bunny", 1000, 0.2) == 0.7
+    assert best.get("bunny", 6172, 0.4) == 0.8
+    keys = ["bunny 1000 0.2", "bunny 6172 0.2", "bunny 6172 0.4"]
+    assert list(json.loads(path.read_text())) == keys
 
 
 def test_book_in_the_repository_can_be_read():
