@@ -15,7 +15,14 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from benchmark.page import write_page  # noqa: E402
-from benchmark.suite import FULL, PARTS, QUICK, measure, renew_best_energies  # noqa: E402
+from benchmark.suite import (  # noqa: E402
+    FULL,
+    PARTS,
+    QUICK,
+    keep_lower_energies,
+    measure,
+    renew_best_energies,
+)
 from benchmark.targets import targets  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
@@ -45,6 +52,13 @@ def arguments():
         metavar="SECONDS",
         help="measure nothing, but look for lower energies, so long in each of seven descents",
     )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="CASE",
+        help="with --find-best: cases that begin so, such as bunny or 'bunny 6172 0.4'",
+    )
     return parser.parse_args()
 
 
@@ -59,12 +73,14 @@ def main():
     )
     cache = BUILD / "meshes"
     if options.find_best:
-        renew_best_energies(plan, options.meshes, cache, options.find_best, _say)
+        renew_best_energies(plan, options.meshes, cache, options.find_best, options.only, _say)
         return
     is_all = plan == FULL and set(options.parts) == set(PARTS)
     results = measure(plan, options.meshes, cache, options.parts, _say)
     file = BUILD / ("results.json" if is_all else "results-part.json")
     file.write_text(json.dumps(results), encoding="utf-8")
+    if is_all:
+        keep_lower_energies(results)
     page = write_page(results, options.output or (ROOT / "docs" if is_all else BUILD))
     print(f"written: {page} and {file}")
     for target in targets(results):

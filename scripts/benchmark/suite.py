@@ -98,8 +98,18 @@ def measure(plan, folder, cache, parts, say):
     return results
 
 
-def renew_best_energies(plan, folder, cache, seconds, say):
-    """Look long for lower energies than those known, and keep them."""
+def renew_best_energies(plan, folder, cache, seconds, only, say):
+    """Look long for lower energies than those known, and keep them.
+
+    Parameters
+    ----------
+    plan, folder, cache, say
+        As in `measure`; meshes above the plan's ``max_vertices`` are left out.
+    seconds : float
+        See `find_best`.
+    only : sequence of str
+        If there are any, cases whose "mesh vertices cubeness" begins with one of them.
+    """
     meshes = known_meshes(folder, cache)
     cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
     for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
@@ -107,14 +117,29 @@ def renew_best_energies(plan, folder, cache, seconds, say):
             cases.append((mesh, scaling.CUBENESS))
     best = BestEnergies()
     for mesh, cubeness in cases:
-        if mesh.vertices > plan.max_vertices:
+        name = f"{mesh.name} {mesh.vertices} {cubeness:g}"
+        is_wanted = not only or name.startswith(tuple(only))
+        if mesh.vertices > plan.max_vertices or not is_wanted:
             continue
         known = best.get(mesh.name, mesh.vertices, cubeness)
         arguments = {"path": str(mesh.path), "cubeness": cubeness, "seconds": seconds}
         energy, found_by = call("find_best", "find_best", **arguments)
         is_new = best.offer(mesh.name, mesh.vertices, cubeness, energy, found_by)
         end = f"new, {found_by}" if is_new else "no better"
-        say(f"{mesh.name} {mesh.vertices} {cubeness}: known {known}, found {energy:.7f}: {end}")
+        say(f"{name}: known {known}, found {energy:.7f}: {end}")
+
+
+def keep_lower_energies(results):
+    """Keep energies that are lower than known ones.
+
+    A first one comes from `renew_best_energies` alone: the end of one run says too little.
+    """
+    best = BestEnergies()
+    for case in results["race"] + results["scaling"]:
+        name = case["mesh"], case["vertices"], case["cubeness"]
+        energy = min(run["energy"] for run in case["ours"])
+        if best.get(*name) is not None:
+            best.offer(*name, min(energy, case["best"]), "the benchmark")
 
 
 def _head(mesh, cubeness):
