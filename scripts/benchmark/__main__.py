@@ -14,6 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
+from benchmark.best_energies import BestEnergies  # noqa: E402
 from benchmark.page import write_page  # noqa: E402
 from benchmark.suite import (  # noqa: E402
     FULL,
@@ -80,7 +81,7 @@ def main():
     file = BUILD / ("results.json" if is_all else "results-part.json")
     file.write_text(json.dumps(results), encoding="utf-8")
     if is_all:
-        keep_lower_energies(results)
+        keep_lower_energies(results, BestEnergies())
     page = write_page(results, options.output or (ROOT / "docs" if is_all else BUILD))
     print(f"written: {page} and {file}")
     for target in targets(results):

@@ -129,12 +129,11 @@ def renew_best_energies(plan, folder, cache, seconds, only, say):
         say(f"{name}: known {known}, found {energy:.7f}: {end}")
 
 
-def keep_lower_energies(results):
-    """Keep energies that are lower than known ones.
+def keep_lower_energies(results, best):
+    """Put energies that are lower than known ones into the BestEnergies.
 
     A first one comes from `renew_best_energies` alone: the end of one run says too little.
     """
-    best = BestEnergies()
     for case in results["race"] + results["scaling"]:
         name = case["mesh"], case["vertices"], case["cubeness"]
         energy = min(run["energy"] for run in case["ours"])

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from scripts.benchmark.best_energies import BOOK, BestEnergies
+from scripts.benchmark.suite import keep_lower_energies
 
 
 @pytest.fixture
@@ -37,6 +38,22 @@ def test_size_and_cubeness_are_told_apart(path):
     assert best.get("bunny", 6172, 0.4) == 0.8
     keys = ["bunny 1000 0.2", "bunny 6172 0.2", "bunny 6172 0.4"]
     assert list(json.loads(path.read_text())) == keys
+
+
+def test_a_full_run_only_lowers_what_is_known(path):
+    best = BestEnergies(path)
+    best.offer("bunny", 6172, 0.2, 0.6, "")
+    best.offer("horse", 48485, 0.2, 0.3, "")
+
+    def case(mesh, vertices, energy, known):
+        ours = [{"energy": energy}, {"energy": 0.9}]
+        return {"mesh": mesh, "vertices": vertices, "cubeness": 0.2, "ours": ours, "best": known}
+
+    race = [case("bunny", 6172, 0.5, 0.55), case("horse", 48485, 0.4, 0.3)]
+    keep_lower_energies({"race": race, "scaling": [case("bunny", 1000, 0.5, None)]}, best)
+    assert best.get("bunny", 6172, 0.2) == 0.5
+    assert best.get("horse", 48485, 0.2) == 0.3
+    assert best.get("bunny", 1000, 0.2) is None
 
 
 def test_book_in_the_repository_can_be_read():
