@@ -16,7 +16,7 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui lint \
-	typecheck build bench bench-live docs-images clean has-py313
+	typecheck build bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -80,9 +80,13 @@ build: $(ZIP) ## The extension as Blender installs it
 $(ZIP): $(VENV)/.done $(SOURCES)
 	$(PY) scripts/build_extension.py $@
 
-bench: setup ## Side by side with PyMeshLab; writes docs/benchmarks.md
+bench: setup ## Side by side with other programs; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt
-	$(PY) scripts/benchmark.py
+	$(PY) scripts/benchmark $(ARGS)
+
+bench-quick: setup ## A part of it in about two minutes; writes build/bench
+	$(PY) $(PIP) -r requirements/bench.txt
+	$(PY) scripts/benchmark --quick $(ARGS)
 
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure the solver side by side with its peers and write the page; see --help.
+
+Results go to build/bench as JSON as well, for comparison with later ones.
+"""
+
+import argparse
+import json
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
+
+from benchmark.best_energies import BestEnergies  # noqa: E402
+from benchmark.page import write_page  # noqa: E402
+from benchmark.suite import (  # noqa: E402
+    FULL,
+    PARTS,
+    QUICK,
+    keep_lower_energies,
+    measure,
+    renew_best_energies,
+)
+from benchmark.targets import targets  # noqa: E402
+
+BUILD = ROOT / "build" / "bench"
+
+
+def arguments():
+    """Return the parsed command line."""
+    parser = argparse.ArgumentParser(prog="benchmark", description=__doc__)
+    parser.add_argument(
+        "--meshes",
+        type=Path,
+        default=Path(os.environ.get("CUBIC_CRAFT_MESHES", ROOT / "../shared/meshes")),
+        help="folder with bunny.obj, horse.ply and others; without any, bumpy spheres are used",
+    )
+    parser.add_argument("--quick", action="store_true", help="a part, in less than two minutes")
+    parser.add_argument("--runs", type=int, help="of each program, alternating; default 3, quick 1")
+    parser.add_argument("--max-vertices", type=int, help="largest mesh of the scaling run")
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS)
+    parser.add_argument(
+        "--output",
+        type=Path,
+        help="folder of the page and its images; default docs if all is measured, else build/bench",
+    )
+    parser.add_argument(
+        "--find-best",
+        type=float,
+        metavar="SECONDS",
+        help="measure nothing, but look for lower energies, so long in each of seven descents",
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="CASE",
+        help="with --find-best: cases that begin so, such as bunny or 'bunny 6172 0.4'",
+    )
+    return parser.parse_args()
+
+
+def main():
+    """Run what was asked for."""
+    options = arguments()
+    plan = QUICK if options.quick else FULL
+    plan = replace(
+        plan,
+        runs=options.runs or plan.runs,
+        max_vertices=options.max_vertices or plan.max_vertices,
+    )
+    cache = BUILD / "meshes"
+    if options.find_best:
+        renew_best_energies(plan, options.meshes, cache, options.find_best, options.only, _say)
+        return
+    is_all = plan == FULL and set(options.parts) == set(PARTS)
+    results = measure(plan, options.meshes, cache, options.parts, _say)
+    file = BUILD / ("results.json" if is_all else "results-part.json")
+    file.write_text(json.dumps(results), encoding="utf-8")
+    if is_all:
+        keep_lower_energies(results, BestEnergies())
+    page = write_page(results, options.output or (ROOT / "docs" if is_all else BUILD))
+    print(f"written: {page} and {file}")
+    for target in targets(results):
+        print(target.line())
+
+
+def _say(line):
+    print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()

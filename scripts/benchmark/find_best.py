@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Look long for the lowest energy of a case, from several starts and with several settings.
+
+The problem has more than one minimum, so what is found is the lowest known energy and
+not a proven one.
+"""
+
+import time
+
+from solver import Setup, Stylization, rest_mesh
+from solver.admm import AdmmOptions
+
+from .meshes import read
+from .our_solver import energy_of
+
+EXACT = AdmmOptions(max_iterations=1000, absolute=1e-11, relative=1e-9)
+"""a local step as good as it can be"""
+PATIENCE = 200
+"""iterations in which the energy has to fall by ENOUGH"""
+ENOUGH = 1e-8
+"""relative"""
+
+
+def find_best(path, cubeness, seconds):
+    """Return the lowest energy found and what found it.
+
+    Parameters
+    ----------
+    path : str
+        Of the mesh.
+    cubeness : float
+    seconds : float
+        For each of the descents; each may take one iteration longer.
+
+    Returns
+    -------
+    energy : float
+    found_by : str
+    """
+    V, F = read(path)
+    setup = Setup(rest_mesh(V, F))
+    found = []
+
+    def descend(found_by, weight=cubeness, start=None, **options):
+        positions = _descend(setup, weight, start, seconds, **options)
+        if weight == cubeness:
+            found.append((energy_of(setup, cubeness, positions), found_by, positions))
+        return positions
+
+    descend("accelerated")
+    descend("accelerated, exact local step", admm=EXACT)
+    softer = descend("", weight=cubeness / 2)
+    descend("accelerated, from half the cubeness", start=softer)
+    harder = descend("", weight=2 * cubeness)
+    descend("accelerated, from twice the cubeness", start=harder)
+    _, name, positions = min(found, key=lambda item: item[0])
+    plain = {"admm": EXACT, "is_accelerated": False}
+    descend(f"{name}, then plain with exact local step", start=positions, **plain)
+    energy, found_by, _ = min(found, key=lambda item: item[0])
+    return energy, found_by
+
+
+def _descend(setup, cubeness, start, seconds, **options):
+    """Return the positions at which the energy no longer falls, or the time is over."""
+    state = Stylization(setup, cubeness, **options)
+    if start is not None:
+        state.energy_of(start)
+    end = time.perf_counter() + seconds
+    marks = []
+    while time.perf_counter() < end:
+        state.step()
+        marks.append(state.energy.total)
+        if len(marks) > PATIENCE and marks[-PATIENCE] - min(marks[-10:]) < ENOUGH * marks[-1]:
+            break
+    return state.placed_positions()

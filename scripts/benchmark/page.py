@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of results."""
+
+from . import tables
+from .fit import FIT_FROM, FITTED_GAP, fit_of
+from .plots import plot_gaps, plot_scaling
+from .race import PLAIN_GAP, PLAIN_ITERATIONS, PLAIN_SECONDS
+from .suite import LARGE, LARGE_SCALING, PHASES_CUBENESS
+from .ten_iterations import CUBENESS, ITERATIONS
+
+GAPS_IMAGE, SCALING_IMAGE = "benchmark_gaps.png", "benchmark_scaling.png"
+
+
+def write_page(results, folder):
+    """Write ``benchmarks.md`` and its images into a folder; return the path of the page."""
+    images = folder / "images"
+    power, factor = fit_of(results["scaling"])
+    if results["race"]:
+        plot_gaps(results["race"], images / GAPS_IMAGE)
+    if results["scaling"]:
+        plot_scaling(results["scaling"], power, factor, FIT_FROM, images / SCALING_IMAGE)
+    path = folder / "benchmarks.md"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n\n".join(page(results, power)) + "\n", encoding="utf-8")
+    return path
+
+
+def page(results, power):
+    """Return the paragraphs of the page; `power` is that of the fit, or None."""
+    paragraphs = _introduction(results["runs"], results["machine"])
+    if results["ten"]:
+        paragraphs += _ten(results["ten"])
+    if results["race"]:
+        paragraphs += _race(results["race"])
+    if results["phases"]:
+        paragraphs += _phases(results["phases"])
+    if results["scaling"]:
+        paragraphs += _scaling(results["scaling"], power)
+    if results["startup"]:
+        paragraphs += _startup(results["startup"])
+    return paragraphs
+
+
+def _introduction(runs, machine):
+    how_often = (
+        f"Figures are medians of {runs} runs, but of one where a run takes long: of the peers from"
+        f" {LARGE:,} vertices on, in the scaling run from {LARGE_SCALING:,} on."
+        if runs > 1
+        else "Each figure is that of a single run."
+    )
+    return [
+        "# Benchmarks",
+        f"""\
+Written by `make bench`; `make bench-quick` measures a part of it in about two minutes and writes to
+`build/bench`. `CUBIC_CRAFT_MESHES=folder` tells where the meshes are; without them, bumpy spheres
+take their place. All programs run in turn on the same machine. {how_often}
+On another machine, or a busy one, the seconds change more than their ratios.""",
+        machine,
+        """\
+Unless a section says otherwise, times begin with the arrays of the mesh in memory and hold all
+set-up. Python, the libraries and the compiled kernels are loaded before; the last section tells how
+long that takes.""",
+    ]
+
+
+def _ten(results):
+    return [
+        "## Ten iterations",
+        f"""\
+{ITERATIONS} outer iterations from the mesh file to the result at cubeness {CUBENESS}: reading the
+file and set-up are counted, the kernels are loaded already. The columns of the paper are the
+figures published in Table 1 of "CubicCraft: A Mesh Stylization Tool"; they were taken on other
+hardware (NVIDIA RTX 3050 Ti; AMD R9 5900HS with the program of Liu and Jacobson), not on this
+machine. The table says how fast set-up and iterations are, not how soon a shape is done: most
+shapes are not after so few.""",
+        tables.ten_iterations(results),
+    ]
+
+
+def _race(cases):
+    paragraphs = [
+        "## To the best shape",
+        """\
+The gap of a shape is (E - best) / (rest - best). E is its energy in the unit box, with the
+rotations that fit it best; rest is that of the undeformed mesh; best is the lowest energy that any
+run of any program is known to have reached. These are kept in
+`scripts/benchmark/best_energies.json`, and `python scripts/benchmark --find-best 60` looks for
+lower ones. One function judges the shapes of all programs. A time in brackets is of a run that goes
+on beyond our own stop; a dash means that the gap was not reached.""",
+        tables.gaps(cases),
+        f"![Gap over time](images/{GAPS_IMAGE})",
+        f"""\
+The plot shows one run of each program. Where a curve ends, the program stops by itself, except that
+the plain iteration is left at a gap of {tables.percent(PLAIN_GAP)}, after {PLAIN_ITERATIONS}
+iterations or after {PLAIN_SECONDS:g} seconds.""",
+    ]
+    if any(case["plain"] for case in cases):
+        paragraphs += [
+            "### Beside the plain iteration",
+            """\
+The same solver without acceleration (`is_accelerated=False`), left as said above. "Times sooner
+there" is how many times sooner ours is as low as the plain one is where it is left.""",
+            tables.plain(cases),
+        ]
+    if any(case["pymeshlab"] for case in cases):
+        paragraphs += [
+            "### Beside PyMeshLab",
+            """\
+PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop. "Ours as low" is when ours
+reaches the energy at which PyMeshLab ends; "times faster" compares both at their own stop. Cases
+that are not listed were not run with it, for the time that this would take.""",
+            tables.pymeshlab(cases),
+        ]
+    return paragraphs
+
+
+def _phases(results):
+    return [
+        "## Where the time goes, and memory",
+        f"""\
+One run to our own stop at cubeness {PHASES_CUBENESS}, in a process of its own: the phases of set-up
+in seconds, then those of an iteration in milliseconds, the mean of all iterations but the first.
+Peak memory is that of the whole process; "for the run" is what it takes above Python, the libraries
+and the kernels.""",
+        tables.phases(results),
+    ]
+
+
+def _scaling(cases, power):
+    fit = ""
+    if power is not None:
+        fit = (
+            f"\nFrom {FIT_FROM:,} vertices on, the time to a gap of {tables.percent(FITTED_GAP)}"
+            f" grows as vertices^{power:.2f} (least squares of the logarithms)."
+        )
+    return [
+        "## Time over size",
+        f"""\
+One shape, the {cases[0]["mesh"]}, simplified or subdivided to each size, at cubeness
+{cases[0]["cubeness"]}; each size in a process of its own. A dash means that no best energy is known
+yet, or that the gap was not reached.{fit}""",
+        tables.scaling(cases),
+        f"![Time over size](images/{SCALING_IMAGE})",
+    ]
+
+
+def _startup(programs):
+    return [
+        "## From start to first result",
+        """\
+Fresh processes, with the files in the system's cache and the compiled kernels on disk. The solver
+without Blender stylizes a sphere of about 500 vertices, as many as the monkey has.""",
+        tables.startup(programs),
+    ]
