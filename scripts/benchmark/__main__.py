@@ -51,7 +51,7 @@ def arguments():
         "--find-best",
         type=float,
         metavar="SECONDS",
-        help="measure nothing, but look for lower energies, so long in each of seven descents",
+        help="measure nothing, but look for lower energies, so long in each of three descents",
     )
     parser.add_argument(
         "--only",

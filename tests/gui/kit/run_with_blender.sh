@@ -7,7 +7,7 @@
 #     -u DIR    keep Blender's user folder (preferences, extensions) in DIR (default: a new one,
 #               so your own preferences and extensions are neither used nor changed)
 #     -g WxH    size of Blender's window (default 1000x700)
-#     -t SECS   time limit for Blender (default 300)
+#     -t SECS   time limit for Blender (default 600)
 #     -v A=B    set this environment variable for Blender; may be given several times
 #     -x        real X events (xdotool) in place of Blender's simulated ones; needs Xvfb
 # Environment: BLENDER is the executable (default: blender). Where neither DISPLAY nor
@@ -23,7 +23,7 @@ die() {
     exit 2
 }
 
-SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=300 REAL_EVENTS='' EXTENSIONS=()
+SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=600 REAL_EVENTS='' EXTENSIONS=()
 while getopts e:d:u:g:t:v:xh option; do
     case $option in
         e) EXTENSIONS+=("$OPTARG") ;;
