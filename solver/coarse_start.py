@@ -37,9 +37,12 @@ def coarse_stylization(fine):
 
 
 def carry_up(coarse, fine):
-    """Let a fresh Stylization start from the rotations that a coarser one has come to."""
-    merged = coarse.rotations[fine.rest.coarse.cluster]
-    fine.start_from(_smoothed(fine.rest, merged))
+    """Let a fresh Stylization start from what a coarser one has come to."""
+    cluster = fine.rest.coarse.cluster
+    R = _smoothed(fine.rest, coarse.rotations[cluster])
+    offset = fine.rest.V - coarse.rest.input_positions[cluster]
+    turned = np.einsum("nij,nj->ni", R, offset)
+    fine.start_from(R, coarse.placed_positions()[cluster] + turned)
 
 
 def _smoothed(rest, R):

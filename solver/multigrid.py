@@ -51,15 +51,17 @@ class Multigrid:
 
     def solve(self, B, near):
         """Return X (n,3), nearer to A X = B than the given one (n,3)."""
-        return near + self._cycle((B - self._A @ near).astype(np.float32), 0)
+        rest = (B.T - _product(self._A, np.ascontiguousarray(near.T))).astype(np.float32)
+        return near + self._cycle(rest, 0).T
 
     def _cycle(self, B, depth):
         if depth == len(self._levels):
-            return self._solve_coarsest(B.astype(np.float64)).astype(np.float32)
+            return self._solve_coarsest(B.T.astype(np.float64)).T.astype(np.float32)
         level = self._levels[depth]
         X = level.smooth(B)
-        X += level.P @ self._cycle(level.restrict @ (B - level.A @ X), depth + 1)
-        X += level.smooth(B - level.A @ X)
+        rest = _product(level.restrict, B - _product(level.A, X))
+        X += _product(level.P, self._cycle(rest, depth + 1))
+        X += level.smooth(B - _product(level.A, X))
         return X
 
 
@@ -76,12 +78,17 @@ class _Level:
         least = greatest / _SMOOTHED_PART
         centre, radius = (greatest + least) / 2, (greatest - least) / 2
         second = 1 / (2 * centre / radius - radius / centre)
-        self._first_step = (1 / centre / diagonal)[:, None]
+        self._first_step = 1 / centre / diagonal
         self._momentum = np.float32(second * radius / centre)
-        self._second_step = (2 * second / radius / diagonal)[:, None].astype(np.float32)
+        self._second_step = (2 * second / radius / diagonal).astype(np.float32)
 
     def smooth(self, B):
         """Return the Chebyshev polynomial of degree 2 of D^-1 A that damps the upper spectrum."""
         step = self._first_step * B
-        rest = B - self.A @ step
+        rest = B - _product(self.A, step)
         return step + (self._momentum * step + self._second_step * rest)
+
+
+def _product(A, X):
+    """Return A X for X (3,n): SciPy is twice as fast column by column."""
+    return np.stack([A @ x for x in X])

@@ -12,7 +12,7 @@ from .errors import CubicCraftError
 from .mesh_checks import per_vertex
 from .placement import turn_back
 
-_FIRST_SOLVES = 4  # where a solve only comes nearer to the positions, the first is far from them
+_FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
 
 
 @dataclass(frozen=True)
@@ -150,13 +150,14 @@ class Stylization:
             is_coarse=True,
         )
 
-    def start_from(self, R):
-        """Let the iteration begin with rotations (n,3,3) of the vertices of `rest`."""
+    def start_from(self, R, near):
+        """Let the iteration begin with rotations (n,3,3) and positions (n,3) of the unit box."""
         self._local.start_from(R)
+        near[self.setup.pinned] = self._U[self.setup.pinned]
         rhs = self._local.right_hand_side()
         for _ in range(_FIRST_SOLVES):
-            self._U = self.setup.global_step.positions(rhs, self._U)
-        self._start = self._U
+            near = self.setup.global_step.positions(rhs, near)
+        self._U = self._start = near
 
     def step(self):
         """Do one local and one global step."""
