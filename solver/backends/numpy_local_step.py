@@ -44,7 +44,8 @@ class NumpyLocalStep:
         self._gather = [matrices.matrix(matrices.gather[:, c]) for c in range(3)]
         self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
         self._area_scale = area_scale(rest.areas)
-        self._rest_quadratic = self._quadratic(rest.V)
+        _, self._first = np.unique(rest.component, return_index=True)
+        self._rest_quadratic = self._quadratic(self._near_origin(rest.V))
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         lam = local_cubeness(rest, lam)
@@ -61,6 +62,7 @@ class NumpyLocalStep:
         arap, cubic : (component_count,) arrays
             Energies of the positions with these rotations.
         """
+        U = self._near_origin(U)
         S = np.stack([H @ U for H in self._gather], axis=1)
         problem = self._rest_problem._replace(S=S / self._area_scale[:, None, None])
         last = orthonormalize(self.R)
@@ -75,6 +77,10 @@ class NumpyLocalStep:
         trace = self._rest.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace
         return arap, self._rest.sum_parts(self._cubic_weight * l1)
+
+    def _near_origin(self, U):
+        """Return U with each component moved, so that the energy of a tiny one is no rounding."""
+        return U - U[self._first[self._rest.component]]
 
     def _quadratic(self, U):
         return 1.5 * self._rest.sum_parts((U * (self._laplacian @ U)).sum(axis=1))

@@ -7,6 +7,7 @@ that results are the same bit for bit.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
+# pyright: reportIndexIssue=false
 
 from types import SimpleNamespace
 
