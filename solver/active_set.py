@@ -17,7 +17,7 @@ s is kept beside R, and each step is one of these (Nocedal and Wright, "Numerica
 - two active axes: the normal lies on the third, and the best turn about it has a closed form;
 - one or none: Newton's step of `rotation_fit`, on the tangent of x_k = 0. With p the gradient of
   x_k, K = H + kappa pp' has the same constrained minimiser as H, and where K is positive definite
-  it is a minimum.
+  it is a minimum. Elsewhere it is shifted until it is, as by Levenberg and Marquardt.
 
 Then an axis whose |s_k| exceeds 1 is set free, and one whose x_k has passed zero becomes active.
 Where neither happens and the step was small, R is a certified local minimiser, up to the square of
@@ -36,7 +36,7 @@ import numpy as np
 
 from .rotation_fit import MIN_CURVATURE
 
-MAX_STEPS = 10
+MAX_STEPS = 20
 SMALLEST_TURN = 1e-3
 """of 1 + cos of the angle to the best turn, relative to its sine, below which it is half a turn"""
 NEAREST_TARGET = 0.5
@@ -93,7 +93,6 @@ def active_set_rotations(problem, R, s):
         W, is_last, is_good = _step(problem, R, G, s, active)
         R, G = W @ R, W @ G
         s, active, is_kept = _next_set(problem, R, G, s, active)
-        is_good &= active.sum(axis=1) < 3
         is_last &= is_kept & is_good
         done = todo[is_last]
         is_done[done] = True
@@ -146,22 +145,31 @@ def _newton_step(problem, R, G, s, active):
     d = -0.5 * (L[:, 0, 1] + L[:, 1, 0]) + kappa * p[:, 0] * p[:, 1]
     e = -0.5 * (L[:, 0, 2] + L[:, 2, 0]) + kappa * p[:, 0] * p[:, 2]
     f = -0.5 * (L[:, 1, 2] + L[:, 2, 1]) + kappa * p[:, 1] * p[:, 2]
-    # K = [[a d e] [d b f] [e f c]]; its adjugate
-    A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
-    D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
-    determinant = a * A + d * D + e * E
+    adjugate, determinant = _adjugate(a, b, c, d, e, f)
     half_trace = 0.5 * (a + b + c)
-    is_good = (half_trace > 0.0) & (a > 0.0) & (C > 0.0)
-    is_good &= determinant > MIN_CURVATURE * half_trace**3
-    adjugate = np.array([[A, D, E], [D, B, F], [E, F, C]]).transpose(2, 0, 1)
-    inverse = adjugate / np.where(is_good, determinant, 1.0)[:, None, None]
+    is_sound = (half_trace > 0.0) & (a > 0.0) & (adjugate[:, 2, 2] > 0.0)
+    is_sound &= determinant > MIN_CURVATURE * half_trace**3
+    shift = np.sqrt(a * a + b * b + c * c + 2.0 * (d * d + e * e + f * f))
+    shift[is_sound] = 0.0
+    adjugate, determinant = _adjugate(a + shift, b + shift, c + shift, d, e, f)
+    is_zero = determinant == 0.0  # without any force
+    inverse = adjugate / np.where(is_zero, 1.0, determinant)[:, None, None]
     w = np.einsum("nij,nj->ni", inverse, g)
     r = np.einsum("nij,nj->ni", inverse, p)
-    is_one = is_good & (number == 1)
+    is_one = ~is_zero & (number == 1)
     x = np.einsum("nij,nj->ni", Q, y)
     excess = (_dot(p, w) + _dot(x, active)) / np.where(is_one, _dot(p, r), 1.0)
     w -= np.where(is_one, excess, 0.0)[:, None] * r
-    return np.ones(len(G)), 0.5 * w, _dot(w, w) <= DOUBLE.angle**2, is_good
+    is_small = _dot(w, w) <= DOUBLE.angle**2
+    return np.ones(len(G)), 0.5 * w, is_sound & is_small, is_sound | ~is_small
+
+
+def _adjugate(a, b, c, d, e, f):
+    """Return the adjugates (n,3,3) and determinants (n,) of K = [[a d e] [d b f] [e f c]]."""
+    A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
+    D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
+    adjugate = np.array([[A, D, E], [D, B, F], [E, F, C]]).transpose(2, 0, 1)
+    return adjugate, a * A + d * D + e * E
 
 
 def _next_set(problem, R, G, s, active):
@@ -177,7 +185,11 @@ def _next_set(problem, R, G, s, active):
     crossed = has_cost & ~active & (x * s < -DOUBLE.slack)
     freed = np.abs(s) > 1.0
     is_kept = ~(crossed | (np.abs(s) > 1.0 + DOUBLE.slack)).any(axis=1)
-    return np.where(freed, np.sign(s), s), (active & ~freed) | crossed, is_kept
+    s, active = np.where(freed, np.sign(s), s), (active & ~freed) | crossed
+    size = np.abs(x)
+    is_largest = size == size.max(axis=1, keepdims=True)
+    freed = is_largest & (active.sum(axis=1) == 3)[:, None]
+    return np.where(freed, np.where(x > 0.0, 1.0, -1.0), s), active & ~freed, is_kept
 
 
 def _turn(q, v):

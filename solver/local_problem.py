@@ -31,8 +31,7 @@ class LocalProblem(NamedTuple):
         """Return tr(R S) and |Q R n|_1, both (n,)."""
         return np.einsum("nij,nji->n", R, self.S), np.abs(self.cube_normals(R)).sum(axis=1)
 
-    def better(self, R, last):
-        """Return R (n,3,3), but `last` where that is better, so that no step raises the energy."""
+    def is_worse(self, R, last):
+        """Return where R (n,3,3) costs more than `last`: taking it would raise the energy."""
         (fit, cost), (last_fit, last_cost) = self.costs(R), self.costs(last)
-        is_worse = self.lam * cost - fit > self.lam * last_cost - last_fit
-        return np.where(is_worse[:, None, None], last, R)
+        return self.lam * cost - fit > self.lam * last_cost - last_fit

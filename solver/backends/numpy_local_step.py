@@ -66,13 +66,15 @@ class NumpyLocalStep:
         S = np.stack([H @ U for H in self._gather], axis=1)
         problem = self._rest_problem._replace(S=S / self._area_scale[:, None, None])
         last = orthonormalize(self.R)
-        R, self._s, is_done = active_set_rotations(problem, last, self._s)
+        R, s, is_done = active_set_rotations(problem, last, self._s)
         rows = np.flatnonzero(~is_done)
         if len(rows):
-            R[rows], self._s[rows] = admm_rotations(
-                problem.part(rows), last[rows], self._s[rows], self._options
+            R[rows], s[rows] = admm_rotations(
+                problem.part(rows), last[rows], s[rows], self._options
             )
-        self.R = problem.better(R, last)
+        is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
+        self.R = np.where(is_worse[:, None, None], last, R)
+        self._s = np.where(is_worse[:, None], self._s, s)
         fit, l1 = problem.costs(self.R)
         trace = self._rest.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace

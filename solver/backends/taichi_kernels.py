@@ -70,7 +70,7 @@ def make_kernels(real):
 
     @ti.func
     def newton_step(L, p, excess, kappa):
-        """Return a rotation vector, and whether it is sound; p.w is to be -excess if kappa > 0."""
+        """Return a rotation vector, and whether K is positive; p.w is -excess if kappa > 0."""
         g = axial(L)
         h = L.trace()
         a = h - L[0, 0] + kappa * p[0] * p[0]
@@ -79,22 +79,31 @@ def make_kernels(real):
         d = -(L[0, 1] + L[1, 0]) / 2 + kappa * p[0] * p[1]
         e = -(L[0, 2] + L[2, 0]) / 2 + kappa * p[0] * p[2]
         f = -(L[1, 2] + L[2, 1]) / 2 + kappa * p[1] * p[2]
-        A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
-        D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
-        determinant = a * A + d * D + e * E
-        half_trace = (a + b + c) / 2
-        is_good = (
-            half_trace > 0
-            and a > 0
-            and C > 0
-            and determinant > real(MIN_CURVATURE) * half_trace * half_trace * half_trace
-        )
-        inverse = mat3([[A, D, E], [D, B, F], [E, F, C]]) / determinant
+        is_sound = True
+        inverse = mat3(0.0)
+        for attempt in range(2):
+            if attempt == 0 or not is_sound:
+                A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
+                D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
+                determinant = a * A + d * D + e * E
+                inverse = mat3([[A, D, E], [D, B, F], [E, F, C]]) / determinant
+                half_trace = (a + b + c) / 2
+                if attempt == 0 and not (
+                    half_trace > 0
+                    and a > 0
+                    and C > 0
+                    and determinant > real(MIN_CURVATURE) * half_trace * half_trace * half_trace
+                ):
+                    is_sound = False
+                    shift = ti.sqrt(a * a + b * b + c * c + 2 * (d * d + e * e + f * f))
+                    a += shift
+                    b += shift
+                    c += shift
         w = inverse @ g
         if kappa > 0:
             r = inverse @ p
             w -= (p.dot(w) + excess) / p.dot(r) * r
-        return w, is_good
+        return w, is_sound
 
     @ti.kernel
     def local_step(
@@ -148,7 +157,8 @@ def make_kernels(real):
                     kappa = number * (ti.abs(L.trace()) + cubeness)
                     w, is_sound = newton_step(L, p, x.dot(active), kappa)
                     v = w / 2
-                    is_done, is_good = w.dot(w) <= real(angle * angle), is_sound
+                    is_small = w.dot(w) <= real(angle * angle)
+                    is_done, is_good = is_sound and is_small, is_sound or not is_small
                 if is_good:
                     W = turn(q, v)
                     R = W @ R
@@ -168,16 +178,21 @@ def make_kernels(real):
                             elif active[k] == 0 and x[k] * s[k] < -real(slack):
                                 is_done = False
                                 active[k] = 1
-                        is_good = active.sum() < 3
+                        if active.sum() > 2:
+                            largest = ti.abs(x).max()
+                            for k in ti.static(range(3)):
+                                if ti.abs(x[k]) == largest:
+                                    active[k] = 0
+                                    s[k] = 1 if x[k] > 0 else -1
             is_done = is_done and is_good
 
             # the last rotation stays where none better was found, so that no iteration raises the
             # energy
             fit, cost = G.trace(), l1(x)
-            if is_done:
-                subgradients[i] = s
             if not is_done or cubeness * cost - fit > cubeness * last_cost - last_fit:
                 R, fit, cost = last, last_fit, last_cost
+            else:
+                subgradients[i] = s
             certified[i] = ti.cast(is_done, ti.i32)
             R_out[i] = R
             energies[i] = vec3(quadratic, fit * area_scale[i], cost)

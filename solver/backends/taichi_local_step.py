@@ -104,8 +104,10 @@ class TaichiLocalStep:
         S = self._rest.matrices.covariances(U.astype(np.float64, copy=False), rows) / areas
         problem = self._rest_problem.part(rows)._replace(S=S)
         last = self.R[rows].astype(np.float64)
-        R, self._s[rows] = admm_rotations(problem, last, self._s[rows], self._options)
-        self.R[rows] = R = problem.better(R, last)
+        R, s = admm_rotations(problem, last, self._s[rows], self._options)
+        is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
+        self.R[rows] = R = np.where(is_worse[:, None, None], last, R)
+        self._s[rows] = np.where(is_worse[:, None], self._s[rows], s)
         fit, self._energies[rows, 2] = problem.costs(R)
         self._energies[rows, 1] = fit * areas[:, 0, 0]
 
