@@ -45,6 +45,10 @@ class SpokesAndRims:
         n = len(self.indptr) - 1
         return sp.csr_matrix((values, self.indices, self.indptr), shape=(n, n))
 
+    def covariances(self, U, rows=slice(None)):
+        """Return S_i of the positions U (n,3), for some vertices (k,): (k,3,3)."""
+        return np.stack([self.matrix(self.gather[:, c])[rows] @ U for c in range(3)], axis=1)
+
 
 def spokes_and_rims(V, F, C):
     """Build the matrices from rest positions V (n,3), triangles F (m,3) and cotangents C (m,3)."""

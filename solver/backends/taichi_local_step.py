@@ -6,7 +6,10 @@ from functools import cache
 
 import numpy as np
 
+from ..active_set import starting_signs
+from ..admm import admm_rotations
 from ..errors import CubicCraftError
+from ..local_problem import LocalProblem
 from . import taichi_runtime
 from .numpy_local_step import area_scale, local_cubeness
 
@@ -41,8 +44,6 @@ class TaichiLocalStep:
             raise CubicCraftError(f"the precision must be f64 or f32, not {precision!r}")
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
-        # what is smaller is rounding, and would be waited for in vain
-        least_absolute, least_relative = (0.0, 0.0) if precision == "f64" else (1e-5, 1e-3)
         self._kernels = _kernels(precision)
         self._real = real
         m = rest.matrices
@@ -56,13 +57,16 @@ class TaichiLocalStep:
         self._normals = array(rest.normals)
         lam = local_cubeness(rest, lam)
         self._lam, self._Q = array(lam), array(Q)
+        self._options = options
         self._area_scale = array(area_scale(rest.areas))
         self._cubic_weight = lam * rest.areas
         self._rest_quadratic = 0.75 * rest.edge_sums
         self.R = np.tile(np.eye(3, dtype=real), (n, 1, 1))
-        self._z = array(np.einsum("nij,nj->ni", np.broadcast_to(Q, (n, 3, 3)), rest.normals))
-        self._u = np.zeros((n, 3), real)
-        self._rho = np.full(n, options.rho_start, real)
+        Q = np.broadcast_to(Q, (n, 3, 3))
+        # for what the kernel does not certify; the covariances come with the positions
+        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
+        self._s = array(starting_signs(self._rest_problem.cube_normals(self.R)))
+        self._certified = np.empty(n, np.int32)
         self._energies = np.empty((n, 3), real)
         self._rhs = np.empty((n, 3), real)
         self._arguments = (
@@ -75,35 +79,42 @@ class TaichiLocalStep:
             self._lam,
             self._Q,
             int(len(self._Q) > 1),
-            options.max_iterations,
-            max(options.absolute, least_absolute),
-            max(options.relative, least_relative),
-            options.rho_min,
-            options.rho_max,
-            options.balance,
-            options.factor,
             self.R,
-            self._z,
-            self._u,
-            self._rho,
+            self._s,
             self._energies,
+            self._certified,
         )
         self.compile_seconds = _compile(self._kernels, self._arguments, precision)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
         self.R[:] = R
-        Q = np.broadcast_to(self._Q, self.R.shape)
-        self._z[:] = np.einsum("nij,njk,nk->ni", Q, R, self._rest.normals)
+        self._s[:] = starting_signs(self._rest_problem.cube_normals(R))
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         taichi_runtime.start(self._wanted)  # another add-on may have reset it since
         U = np.ascontiguousarray(U, dtype=self._real)
         self._kernels.local_step(U, *self._arguments)
+        rows = np.flatnonzero(self._certified == 0)
+        if len(rows):
+            self._solve_by_admm(U, rows)
         quadratic, trace, l1 = self._energies.T.astype(np.float64)
         arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
         return arap, self._rest.sum_parts(self._cubic_weight * l1)
+
+    def _solve_by_admm(self, U, rows):
+        """Find the rotations of some rows that the kernel has left as they were."""
+        areas = area_scale(self._rest.areas)[rows, None, None]
+        S = self._rest.matrices.covariances(U.astype(np.float64, copy=False), rows) / areas
+        problem = self._rest_problem.part(rows)._replace(S=S)
+        last = self.R[rows].astype(np.float64)
+        R, s = admm_rotations(problem, last, self._s[rows], self._options)
+        is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
+        self.R[rows] = R = np.where(is_worse[:, None, None], last, R)
+        self._s[rows] = np.where(is_worse[:, None], self._s[rows], s)
+        fit, self._energies[rows, 2] = problem.costs(R)
+        self._energies[rows, 1] = fit * areas[:, 0, 0]
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
@@ -132,6 +143,6 @@ def _compile(kernels, arguments, precision):
     no_entries = np.zeros(2, np.int32)
     point = np.zeros_like(first[4])
     kernels.local_step(point, no_entries, *first[1:])
-    kernels.right_hand_side(no_entries, first[1], first[2], first[16], point)
+    kernels.right_hand_side(no_entries, first[1], first[2], first[9], point)
     _compiled.add(precision)
     return time.perf_counter() - begin
