@@ -20,7 +20,8 @@ def components(F, n):
     whole set-up of a small mesh.
     """
     label = np.arange(n)
-    a, b = F[:, :2].ravel(), F[:, 1:].ravel()
+    corners = F.astype(label.dtype)  # unless all are of one type, minimum.at is slow
+    a, b = corners[:, :2].ravel(), corners[:, 1:].ravel()
     while len(a):
         np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
         label = _ends(label)

@@ -7,7 +7,7 @@ fraction of the time.
 
 import numpy as np
 
-BLOCK = 1 << 14
+BLOCK = 1 << 13
 """triangles; a few dozen float64 arrays of this length fit into the cache of a core"""
 
 
@@ -16,8 +16,8 @@ def edge_vectors(V, F):
 
     Parameters
     ----------
-    V : (n,3) float array
-        Positions.
+    V : (n,d) float array
+        Positions, or some of their coordinates.
     F : (m,3) int array
         Triangles.
 
@@ -25,7 +25,7 @@ def edge_vectors(V, F):
     ------
     block : slice
         Rows of F.
-    edges : (3,3,b) float64 array
+    edges : (3,d,b) float64 array
         ``edges[k, c]`` is coordinate c of the edges opposite corner k, which run from corner k+1
         to corner k+2.
     """
@@ -33,7 +33,7 @@ def edge_vectors(V, F):
     for begin in range(0, len(F), BLOCK):
         block = slice(begin, begin + BLOCK)
         corners = F[block].T.astype(np.intp, order="C")
-        edges = np.empty((3, *corners.shape))
+        edges = np.empty((3, len(coordinates), corners.shape[1]))
         for c, x in enumerate(coordinates):
             at = x.take(corners)
             for k in range(3):

@@ -24,6 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from .edge_vectors import edge_vectors
+
 
 @dataclass(frozen=True)
 class SpokesAndRims:
@@ -53,29 +55,27 @@ def spokes_and_rims(V, F, C):
     hence entries are only summed for pairs of vertices, and the diagonal follows. An edge from a
     vertex to itself drops out; its length is zero.
     """
-    corners = F.T.astype(np.intp, order="C")
     # the edge opposite corner k runs from corner k+1 to corner k+2
-    start, end = np.roll(corners, -1, axis=0), np.roll(corners, -2, axis=0)
+    start, end = F[:, [1, 2, 0]].astype(np.int32), F[:, [2, 0, 1]].astype(np.int32)
+    is_backward = (start > end).T
     pattern = _Pattern(start.ravel(), end.ravel(), len(V))
-    is_backward = start > end
     del start, end
-    cotangent = C.T.copy()
-    weight = pattern.sum_at_edges(cotangent)
-    laplacian = pattern.matrix_values(-weight, -weight)
-    gather = np.empty((len(laplacian), 3))
-    scatter = np.empty_like(gather)
+    nnz = len(pattern.indices)
+    weight = pattern.sum_at_edges(C)
+    laplacian = pattern.fill(np.empty(nnz), -weight, -weight)
+    gather, scatter = np.empty((nnz, 3)), np.empty((nnz, 3))
+    g_lower, g_upper = np.empty(F.shape), np.empty(F.shape)
     for c in range(3):
-        at = V[:, c].take(corners)
-        # L_f V is built of differences, so that no precision is lost far from the origin
-        flux = np.roll(at, -2, axis=0)
-        flux -= np.roll(at, -1, axis=0)
-        flux *= cotangent
-        g_start = np.roll(flux, -2, axis=0) - flux
-        g_end = flux - np.roll(flux, -1, axis=0)
-        g_lower = pattern.sum_at_edges(np.where(is_backward, g_end, g_start))
-        g_upper = pattern.sum_at_edges(np.where(is_backward, g_start, g_end))
-        gather[:, c] = pattern.matrix_values(g_upper, g_lower)
-        scatter[:, c] = pattern.matrix_values(g_lower, g_upper, gather[pattern.diagonal, c])
+        # L_f V from the edge vectors: no precision is lost far from the origin
+        for block, edges in edge_vectors(V[:, c : c + 1], F):
+            flux = edges[:, 0] * C[block].T
+            g_start, g_end = flux[[2, 0, 1]] - flux, flux - flux[[1, 2, 0]]
+            flip = is_backward[:, block]
+            g_lower[block] = np.where(flip, g_end, g_start).T
+            g_upper[block] = np.where(flip, g_start, g_end).T
+        below, above = pattern.sum_at_edges(g_lower), pattern.sum_at_edges(g_upper)
+        pattern.fill(gather[:, c], above, below)
+        pattern.fill(scatter[:, c], below, above, gather[pattern.diagonal, c])
     return SpokesAndRims(pattern.indptr, pattern.indices, laplacian, gather, scatter)
 
 
@@ -128,15 +128,14 @@ class _Pattern:
         sums = np.bincount(self._edge, values.ravel(), len(self._lower))
         return sums[: len(self._lower)]
 
-    def matrix_values(self, above, below, diagonal=None):
-        """Return the entries (nnz,) from those above and below the diagonal, one per edge.
+    def fill(self, values, above, below, diagonal=None):
+        """Fill values (nnz,) with those above and below the diagonal, one per edge; return them.
 
         Without a diagonal the rows sum to zero.
         """
         if diagonal is None:
             n = len(self.diagonal)
             diagonal = -np.bincount(self._lower, above, n) - np.bincount(self._upper, below, n)
-        values = np.empty(len(self.indices))
         values[self._upper_place] = above
         values[self._lower_place] = below
         values[self.diagonal] = diagonal
