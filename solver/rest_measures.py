@@ -43,7 +43,7 @@ def areas_and_normals(V, F):
     corners = F.T.astype(np.intp, order="C")
 
     def at_corners(values):
-        return sum(np.bincount(corner, values, len(V)) for corner in corners)
+        return np.sum([np.bincount(corner, values, len(V)) for corner in corners], axis=0)
 
     areas = at_corners(thirds)
     sums = np.stack([at_corners(x) for x in vectors], axis=1)
