@@ -2,17 +2,41 @@
 """Connected components: parts that share no triangle."""
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
 
 def components(F, n):
     """Return the number of components and the component of each vertex, ``(n,)`` int32.
 
+    Components are numbered by their first vertex.
+
     F : (m,3) int array of triangles. A vertex in no triangle is a component of its own.
+
+    Notes
+    -----
+    Vertices carry the number of a vertex of their component. Each round hangs every number below
+    its least neighbour, follows the chains to their ends, and forgets the edges that have become
+    inner ones (Liu and Tarjan, "Simple Concurrent Labeling Algorithms for Connected Components",
+    2019). In whole arrays that is as fast as SciPy's search, whose import takes longer than the
+    whole set-up of a small mesh.
     """
-    rows = F[:, [0, 1]].ravel()
-    columns = F[:, [1, 2]].ravel()
-    graph = sp.coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(n, n))
-    count, labels = connected_components(graph, directed=False)
-    return int(count), labels
+    label = np.arange(n)
+    corners = F.astype(label.dtype)  # unless all are of one type, minimum.at is slow
+    a, b = corners[:, :2].ravel(), corners[:, 1:].ravel()
+    while len(a):
+        np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
+        label = _ends(label)
+        a, b = label[a], label[b]
+        is_outer = a != b
+        a, b = a[is_outer], b[is_outer]
+    is_first = label == np.arange(n)
+    number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
+    return int(is_first.sum()), number[label]
+
+
+def _ends(label):
+    """Return for each entry where the chain label[label[...]] of it ends."""
+    while True:
+        further = label[label]
+        if np.array_equal(further, label):
+            return label
+        label = further

@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .edge_vectors import double_area_vectors, edge_vectors
+
 MAX_COTANGENT = 1e3
 """Cotangents beyond this (angles under 0.06 degrees) only harm the condition of the system."""
 
@@ -32,12 +34,13 @@ def cotangents(V, F):
     -----
     Pinkall and Polthier, "Computing discrete minimal surfaces and their conjugates", 1993.
     """
-    e = [V[F[:, (k + 2) % 3]] - V[F[:, (k + 1) % 3]] for k in range(3)]  # e[k] is opposite corner k
-    dot = -np.stack([(e[(k + 1) % 3] * e[(k + 2) % 3]).sum(1) for k in range(3)], axis=1)
-    double_area = np.linalg.norm(np.cross(e[0], e[1]), axis=1)
-    least = np.abs(dot).max(axis=1) / MAX_COTANGENT
-    bounded = double_area <= least
-    scale = np.maximum(double_area, least)
-    C = dot / np.where(scale > 0.0, scale, 1.0)[:, None]
-    C[bounded] += 1.0 / MAX_COTANGENT
+    C = np.empty((len(F), 3))
+    for block, e in edge_vectors(V, F):
+        dot = -np.stack([(e[k - 2] * e[k - 1]).sum(axis=0) for k in range(3)])
+        double_area = np.linalg.norm(double_area_vectors(e), axis=0)
+        least = np.abs(dot).max(axis=0) / MAX_COTANGENT
+        scale = np.maximum(double_area, least)
+        dot /= np.where(scale > 0.0, scale, 1.0)
+        dot += np.where(double_area <= least, 1.0 / MAX_COTANGENT, 0.0)
+        C[block] = dot.T
     return C

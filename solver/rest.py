@@ -48,10 +48,15 @@ class RestMesh:
     def edge_sums(self):
         """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component, as `sum_parts`."""
         matrices = self.matrices
-        rows = np.repeat(np.arange(len(self.V)), np.diff(matrices.indptr))
-        edges = self.V[matrices.indices] - self.V[rows]
-        weighted = -matrices.laplacian * (edges * edges).sum(axis=1)
-        return np.bincount(self.component[rows], weighted, self.component_count)
+        rows = np.repeat(np.arange(len(self.V), dtype=np.int32), np.diff(matrices.indptr))
+        is_upper = matrices.indices > rows  # each pair is counted once, then twice
+        i, j = rows[is_upper], matrices.indices[is_upper]
+        squares = np.zeros(len(i))
+        for x in self.V.T.copy():
+            difference = x.take(j) - x.take(i)
+            squares += difference * difference
+        weighted = -2.0 * matrices.laplacian[is_upper] * squares
+        return np.bincount(self.component[i], weighted, self.component_count)
 
     @cached_property
     def coarse(self):
@@ -87,13 +92,24 @@ def rest_mesh(V, F):
         See `check_mesh`.
     """
     input_positions, F = check_mesh(V, F)
-    used, F = np.unique(F, return_inverse=True)
-    F = F.reshape(-1, 3).astype(np.int32)
-    box = unit_box(input_positions[used])
-    V = box.to_unit(input_positions[used])
+    used, F = _used_vertices(F, len(input_positions))
+    V = input_positions[used]
+    box = unit_box(V)
+    V = box.to_unit(V)
     areas, normals = areas_and_normals(V, F)
     matrices = spokes_and_rims(V, F, cotangents(V, F))
     component_count, component = components(F, len(V))
     return RestMesh(
         input_positions, used, box, V, F, areas, normals, matrices, component_count, component
     )
+
+
+def _used_vertices(F, count):
+    """Return the vertices that lie in a triangle, ascending, and F as indices into them."""
+    is_used = np.zeros(count, dtype=bool)
+    is_used[F.ravel()] = True
+    used = np.flatnonzero(is_used)
+    if len(used) == count:
+        return used, F.copy()  # it may be the caller's
+    number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
+    return used, number[F]

@@ -3,12 +3,18 @@
 
 import numpy as np
 
+from .edge_vectors import double_area_vectors, edge_vectors
+
 
 def triangle_areas_and_normals(V, F):
     """Return the areas (m,) and unit normals (m,3), zero where undefined, of the triangles."""
-    cross = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    lengths = np.linalg.norm(cross, axis=1)
-    return lengths / 2.0, cross / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    areas, normals = np.empty(len(F)), np.empty((len(F), 3))
+    for block, edges in edge_vectors(V, F):
+        vectors = double_area_vectors(edges)
+        lengths = np.linalg.norm(vectors, axis=0)
+        areas[block] = lengths / 2.0
+        normals[block] = (vectors / np.where(lengths > 0.0, lengths, 1.0)).T
+    return areas, normals
 
 
 def areas_and_normals(V, F):
@@ -29,11 +35,18 @@ def areas_and_normals(V, F):
         Unit normals; zero where the triangles around a vertex cancel out or have no area, which
         switches the cubic term off there.
     """
-    n = len(V)
-    cross = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    corners = F.ravel()
-    areas = np.bincount(corners, np.repeat(np.linalg.norm(cross, axis=1) / 6.0, 3), n)
-    sums = np.stack([np.bincount(corners, np.repeat(cross[:, c], 3), n) for c in range(3)], axis=1)
+    vectors = np.empty((3, len(F)))
+    thirds = np.empty(len(F))
+    for block, edges in edge_vectors(V, F):
+        vectors[:, block] = double_area_vectors(edges)
+        thirds[block] = np.linalg.norm(vectors[:, block], axis=0) / 6.0
+    corners = F.T.astype(np.intp, order="C")
+
+    def at_corners(values):
+        return np.sum([np.bincount(corner, values, len(V)) for corner in corners], axis=0)
+
+    areas = at_corners(thirds)
+    sums = np.stack([at_corners(x) for x in vectors], axis=1)
     lengths = np.linalg.norm(sums, axis=1)
     is_defined = lengths > 1e-12 * areas  # else rounding alone would choose the direction
     normals = np.where(is_defined[:, None], sums, 0.0) / np.where(is_defined, lengths, 1.0)[:, None]

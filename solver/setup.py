@@ -43,7 +43,9 @@ class Setup:
             raise CubicCraftError(f"pinned vertices must lie between 0 and {count - 1}")
         self.rest = rest
         self.pinned_input = pinned
-        self.pinned = np.flatnonzero(np.isin(rest.used, pinned))
+        is_pinned = np.zeros(count, dtype=bool)
+        is_pinned[pinned] = True
+        self.pinned = np.flatnonzero(is_pinned[rest.used])
         self.has_pin = np.zeros(rest.component_count, dtype=bool)
         self.has_pin[rest.component[self.pinned]] = True
         self.global_step = GlobalStep(rest, self.pinned)

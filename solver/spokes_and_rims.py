@@ -24,6 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from .edge_vectors import edge_vectors
+
 
 @dataclass(frozen=True)
 class SpokesAndRims:
@@ -51,39 +53,101 @@ class SpokesAndRims:
 
 
 def spokes_and_rims(V, F, C):
-    """Build the matrices from rest positions V (n,3), triangles F (m,3) and cotangents C (m,3)."""
-    n = len(V)
-    # L_f of each triangle: off-diagonal -C, rows sum to zero
-    opposite = np.array([[0, 2, 1], [2, 0, 0], [1, 0, 0]])  # corner opposite the edge (k,l)
-    L = np.empty((len(F), 3, 3))
-    for k in range(3):
-        for j in range(3):
-            L[:, k, j] = -C[:, opposite[k, j]]
-    L[:, 0, 0] = C[:, 1] + C[:, 2]
-    L[:, 1, 1] = C[:, 0] + C[:, 2]
-    L[:, 2, 2] = C[:, 0] + C[:, 1]
-    # g_k = sum_l L[k,l] (v_l - v_k): differences, so that no precision is lost far from the origin
-    corners = V[F]
-    g = np.stack(
-        [
-            sum(L[:, k, j, None] * (corners[:, j] - corners[:, k]) for j in range(3))
-            for k in range(3)
-        ],
-        axis=1,
-    )
+    """Build the matrices from rest positions V (n,3), triangles F (m,3) and cotangents C (m,3).
 
-    # One sort finds the place of each of the 9 m entries in the pattern; the sums then go there.
-    keys = np.repeat(F, 3, axis=1).ravel().astype(np.int64) * n + np.tile(F, (1, 3)).ravel()
-    pattern, place = np.unique(keys, return_inverse=True)
+    The row sums of all of them vanish (L_f has that kernel, so the g_fk of a triangle cancel out),
+    hence entries are only summed for pairs of vertices, and the diagonal follows. An edge from a
+    vertex to itself drops out; its length is zero.
+    """
+    # the edge opposite corner k runs from corner k+1 to corner k+2
+    start, end = F[:, [1, 2, 0]].astype(np.int32), F[:, [2, 0, 1]].astype(np.int32)
+    is_backward = (start > end).T
+    pattern = _Pattern(start.ravel(), end.ravel(), len(V))
+    del start, end
+    nnz = len(pattern.indices)
+    weight = pattern.sum_at_edges(C)
+    laplacian = pattern.fill(np.empty(nnz), -weight, -weight)
+    gather, scatter = np.empty((nnz, 3)), np.empty((nnz, 3))
+    g_lower, g_upper = np.empty(F.shape), np.empty(F.shape)
+    for c in range(3):
+        # L_f V from the edge vectors: no precision is lost far from the origin
+        for block, edges in edge_vectors(V[:, c : c + 1], F):
+            flux = edges[:, 0] * C[block].T
+            g_start, g_end = flux[[2, 0, 1]] - flux, flux - flux[[1, 2, 0]]
+            flip = is_backward[:, block]
+            g_lower[block] = np.where(flip, g_end, g_start).T
+            g_upper[block] = np.where(flip, g_start, g_end).T
+        below, above = pattern.sum_at_edges(g_lower), pattern.sum_at_edges(g_upper)
+        pattern.fill(gather[:, c], above, below)
+        pattern.fill(scatter[:, c], below, above, gather[pattern.diagonal, c])
+    return SpokesAndRims(pattern.indptr, pattern.indices, laplacian, gather, scatter)
 
-    def assemble(values):
-        return np.bincount(place, np.broadcast_to(values, L.shape).ravel(), len(pattern))
 
-    row_ends = np.searchsorted(pattern, np.arange(n + 1, dtype=np.int64) * n)
-    return SpokesAndRims(
-        row_ends.astype(np.int32),
-        (pattern % n).astype(np.int32),
-        assemble(L),
-        np.stack([assemble(g[:, None, :, c]) for c in range(3)], axis=1),
-        np.stack([assemble(g[:, :, None, c]) for c in range(3)], axis=1),
-    )
+class _Pattern:
+    """Where the pairs of vertices that share an edge have their place in a sparse matrix.
+
+    Parameters
+    ----------
+    start, end : (h,) int array
+        Both ends of edges, which may occur any number of times.
+    n : int
+        Number of vertices.
+    """
+
+    def __init__(self, start, end, n):
+        lower, upper = np.minimum(start, end), np.maximum(start, end)
+        lower[start == end] = n  # sorted behind all others, and left out
+        order = _stable_order(upper, n + 1)
+        order = order[_stable_order(lower[order], n + 1)]
+        lower, upper = lower[order], upper[order]
+        is_new = np.ones(len(order), dtype=bool)
+        is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
+        self._edge = np.empty(len(order), dtype=np.intp)
+        self._edge[order] = np.cumsum(is_new) - 1
+        is_new &= lower < n
+        self._lower, self._upper = lower[is_new], upper[is_new]
+        self._find_places(n)
+
+    def _find_places(self, n):
+        """Order the entries by rows: lower neighbours, the diagonal, upper neighbours."""
+        lower, upper = self._lower, self._upper
+        count = np.arange(len(lower))
+        left, right = np.bincount(upper, minlength=n), np.bincount(lower, minlength=n)
+        indptr = np.concatenate([[0], np.cumsum(left + 1 + right)])
+        self.diagonal = indptr[:-1] + left
+        self._upper_place = count + np.repeat(self.diagonal + 1 - (np.cumsum(right) - right), right)
+        transposed = _stable_order(upper, n)
+        self._lower_place = np.empty_like(count)
+        self._lower_place[transposed] = count + np.repeat(
+            indptr[:-1] - (np.cumsum(left) - left), left
+        )
+        self.indices = np.empty(indptr[-1], dtype=np.int32)
+        self.indices[self._lower_place] = lower
+        self.indices[self.diagonal] = np.arange(n)
+        self.indices[self._upper_place] = upper
+        self.indptr = indptr.astype(np.int32)
+
+    def sum_at_edges(self, values):
+        """Return the sums over all occurrences of an edge, from values in the order given."""
+        sums = np.bincount(self._edge, values.ravel(), len(self._lower))
+        return sums[: len(self._lower)]
+
+    def fill(self, values, above, below, diagonal=None):
+        """Fill values (nnz,) with those above and below the diagonal, one per edge; return them.
+
+        Without a diagonal the rows sum to zero.
+        """
+        if diagonal is None:
+            n = len(self.diagonal)
+            diagonal = -np.bincount(self._lower, above, n) - np.bincount(self._upper, below, n)
+        values[self._upper_place] = above
+        values[self._lower_place] = below
+        values[self.diagonal] = diagonal
+        return values
+
+
+def _stable_order(keys, count):
+    """Return the stable order of integer keys below count, by counting instead of comparing."""
+    rows = np.arange(len(keys) + 1, dtype=np.int32)
+    one_per_row = sp.csr_matrix((keys, keys, rows), shape=(len(keys), count))
+    return one_per_row.tocsc().indices

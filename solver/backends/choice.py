@@ -6,13 +6,13 @@ from functools import partial
 from ..errors import CubicCraftError
 from .numpy_local_step import NumpyLocalStep
 from .taichi_local_step import TaichiLocalStep
-from .taichi_runtime import import_taichi
+from .taichi_runtime import import_taichi, quick_compilation
 
 DEVICES = ("auto", "cpu", "gpu", "numpy")
 
 
 def local_step_class(device="auto", precision=None):
-    """Return the class (or a partial of it) of the local step for the device.
+    """Return a function of (rest, lam, Q, options) that makes the local step for the device.
 
     Parameters
     ----------
@@ -39,4 +39,9 @@ def local_step_class(device="auto", precision=None):
             f"the device {device!r} needs Taichi, which cannot be imported ({error});"
             " choose the device auto or numpy"
         ) from error
-    return partial(TaichiLocalStep, device="gpu" if device == "gpu" else "cpu", precision=precision)
+    return partial(_taichi_local_step, "gpu" if device == "gpu" else "cpu", precision)
+
+
+def _taichi_local_step(device, precision, rest, lam, Q, options):
+    with quick_compilation():
+        return TaichiLocalStep(rest, lam, Q, options, device, precision)

@@ -6,6 +6,7 @@ import os
 import sys
 from dataclasses import dataclass
 from functools import cache
+from textwrap import TextWrapper
 from typing import Any
 
 from .gpu_arch import gpu_arch
@@ -73,6 +74,31 @@ def start(device):
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
     shown = "cpu" if name in ("x64", "arm64") else name
     return Runtime(f"taichi-{shown}", name in _ARCHES_WITH_F64)
+
+
+@contextlib.contextmanager
+def quick_compilation():
+    """Compile kernels without wrapping the lines of error messages that never appear.
+
+    For each expression of a kernel Taichi prepares the message of an error in it, and `textwrap`,
+    which breaks its lines, takes a third of the time from the start to the first result, even when
+    the kernel is cached. The messages stay; only their lines are not broken. Versions of Taichi
+    that do without are left alone.
+    """
+    module: Any = sys.modules.get("taichi.lang.ast.ast_transformer_utils")
+    if getattr(module, "TextWrapper", None) is not TextWrapper:
+        yield
+        return
+    module.TextWrapper = _WholeLines
+    try:
+        yield
+    finally:
+        module.TextWrapper = TextWrapper
+
+
+class _WholeLines(TextWrapper):
+    def wrap(self, text):
+        return [text]
 
 
 @contextlib.contextmanager

@@ -3,11 +3,15 @@
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 import shapes
+from scipy.sparse.csgraph import connected_components
 
+from solver import edge_vectors
 from solver.components import components
 from solver.cotangents import MAX_COTANGENT, cotangents
-from solver.rest_measures import areas_and_normals
+from solver.rest import rest_mesh
+from solver.rest_measures import areas_and_normals, triangle_areas_and_normals
 from solver.unit_box import unit_box
 
 RIGHT = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
@@ -73,6 +77,57 @@ def test_components_count_parts_and_loose_vertices():
     loose = len(shapes.blob(2)[0])
     assert (labels == labels[loose]).sum() == 1
     assert len(np.unique(labels[:loose])) == 1
+
+
+@pytest.mark.parametrize("vertices", [3, 60, 300, 2000])
+def test_components_are_those_of_scipy(vertices):
+    # from one component to triangles on their own, chains included; the numbers are shuffled
+    random = np.random.default_rng(vertices)
+    chain = np.arange(40)[:, None] * 2 + [0, 1, 2] + vertices
+    F = np.concatenate([random.integers(0, vertices, (150, 3)), chain])
+    n = vertices + 100
+    F = random.permutation(n)[F]
+    a, b = F[:, [0, 1]].ravel(), F[:, [1, 2]].ravel()
+    graph = sp.coo_matrix((np.ones(len(a)), (a, b)), shape=(n, n))
+    expected_count, expected = connected_components(graph, directed=False)
+    count, labels = components(F, n)
+    assert count == expected_count
+    np.testing.assert_array_equal(labels, expected)
+
+
+def test_blocks_change_no_bit(monkeypatch):
+    V, F = shapes.broken()
+    measures = (areas_and_normals, triangle_areas_and_normals)
+    whole = [array for measure in measures for array in measure(V, F)]
+    monkeypatch.setattr(edge_vectors, "BLOCK", 7)
+    parts = [array for measure in measures for array in measure(V, F)]
+    for a, b in zip(whole, parts, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_edge_sums_of_a_rest_mesh(name):
+    rest = rest_mesh(*shapes.ALL[name]())
+    L = rest.matrices.matrix(rest.matrices.laplacian).tocoo()
+    expected = np.zeros(rest.component_count)
+    for i, j, value in zip(L.row, L.col, L.data, strict=True):
+        edge = rest.V[j] - rest.V[i]
+        expected[rest.component[i]] -= value * edge @ edge
+    np.testing.assert_allclose(rest.edge_sums, expected, rtol=1e-12)
+
+
+def test_a_rest_mesh_leaves_out_loose_vertices_and_keeps_none_of_the_callers_triangles():
+    V, F = shapes.blob(1)
+    F = F.astype(np.int32)
+    rest, triangles = rest_mesh(V, F), F.copy()
+    F[:] = 0
+    np.testing.assert_array_equal(rest.F, triangles)
+    among_loose = np.full((2 * len(V), 3), 9.0)
+    among_loose[1::2] = V
+    other = rest_mesh(among_loose, 2 * triangles + 1)
+    np.testing.assert_array_equal(other.used, np.arange(1, 2 * len(V), 2))
+    np.testing.assert_array_equal(other.V, rest.V)
+    np.testing.assert_array_equal(other.F, rest.F)
 
 
 def test_unit_box_there_and_back():

@@ -2,8 +2,10 @@
 """The sparse matrices against the definition of the energy, in loops."""
 
 import numpy as np
+import pytest
 import shapes
 
+from solver import edge_vectors
 from solver.cotangents import cotangents
 from solver.spokes_and_rims import spokes_and_rims
 
@@ -61,3 +63,51 @@ def test_covariances_at_rest_are_semidefinite_on_obtuse_triangles_too():
     S = np.stack([H @ V for H in gather], axis=1)
     np.testing.assert_allclose(S, S.swapaxes(1, 2), atol=1e-12)
     assert np.linalg.eigvalsh(S).min() > -1e-12
+
+
+def soup():
+    """Return random triangles: edges of many triangles, repeated triangles and vertices."""
+    random = np.random.default_rng(3)
+    F = random.integers(0, 30, (200, 3))
+    F[:30] = F[30:60]
+    F[60:80, 1] = F[60:80, 0]
+    F[80:85] = F[80:85, :1]
+    return random.normal(size=(30, 3)), F
+
+
+MESHES = {**shapes.ALL, "soup": soup}
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_entries_are_those_of_sums_over_triangles(name):
+    V, F = MESHES[name]()
+    C = cotangents(V, F)
+    n = len(V)
+    L, gather = np.zeros((n, n)), np.zeros((3, n, n))
+    pairs = {(i, i) for i in range(n)}
+    for f, cot in zip(F, C, strict=True):
+        L_f = -np.array([[0, cot[2], cot[1]], [cot[2], 0, cot[0]], [cot[1], cot[0], 0]])
+        L_f -= np.diag(L_f.sum(axis=1))
+        g = L_f @ (V[f] - V[f].mean(axis=0))
+        for k in range(3):
+            for j in range(3):
+                pairs.add((f[k], f[j]))
+                L[f[k], f[j]] += L_f[k, j]
+                gather[:, f[k], f[j]] += g[j]
+    m = spokes_and_rims(V, F, C)
+    rows = np.repeat(np.arange(n), np.diff(m.indptr))
+    assert list(zip(rows, m.indices, strict=True)) == sorted(pairs)
+    precise = {"rtol": 0.0, "atol": 1e-14 * np.abs(C).max()}
+    np.testing.assert_allclose(m.matrix(m.laplacian).toarray(), L, **precise)
+    for c in range(3):
+        np.testing.assert_allclose(m.matrix(m.gather[:, c]).toarray(), gather[c], **precise)
+        np.testing.assert_allclose(m.matrix(m.scatter[:, c]).toarray(), gather[c].T, **precise)
+
+
+def test_blocks_change_no_bit(monkeypatch):
+    V, F = shapes.broken()
+    whole = spokes_and_rims(V, F, cotangents(V, F))
+    monkeypatch.setattr(edge_vectors, "BLOCK", 7)
+    parts = spokes_and_rims(V, F, cotangents(V, F))
+    for name, values in vars(whole).items():
+        np.testing.assert_array_equal(getattr(parts, name), values)

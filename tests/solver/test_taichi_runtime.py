@@ -191,3 +191,54 @@ def test_a_gpu_is_used_or_refused_but_never_crashes():
     )
     assert output.startswith(("no GPU that Taichi can use was found", "taichi-"))
     assert "taichi-cpu" not in output
+
+
+@needs_taichi
+def test_quick_compilation_changes_no_bit_and_leaves_taichi_as_it_was():
+    passes(
+        """
+        import textwrap
+        from solver.backends import choice, taichi_runtime
+        import contextlib
+        quick = stylize(V, F, device="cpu", max_iterations=5).positions
+        from taichi.lang.ast import ast_transformer_utils
+        assert ast_transformer_utils.TextWrapper is textwrap.TextWrapper
+        taichi_runtime.import_taichi().reset()  # else the kernels would not be compiled again
+        choice.quick_compilation = contextlib.nullcontext
+        slow = stylize(V, F, device="cpu", max_iterations=5).positions
+        np.testing.assert_array_equal(quick, slow)
+        """
+    )
+
+
+@needs_taichi
+def test_errors_in_kernels_keep_their_place_under_quick_compilation(tmp_path):
+    (tmp_path / "faulty.py").write_text(
+        "import taichi as ti\n@ti.kernel\ndef faulty():\n    x = 1 + unheard_of\n"
+    )
+    passes(
+        f"""
+        from solver.backends.taichi_runtime import import_taichi, quick_compilation, start
+        from textwrap import TextWrapper
+        ti = import_taichi()
+        start("cpu")
+        sys.path.insert(0, {str(tmp_path)!r})
+        from faulty import faulty
+        from taichi.lang.ast import ast_transformer_utils
+        try:
+            with quick_compilation():
+                assert ast_transformer_utils.TextWrapper is not TextWrapper
+                faulty()
+        except ti.TaichiCompilationError as error:
+            assert "line 4" in str(error) and "unheard_of" in str(error), error
+        else:
+            raise AssertionError("compiled")
+        assert ast_transformer_utils.TextWrapper is TextWrapper
+        """
+    )
+
+
+@needs_taichi
+def test_the_first_result_needs_no_graph_search_of_scipy():
+    # its import takes longer than the set-up of a small mesh
+    passes("stylize(V, F, max_iterations=2); assert 'scipy.sparse.csgraph' not in sys.modules")
