@@ -42,12 +42,7 @@ class GlobalStep:
             raise CubicCraftError("all vertices are pinned; leave some of them free")
         _, first_vertex = np.unique(rest.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
-        self._free = np.flatnonzero(~is_held)
-        self._held = np.flatnonzero(is_held)
-        L = rest.matrices.matrix(rest.matrices.laplacian)
-        free_rows = L[self._free]
-        self._coupling = free_rows[:, self._held]
-        self._solve = _solver(free_rows[:, self._free]) if len(self._free) else None
+        self._solve = _solver(rest.matrices.matrix(rest.matrices.laplacian), is_held)
         self._floating = None if has_pin.all() else self._centring_weights(has_pin)
 
     def _centring_weights(self, has_pin):
@@ -67,21 +62,17 @@ class GlobalStep:
         near : (n,3) array
             Positions to start from, where the solution is iterative. Pinned vertices stay there.
         """
-        result = near.copy()
-        if self._solve is None:
-            return result
-        free_rhs = rhs[self._free] - self._coupling @ near[self._held]
-        result[self._free] = self._solve(free_rhs, near[self._free])
+        result = self._solve(rhs, near)
         if self._floating is not None:
             self._centre(result, self._floating)
         return result
 
     def _centre(self, U, weight):
         rest = self._rest
-        offset = weight[:, None] * (rest.V - U)
         if rest.component_count == 1:
-            U += offset.sum(axis=0)
+            U += weight @ rest.V - weight @ U
             return
+        offset = weight[:, None] * (rest.V - U)
         shift = np.stack(
             [np.bincount(rest.component, offset[:, c], rest.component_count) for c in range(3)],
             axis=1,
@@ -90,9 +81,23 @@ class GlobalStep:
         U[moving] += shift[rest.component[moving]]
 
 
-def _solver(A):
-    """Return a function of B (n,3) and X (n,3): the solution of A X = B, or one nearer to it."""
-    if A.shape[0] > FACTORIZED_VERTICES and has_multigrid():
-        return Multigrid(A).solve
-    solve = factorize(A)
-    return lambda B, near: solve(B)
+def _solver(L, is_held):
+    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B, or nearer to it.
+
+    The rows of X that are held stay as they are.
+    """
+    if len(is_held) > FACTORIZED_VERTICES and has_multigrid():
+        return Multigrid(L, is_held).solve
+    free, held = np.flatnonzero(~is_held), np.flatnonzero(is_held)
+    if not len(free):
+        return lambda B, X: X.copy()
+    free_rows = L[free]
+    coupling = free_rows[:, held]
+    solve = factorize(free_rows[:, free])
+
+    def solve_free(B, X):
+        result = X.copy()
+        result[free] = solve(B[free] - coupling @ X[held])
+        return result
+
+    return solve_free

@@ -32,10 +32,14 @@ class Multigrid:
     Parameters
     ----------
     A : (n,n) csr_matrix
-        Symmetric positive definite.
+        Symmetric, positive definite on the rows that are not held.
+    is_held : (n,) bool array
+        Rows of the solution that stay as they are given.
     """
 
-    def __init__(self, A):
+    def __init__(self, A, is_held):
+        self._A, self._held = A, np.flatnonzero(is_held)
+        A = _decoupled(A, is_held)
         hierarchy = optional_package("pyamg").smoothed_aggregation_solver(
             A,
             B=np.ones((A.shape[0], 1)),
@@ -45,13 +49,13 @@ class Multigrid:
             postsmoother=None,
             max_coarse=_COARSEST,
         )
-        self._A = A
         self._levels = [_Level(level.A, level.P) for level in hierarchy.levels[:-1]]
         self._solve_coarsest = factorize(hierarchy.levels[-1].A.tocsr())
 
     def solve(self, B, near):
         """Return X (n,3), nearer to A X = B than the given one (n,3)."""
         rest = (B.T - _product(self._A, np.ascontiguousarray(near.T))).astype(np.float32)
+        rest[:, self._held] = 0.0
         return near + self._cycle(rest, 0).T
 
     def _cycle(self, B, depth):
@@ -87,6 +91,13 @@ class _Level:
         step = self._first_step * B
         rest = B - _product(self.A, step)
         return step + (self._momentum * step + self._second_step * rest)
+
+
+def _decoupled(A, is_held):
+    """Return A (n,n) with the rows and columns of what is held cleared but for their diagonal."""
+    A = A.tocoo()
+    stays = (A.row == A.col) | ~(is_held[A.row] | is_held[A.col])
+    return sp.csr_matrix((A.data[stays], (A.row[stays], A.col[stays])), shape=A.shape)
 
 
 def _product(A, X):

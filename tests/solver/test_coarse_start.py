@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The start from coarser meshes: the same shape in fewer iterations."""
+
+import numpy as np
+import pytest
+import shapes
+from optional_marks import needs
+
+from solver import Run, Setup, Stylization, rest_mesh, stylize
+
+pytestmark = needs("fast_simplification")
+
+
+@pytest.fixture
+def large(monkeypatch):
+    """Let a test's meshes count as large."""
+
+    def count_as_large(is_large=True):
+        monkeypatch.setattr("solver.coarse_start.LEAST_VERTICES", 500 if is_large else 10**9)
+        monkeypatch.setattr("solver.coarse_start.COARSEST_VERTICES", 300)
+
+    return count_as_large
+
+
+@pytest.mark.parametrize("pins", [0, 200])
+def test_it_ends_no_higher_in_fewer_iterations(pins, large, device):
+    V, F = shapes.blob(4)
+    pinned = np.argsort(V[:, 2])[:pins]
+    targets = V + np.where(V[:, 2:] < V[pinned, 2].max(initial=-9.0), 0.1, 0.0)
+    ends = []
+    for is_large in (False, True):
+        large(is_large)
+        ends.append(stylize(V, F, 0.5, pinned, targets=targets, device=device, tolerance=1e-4))
+    from_rest, from_coarse = ends
+    assert from_coarse.converged
+    assert from_coarse.energy.total <= from_rest.energy.total * (1 + 1e-3)
+    assert from_coarse.iterations < from_rest.iterations
+    np.testing.assert_array_equal(from_coarse.positions[pinned], targets[pinned])
+
+
+def test_the_first_iteration_is_near_the_end(large, device):
+    V, F = shapes.blob(4)
+    gaps = []
+    end = stylize(V, F, 0.5, device=device, tolerance=1e-5)
+    for is_large in (False, True):
+        large(is_large)
+        first = stylize(V, F, 0.5, device=device, max_iterations=1)
+        gaps.append(first.energy.total - end.energy.total)
+    assert gaps[1] < 0.3 * gaps[0]
+
+
+def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
+    V, F = shapes.blob(4)
+    cubeness = np.where(V[:, 0] > 0.0, 1.0, 0.0)
+    Q = np.tile(shapes.rotation(0.0, 0.0, 30.0), (len(V), 1, 1))
+    large()
+    stylization = Stylization(Setup(rest_mesh(V, F)), cubeness, Q, device=device)
+    coarse = stylization.coarser()
+    x = stylization.rest.box.from_unit(coarse.rest.input_positions)[:, 0]
+    inside = np.abs(x) > 0.1
+    np.testing.assert_array_equal(coarse._lam[inside], np.where(x > 0.0, 1.0, 0.0)[inside])
+    result = stylize(V, F, cubeness, orientation=Q, device=device)
+    from_one = stylize(V, F, cubeness, orientation=Q[0], device=device)
+    np.testing.assert_allclose(result.positions, from_one.positions, atol=1e-9)
+    left = V[:, 0] < -0.5
+    assert np.abs(result.rotations[left] - result.rotations[left][0]).max() < 0.2
+
+
+def test_slicing_and_repeating_change_no_bit(large, device):
+    V, F = shapes.blob(4)
+    large()
+    whole = stylize(V, F, 0.4, device=device)
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, device=device))
+    phases = 0
+    while run.reason is None:
+        run.advance()
+        phases += 1
+    assert phases > 2 * run.stylization.iteration  # those of the coarse meshes, too
+    np.testing.assert_array_equal(run.result().positions, whole.positions)
+
+
+def test_a_part_keeps_its_orientation_on_all_levels(large, device):
+    V, F = shapes.blob(4)
+    V = V @ shapes.rotation(0, 25, 15).T
+    large()
+    result = stylize(V, F, 0.6, device=device, keep_rotation=True)
+    rest = rest_mesh(V, F)
+    A, B = (X - np.average(X, axis=0, weights=rest.areas) for X in (result.positions, V))
+    P, _, Rt = np.linalg.svd((A * rest.areas[:, None]).T @ B)
+    assert np.linalg.norm(P @ Rt - np.eye(3)) < 1e-6
+
+
+def test_where_nothing_is_left_free_it_starts_from_rest(large, device):
+    V, F = shapes.blob()
+    large()
+    pinned = np.delete(np.arange(len(V)), 7)
+    result = stylize(V, F, 0.4, pinned, device=device)
+    np.testing.assert_array_equal(result.positions[pinned], V[pinned])
+
+
+def test_without_the_package_it_starts_from_rest(large, device, monkeypatch):
+    V, F = shapes.blob()
+    from_rest = stylize(V, F, 0.4, device=device)
+    large()
+    monkeypatch.setattr("solver.decimation.optional_package", lambda name: None)
+    again = stylize(V, F, 0.4, device=device)
+    np.testing.assert_array_equal(again.positions, from_rest.positions)
+
+
+def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
+    setup = Setup(rest_mesh(*shapes.blob()))
+    assert Run(Stylization(setup, 0.4, device="numpy"))._coarse is None
+    large()
+    assert Run(Stylization(setup, 0.4, device="numpy"))._coarse is not None
+    assert Run(Stylization(setup, 0.4, device="numpy", is_accelerated=False))._coarse is None
