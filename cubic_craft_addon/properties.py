@@ -34,8 +34,8 @@ _RESULTS = (
 )
 _ROTATIONS = (
     ("AUTO", "Auto", "Keep where there are several parts, so that they stay together, else Free"),
-    ("KEEP", "Keep", "Each part stands as before; the sides of the cube may lean"),
-    ("FREE", "Free", "The sides of the cube are as asked for; the shape may turn"),
+    ("KEEP", "Keep", "Each part stands as before, and the sides of the cube are as asked for"),
+    ("FREE", "Free", "A part may turn as a whole, and fits the cube a little better"),
 )
 _DEVICES = (
     ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
@@ -107,8 +107,8 @@ class RunProperties:
     )
     rotation: EnumProperty(
         name="Rotation",
-        description="A part may turn by some degrees as a whole to fit the cube. It can be turned"
-        " back at the end; parts with handles are left as they are",
+        description="A part may turn by some degrees as a whole to fit the cube, unless it is held;"
+        " parts with handles are left as they are",
         items=_ROTATIONS,
         default=Settings.rotation,
         options=_OPTIONS,

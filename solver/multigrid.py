@@ -42,7 +42,7 @@ class Multigrid:
         A = _decoupled(A, is_held)
         hierarchy = optional_package("pyamg").smoothed_aggregation_solver(
             A,
-            B=np.ones((A.shape[0], 1)),
+            B=np.ones((len(is_held), 1)),
             smooth=("jacobi", {"weighting": "local"}),  # the others draw random numbers
             improve_candidates=None,
             presmoother=None,

@@ -3,10 +3,11 @@
 
 from functools import cache
 from importlib import import_module
+from typing import Any
 
 
 @cache
-def optional_package(name):
+def optional_package(name: str) -> Any:
     """Return the package, or None where it cannot be imported."""
     try:
         return import_module(name)

@@ -51,7 +51,7 @@ def arguments():
         "--find-best",
         type=float,
         metavar="SECONDS",
-        help="measure nothing, but look for lower energies, so long in each of three descents",
+        help="measure nothing, but look for lower energies, so long in each of two descents",
     )
     parser.add_argument(
         "--only",

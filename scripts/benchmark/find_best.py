@@ -9,13 +9,10 @@ which the whole shape is turned; they are no measure for a run that begins at re
 import time
 
 from solver import Run, Setup, Stylization, rest_mesh
-from solver.admm import AdmmOptions
 
 from .meshes import read
 from .our_solver import energy_of
 
-EXACT = AdmmOptions(max_iterations=1000, absolute=1e-11, relative=1e-9)
-"""a local step as good as it can be"""
 PATIENCE = 200
 """iterations in which the energy has to fall by ENOUGH"""
 ENOUGH = 1e-8
@@ -40,19 +37,13 @@ def find_best(path, cubeness, seconds):
     """
     V, F = read(path)
     setup = Setup(rest_mesh(V, F))
-    found = []
-
-    def descend(found_by, start=None, **options):
-        positions = _descend(setup, cubeness, start, seconds, **options)
-        found.append((energy_of(setup, cubeness, positions), found_by, positions))
-
-    descend("accelerated")
-    descend("accelerated, exact local step", admm=EXACT)
-    _, name, positions = min(found, key=lambda item: item[0])
-    plain = {"admm": EXACT, "is_accelerated": False}
-    descend(f"{name}, then plain with exact local step", start=positions, **plain)
-    energy, found_by, _ = min(found, key=lambda item: item[0])
-    return energy, found_by
+    positions = _descend(setup, cubeness, None, seconds)
+    accelerated = energy_of(setup, cubeness, positions)
+    positions = _descend(setup, cubeness, positions, seconds, is_accelerated=False)
+    plain = energy_of(setup, cubeness, positions)
+    if accelerated <= plain:
+        return accelerated, "accelerated"
+    return plain, "accelerated, then plain"
 
 
 def _descend(setup, cubeness, start, seconds, **options):

@@ -130,7 +130,7 @@ def _add_method(parser: argparse.ArgumentParser) -> None:
         "--rotation",
         choices=["auto", "keep", "free"],
         default="auto",
-        help="whether each part is turned back as a whole by its best-fit rotation"
+        help="whether each part is held in its orientation, or may turn as a whole"
         " (default: auto, where there are several parts)",
     )
     group.add_argument("--max-iterations", type=_integer(1, 1_000_000), default=1000, metavar="N")

@@ -16,7 +16,7 @@ from .output_files import replacing
 
 __all__ = ("write_report",)
 
-OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy")
+OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg", "fast-simplification")
 
 
 def write_report(
