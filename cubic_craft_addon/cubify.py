@@ -282,7 +282,7 @@ def _keeps_rotation(prepared, settings):
     """Tell whether each free part is held in its orientation.
 
     A part may turn by some degrees to fit the cube. Several parts would each turn their own way and
-    come apart, such as eyes from their sockets; a single one reaches a lower energy when it is free.
+    come apart, such as eyes from their sockets; a single one gets a lower energy when it is free.
     """
     return settings.rotation == "KEEP" or (settings.rotation == "AUTO" and prepared.components > 1)
 
