@@ -5,7 +5,6 @@ import contextlib
 from typing import Any
 
 import numpy as np
-from scipy.sparse.linalg import splu
 
 cholespy: Any = None  # optional: about twice as fast as SciPy's LU at solving
 with contextlib.suppress(ImportError):
@@ -22,6 +21,8 @@ def factorize(A):
     """
     if cholespy is not None:
         return _cholesky(A)
+    from scipy.sparse.linalg import splu  # takes a tenth of a second to import
+
     lu = splu(
         A.tocsc(),
         permc_spec="MMD_AT_PLUS_A",

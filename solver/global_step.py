@@ -2,6 +2,7 @@
 """The global step: positions from rotations, by one factorisation per mesh and set of pins."""
 
 import numpy as np
+import scipy.sparse as sp
 
 from .errors import CubicCraftError
 from .factorization import factorize
@@ -87,17 +88,27 @@ def _solver(L, is_held):
     The rows of X that are held stay as they are.
     """
     if len(is_held) > FACTORIZED_VERTICES and has_multigrid():
-        return Multigrid(L, is_held).solve
-    free, held = np.flatnonzero(~is_held), np.flatnonzero(is_held)
-    if not len(free):
-        return lambda B, X: X.copy()
-    free_rows = L[free]
-    coupling = free_rows[:, held]
-    solve = factorize(free_rows[:, free])
+        return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held)).solve
+    held = np.flatnonzero(is_held)
+    coupling = L[:, held]
+    solve = factorize(decoupled(L, is_held))
 
-    def solve_free(B, X):
-        result = X.copy()
-        result[free] = solve(B[free] - coupling @ X[held])
+    def solve_all(B, X):
+        rhs = B - coupling @ X[held]
+        rhs[held] = X[held]
+        result = solve(rhs)
+        result[held] = X[held]
         return result
 
-    return solve_free
+    return solve_all
+
+
+def decoupled(L, is_held):
+    """Return L (n,n) with the rows and columns of what is held (n,) those of the identity."""
+    rows = np.repeat(np.arange(len(is_held)), np.diff(L.indptr))
+    is_diagonal = rows == L.indices
+    is_cleared = is_held[rows] | is_held[L.indices]
+    data = np.where(is_cleared, np.where(is_diagonal, 1.0, 0.0), L.data)
+    result = sp.csr_matrix((data, L.indices.copy(), L.indptr.copy()), shape=L.shape)
+    result.eliminate_zeros()
+    return result

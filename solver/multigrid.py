@@ -32,17 +32,18 @@ class Multigrid:
     Parameters
     ----------
     A : (n,n) csr_matrix
-        Symmetric, positive definite on the rows that are not held.
-    is_held : (n,) bool array
+        Symmetric.
+    decoupled : (n,n) csr_matrix
+        The same without what couples to the rows that are held: positive definite.
+    held : (k,) int array
         Rows of the solution that stay as they are given.
     """
 
-    def __init__(self, A, is_held):
-        self._A, self._held = A, np.flatnonzero(is_held)
-        A = _decoupled(A, is_held)
+    def __init__(self, A, decoupled, held):
+        self._A, self._held = A, held
         hierarchy = optional_package("pyamg").smoothed_aggregation_solver(
-            A,
-            B=np.ones((len(is_held), 1)),
+            decoupled,
+            B=np.ones((decoupled.shape[0], 1)),
             smooth=("jacobi", {"weighting": "local"}),  # the others draw random numbers
             improve_candidates=None,
             presmoother=None,
@@ -91,13 +92,6 @@ class _Level:
         step = self._first_step * B
         rest = B - _product(self.A, step)
         return step + (self._momentum * step + self._second_step * rest)
-
-
-def _decoupled(A, is_held):
-    """Return A (n,n) with the rows and columns of what is held cleared but for their diagonal."""
-    A = A.tocoo()
-    stays = (A.row == A.col) | ~(is_held[A.row] | is_held[A.col])
-    return sp.csr_matrix((A.data[stays], (A.row[stays], A.col[stays])), shape=A.shape)
 
 
 def _product(A, X):
