@@ -199,7 +199,7 @@ class Stylization:
         positions : (N,3) array_like
             In the user's unit. The state of the run is replaced by it.
         steps : int
-            Local steps; each carries the ADMM nearer to the best rotations.
+            Local steps; each starts from the rotations of the one before, and the best counts.
         """
         used = np.asarray(positions, dtype=np.float64)[self.rest.used]
         self._U = self.rest.box.to_unit(used)
