@@ -38,11 +38,22 @@ def coarse_stylization(fine):
 
 def carry_up(coarse, fine):
     """Let a fresh Stylization start from what a coarser one has come to."""
-    cluster = fine.rest.coarse.cluster
-    R = _smoothed(fine.rest, coarse.rotations[cluster])
-    offset = fine.rest.V - coarse.rest.input_positions[cluster]
-    turned = np.einsum("nij,nj->ni", R, offset)
-    fine.start_from(R, coarse.placed_positions()[cluster] + turned)
+    merged = coarse.rotations[fine.rest.coarse.cluster]
+    fine.start_from(
+        *_on_fine(coarse.rest, coarse.positions, fine.rest, _smoothed(fine.rest, merged))
+    )
+
+
+def glance_up(coarse_rest, U, R, rest):
+    """Return rotations and positions of a finer mesh at a glance, from (k,3) and (k,3,3) ones."""
+    return _on_fine(coarse_rest, U, rest, R[rest.coarse.cluster])
+
+
+def _on_fine(coarse_rest, U, rest, R):
+    """Return R (n,3,3), and where it turns the vertices about those that they were merged into."""
+    cluster = rest.coarse.cluster
+    offset = rest.V - coarse_rest.input_positions[cluster]
+    return R, coarse_rest.box.from_unit(U)[cluster] + np.einsum("nij,nj->ni", R, offset)
 
 
 def _smoothed(rest, R):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .coarse_start import MAX_ITERATIONS, TOLERANCE, carry_up, coarse_stylization
+from .coarse_start import MAX_ITERATIONS, TOLERANCE, carry_up, coarse_stylization, glance_up
 from .errors import CubicCraftError
 from .rest import rest_mesh
 from .setup import Setup
@@ -145,8 +145,20 @@ class Run:
         self._rule = StopRule(tolerance, stylization.resolution)
         self._is_local_next = True
         self._seconds = 0.0
+        self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
+
+    @property
+    def is_on_coarser_mesh(self):
+        """Whether it has yet to begin on the mesh itself."""
+        return self._coarse is not None
+
+    @property
+    def iterations(self):
+        """Number of iterations done, those on coarser meshes included."""
+        coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
+        return coarse + self.stylization.iteration
 
     def advance(self):
         """Do one phase: a local or a global step. At the end, `reason` is set."""
@@ -161,6 +173,7 @@ class Run:
         self._coarse.advance()
         if self._coarse.reason is not None:
             carry_up(self._coarse.stylization, self.stylization)
+            self._coarse_iterations = self._coarse.iterations
             self._coarse = None
 
     def _advance_fine(self):
@@ -185,12 +198,23 @@ class Run:
                 self.reason = "cancelled"
 
     def positions(self):
-        """Return the positions (n,3) as they are now, in the unit of the input."""
-        return self.stylization.placed_positions()
+        """Return the positions (n,3) as they are now, in the unit of the input.
+
+        While it starts on a coarser mesh they are those of its vertices, with the details at rest.
+        """
+        return self.stylization.placed_positions(self._glance()[1])
 
     def placed(self):
         """Return the positions (n,3) and the rotations (n,3,3) as they are now."""
-        return self.stylization.placed()
+        return self.stylization.placed(*self._glance())
+
+    def _glance(self):
+        """Return the rotations and the positions in the unit box as they are now."""
+        state = self.stylization
+        if self._coarse is None:
+            return state.rotations, state.positions
+        R, U = self._coarse._glance()
+        return glance_up(self._coarse.stylization.rest, U, R, state.rest)
 
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""

@@ -121,6 +121,11 @@ class Stylization:
         return self._local.compile_seconds
 
     @property
+    def positions(self):
+        """(n,3) present positions in the unit box, of the vertices of `rest`."""
+        return self._U
+
+    @property
     def rotations(self):
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         return self._local.R
@@ -205,20 +210,21 @@ class Stylization:
         self._U = self.rest.box.to_unit(used)
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
-    def placed(self):
+    def placed(self, R=None, U=None):
         """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
 
-        Loose vertices have exactly their given positions, pinned ones their targets.
+        Loose vertices have exactly their given positions, pinned ones their targets. Of another
+        state, if its rotations (n,3,3) and positions (n,3) in the unit box are given.
         """
         rotations = np.tile(np.eye(3), (len(self.rest.input_positions), 1, 1))
-        rotations[self.rest.used] = self._local.R
-        return self.placed_positions(), rotations
+        rotations[self.rest.used] = self.rotations if R is None else R
+        return self.placed_positions(U), rotations
 
-    def placed_positions(self):
+    def placed_positions(self, U=None):
         """Return the positions alone, for those who look on while it runs."""
         rest = self.rest
         positions = rest.input_positions.copy()
-        positions[rest.used] = rest.box.from_unit(self._U)
+        positions[rest.used] = rest.box.from_unit(self._U if U is None else U)
         held = self.setup.pinned_input
         positions[held] = self._targets[held]
         return positions

@@ -122,7 +122,8 @@ class LiveMesh:
         """A line for the artist, and how far the run has come, from 0 to 1."""
         energy = self._run.stylization.energy if self._run else None
         if energy is None:
-            return "", 0.0
+            is_coarse = self._run is not None and self._run.is_on_coarser_mesh
+            return ("First on a coarser mesh" if is_coarse else ""), 0.0
         text = f"Iteration {self.iteration}, energy {max(energy.total, 0.0):.5f}"
         if self.solution is None:
             return text, self._progress.update(self._run.stylization)
@@ -146,9 +147,9 @@ class LiveMesh:
         """Show what the run has come to; tell whether that was anything new."""
         if self._preview is None or self._prepared is None or self._run is None:
             return False
-        if self.iteration < _FIRST_SHOWN and self.solution is None:
+        if self._run.iterations < _FIRST_SHOWN and self.solution is None:
             return False  # what is seen stays until there is something better
-        moment = (self.iteration, self.solution is not None)
+        moment = (self._run.iterations, self.solution is not None)
         if moment == self._shown_moment:
             return False
         self._shown_moment = moment

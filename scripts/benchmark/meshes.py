@@ -35,7 +35,8 @@ def read(path):
     if path.suffix == ".npz":
         with np.load(path) as arrays:
             return arrays["V"], arrays["F"]
-    import pymeshlab  # only here: its import would count as memory of the solver
+    # Only here: its import would count as memory of the solver.
+    import pymeshlab  # pyright: ignore[reportMissingImports]
 
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh(str(path))

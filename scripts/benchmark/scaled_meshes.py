@@ -41,7 +41,7 @@ def _made_once(name, path, make, *arguments):
 
 def _resized(mesh, vertices, loops):
     """Return V and F of a mesh, simplified unless `vertices` is None, then subdivided."""
-    import pymeshlab
+    import pymeshlab  # pyright: ignore[reportMissingImports]
 
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*read(mesh.path)))

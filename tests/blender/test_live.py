@@ -233,6 +233,26 @@ def test_weights_changed_before_the_last_shape_is_evaluated_count(live, begin):
     session.on(live.Event.CANCEL)
 
 
+def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(live, begin, extension, monkeypatch):
+    coarse_start = importlib.import_module(f"{extension.__name__}.solver.coarse_start")
+    monkeypatch.setattr(coarse_start, "LEAST_VERTICES", 500)
+    monkeypatch.setattr(coarse_start, "COARSEST_VERTICES", 100)
+    monkeypatch.setattr(f"{live.__name__}.session.SLICE", 0.0)  # one phase in each tick
+    twin, obj = add_monkey("Twin"), add_monkey()
+    before = bits(obj)
+    session = begin(obj, cubeness=0.6)
+    mesh = session.meshes[0]
+    assert mesh._run.is_on_coarser_mesh
+    while mesh._run.iterations < 6:
+        session.tick(bpy.context)
+    assert mesh._run.is_on_coarser_mesh and mesh.iteration == 0
+    assert bits(obj) != before and mesh.status[0] == "First on a coarser mesh"
+    confirm(live, session)
+    select(twin)
+    bpy.ops.cubic_craft.cubify(cubeness=0.6)
+    assert bits(obj) == bits(twin)
+
+
 def test_a_handle_is_posed_live(live, begin):
     obj, _, right = add_posable()
     pin(obj, LEFT)

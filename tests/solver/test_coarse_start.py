@@ -111,3 +111,21 @@ def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
     large()
     assert Run(Stylization(setup, 0.4, device="numpy"))._coarse is not None
     assert Run(Stylization(setup, 0.4, device="numpy", is_accelerated=False))._coarse is None
+
+
+def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
+    V, F = shapes.blob(4)
+    large()
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.5, device=device))
+    end = stylize(V, F, 0.5, device=device).positions
+    seen, counts = [], []
+    while run.is_on_coarser_mesh:
+        run.advance()
+        positions, rotations = run.placed()
+        np.testing.assert_array_equal(run.positions(), positions)
+        np.testing.assert_allclose(np.linalg.det(rotations), 1.0, atol=1e-9)
+        seen.append(np.linalg.norm(positions - end, axis=1).max())
+        counts.append(run.iterations)
+    assert (np.diff(counts) >= 0).all() and counts[-1] > 10
+    assert run.stylization.iteration == 0
+    assert min(seen) < 0.5 * np.linalg.norm(V - end, axis=1).max()
