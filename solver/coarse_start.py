@@ -5,14 +5,19 @@ The iteration moves details at once and the whole only slowly, the more slowly t
 is. On a mesh of a quarter of the vertices an iteration costs a quarter, and fewer are needed; its
 rotations bring the fine mesh so near to its end that 30 iterations do what takes 134 from the rest
 shape (98,721 vertices, cubeness 0.4, to a gap of 1 %). The coarse mesh is started in the same way.
+
+The problem has many minima, and this start may lead to another one than the start from rest. No
+part may turn as a whole on a coarse mesh: there it would soon find the orientation in which the
+energy is least, up to half a right angle away from how the artist has oriented shape and cube. Thin
+tubes may become flatter. So only meshes that would take too long from rest are started like this.
 """
 
 import numpy as np
 
 from .rotation_fit import orthonormalize
 
-LEAST_VERTICES = 60_000
-"""A smaller mesh gains no more than its coarse meshes cost (48 k vertices, to a gap of 1 %)."""
+LEAST_VERTICES = 200_000
+"""Smaller meshes are started from rest, which leads to the minimum next to it."""
 COARSEST_VERTICES = 2_000
 """Meshes of up to so many are started from the rest shape."""
 TOLERANCE = 1e-2

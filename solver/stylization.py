@@ -82,12 +82,7 @@ class Stylization:
         self.setup = setup
         self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
         self._keep_rotation = keep_rotation
-        self._options = {
-            "device": device,
-            "precision": precision,
-            "admm": admm,
-            "keep_rotation": keep_rotation,
-        }
+        self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
         lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))[rest.used].copy()
         lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
@@ -152,6 +147,7 @@ class Stylization:
             coarsening.rest.input_positions
             + np.stack([means(column, is_pinned) for column in moved], axis=1),
             **self._options,
+            keep_rotation=True,
             is_coarse=True,
         )
 

@@ -41,10 +41,10 @@ def test_it_ends_no_higher_in_fewer_iterations(pins, large, device):
 def test_the_first_iteration_is_near_the_end(large, device):
     V, F = shapes.blob(4)
     gaps = []
-    end = stylize(V, F, 0.5, device=device, tolerance=1e-5)
+    end = stylize(V, F, 0.5, device=device, tolerance=1e-5, keep_rotation=True)
     for is_large in (False, True):
         large(is_large)
-        first = stylize(V, F, 0.5, device=device, max_iterations=1)
+        first = stylize(V, F, 0.5, device=device, max_iterations=1, keep_rotation=True)
         gaps.append(first.energy.total - end.energy.total)
     assert gaps[1] < 0.3 * gaps[0]
 
@@ -75,6 +75,21 @@ def test_slicing_and_repeating_change_no_bit(large, device):
         phases += 1
     assert phases > 2 * run.stylization.iteration  # those of the coarse meshes, too
     np.testing.assert_array_equal(run.result().positions, whole.positions)
+
+
+def test_no_part_turns_on_coarser_meshes(large, device):
+    V, F = shapes.blob(4)
+    V = V @ shapes.rotation(0, 25, 15).T
+    large()
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, device=device))
+    coarse = run._coarse
+    assert coarse.stylization.is_coarse
+    coarse.complete()
+    rest, U = coarse.stylization.rest, coarse.stylization.positions
+    A, B = (X - np.average(X, axis=0, weights=rest.areas) for X in (U, rest.V))
+    P, _, Rt = np.linalg.svd((A * rest.areas[:, None]).T @ B)
+    assert np.linalg.norm(P @ Rt - np.eye(3)) < 1e-6
+    assert np.abs(U - rest.V).max() > 0.05
 
 
 def test_a_part_keeps_its_orientation_on_all_levels(large, device):
@@ -116,8 +131,9 @@ def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
 def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
     V, F = shapes.blob(4)
     large()
-    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.5, device=device))
-    end = stylize(V, F, 0.5, device=device).positions
+    setup = Setup(rest_mesh(V, F))
+    run = Run(Stylization(setup, 0.5, device=device, keep_rotation=True))
+    end = stylize(V, F, 0.5, device=device, keep_rotation=True).positions
     seen, counts = [], []
     while run.is_on_coarser_mesh:
         run.advance()
