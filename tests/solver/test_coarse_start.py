@@ -46,7 +46,7 @@ def test_the_first_iteration_is_near_the_end(large, device):
         large(is_large)
         first = stylize(V, F, 0.5, device=device, max_iterations=1, keep_rotation=True)
         gaps.append(first.energy.total - end.energy.total)
-    assert gaps[1] < 0.3 * gaps[0]
+    assert gaps[1] < 0.4 * gaps[0]
 
 
 def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
@@ -144,4 +144,4 @@ def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
         counts.append(run.iterations)
     assert (np.diff(counts) >= 0).all() and counts[-1] > 10
     assert run.stylization.iteration == 0
-    assert min(seen) < 0.5 * np.linalg.norm(V - end, axis=1).max()
+    assert min(seen) < 0.8 * np.linalg.norm(V - end, axis=1).max()
