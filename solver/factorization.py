@@ -1,14 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
 
-import contextlib
-from typing import Any
-
 import numpy as np
 
-cholespy: Any = None  # optional: about twice as fast as SciPy's LU at solving
-with contextlib.suppress(ImportError):
-    import cholespy
+from .optional_packages import optional_package
 
 
 def factorize(A):
@@ -19,8 +14,9 @@ def factorize(A):
     A : (n,n) csr_matrix
         Symmetric positive definite.
     """
+    cholespy = optional_package("cholespy")  # about twice as fast as SciPy's LU at solving
     if cholespy is not None:
-        return _cholesky(A)
+        return _cholesky(cholespy, A)
     from scipy.sparse.linalg import splu  # takes a tenth of a second to import
 
     lu = splu(
@@ -32,7 +28,7 @@ def factorize(A):
     return lu.solve
 
 
-def _cholesky(A):
+def _cholesky(cholespy, A):
     n = A.shape[0]
     solver = cholespy.CholeskySolverD(
         n,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packages that only large meshes gain from: imported when one comes, done without if missing."""
+"""Packages that the solver can do without: imported when they are needed."""
 
 from functools import cache
 from importlib import import_module

@@ -5,23 +5,17 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 import shapes
+from optional_marks import needs
 
 from solver import factorization
 from solver.cotangents import cotangents
 from solver.spokes_and_rims import spokes_and_rims
 
 
-def has_cholespy():
-    return factorization.cholespy is not None
-
-
-@pytest.mark.parametrize(
-    "use_cholespy",
-    [False, pytest.param(True, marks=pytest.mark.skipif(not has_cholespy(), reason="no cholespy"))],
-)
+@pytest.mark.parametrize("use_cholespy", [False, pytest.param(True, marks=needs("cholespy"))])
 def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
     if not use_cholespy:
-        monkeypatch.setattr(factorization, "cholespy", None)
+        monkeypatch.setattr(factorization, "optional_package", lambda name: None)
     V, F = shapes.skewed_blob()
     m = spokes_and_rims(V, F, cotangents(V, F))
     A = sp.csr_matrix(m.matrix(m.laplacian)[1:, 1:])
