@@ -130,7 +130,10 @@ class Stylization:
         setup, coarsening = self.setup.coarse, self.rest.coarse
         areas = self.rest.areas + 1e-300
         count = len(coarsening.rest.V)
-        _, first = np.unique(coarsening.cluster, return_index=True)
+        Q = self._Q[0]
+        if len(self._Q) > 1:
+            _, first = np.unique(coarsening.cluster, return_index=True)
+            Q = self._Q[first]
 
         def means(values, weights):
             sums = np.bincount(coarsening.cluster, weights * values, count)
@@ -143,7 +146,7 @@ class Stylization:
         return Stylization(
             setup,
             means(self._lam, areas * (1.0 - is_pinned) + 1e-300),
-            self._Q[first] if len(self._Q) > 1 else self._Q[0],
+            Q,
             coarsening.rest.input_positions
             + np.stack([means(column, is_pinned) for column in moved], axis=1),
             **self._options,
