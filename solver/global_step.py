@@ -33,7 +33,6 @@ class GlobalStep:
 
     def __init__(self, rest, pinned):
         n = len(rest.V)
-        self.pinned = pinned
         self._rest = rest
         has_pin = np.zeros(rest.component_count, dtype=bool)
         has_pin[rest.component[pinned]] = True
@@ -87,11 +86,11 @@ def _solver(L, is_held):
 
     The rows of X that are held stay as they are.
     """
+    held, A = np.flatnonzero(is_held), decoupled(L, is_held)
     if len(is_held) > FACTORIZED_VERTICES and has_multigrid():
-        return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held)).solve
-    held = np.flatnonzero(is_held)
+        return Multigrid(L, A, held).solve
     coupling = L[:, held]
-    solve = factorize(decoupled(L, is_held))
+    solve = factorize(A)
 
     def solve_all(B, X):
         rhs = B - coupling @ X[held]
