@@ -17,6 +17,9 @@ _user_folder = tempfile.TemporaryDirectory(prefix="cubic_craft_tests_")
 os.environ["BLENDER_USER_RESOURCES"] = _user_folder.name
 
 import bpy  # noqa: E402
+from scene import select  # noqa: E402
+
+pytest.register_assert_rewrite("live_steps")  # what fails there is then explained as in a test
 
 
 def _extension_zip():
@@ -47,6 +50,29 @@ def extension():
 def empty_file(extension):
     """Start each test with an empty file; the extension stays enabled."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture
+def live(extension):
+    """Return the package of Live; what a test has left running is cancelled."""
+    module = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live")
+    yield module
+    session = module.current()
+    if session is not None:
+        session.on(module.Event.CANCEL)
+
+
+@pytest.fixture
+def begin(live):
+    """Return a function that begins Live on objects, the first with these settings."""
+
+    def start(*objects, **settings):
+        for name, value in settings.items():
+            setattr(objects[0].cubic_craft, name, value)
+        select(*objects)
+        return live.begin(bpy.context, list(objects))
+
+    return start
 
 
 def pytest_unconfigure(config):

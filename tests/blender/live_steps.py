@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tests of Live do with its session, and what they ask of it in the end."""
+
+import importlib
+
+import bpy
+import numpy as np
+
+STEPS = 400
+
+
+def bits(obj):
+    values = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", values)
+    return values.tobytes()
+
+
+def tick_to_rest(session):
+    for _ in range(STEPS):
+        session.tick(bpy.context)
+        bpy.context.view_layer.update()
+        if session.is_ended or session._timer is None:
+            return
+    raise AssertionError("Live does not come to rest")
+
+
+def confirm(live, session):
+    session.on(live.Event.CONFIRM)
+    tick_to_rest(session)
+    assert session.is_ended and not session.error and not session.problems
+    return session
+
+
+def check_gone(live):
+    assert live.current() is None
+    handlers = importlib.import_module(f"{live.__name__}.handlers")
+    wake = importlib.import_module(f"{live.__name__}.wake")
+    assert not handlers.is_installed() and wake._listener is None
+    for name, handler in handlers._HANDLERS:
+        assert handler not in getattr(bpy.app.handlers, name)
+    session = live._session
+    assert session._timer is None
+    assert not session.tasks and session._choice.frame is None
+    for mesh in session.meshes:
+        assert mesh._preview is None and mesh._prepared is None and mesh._run is None
+    for mesh in bpy.data.meshes:
+        assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_live")]

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Live looks at: the frame, weights, handles and settings that change under it."""
+
+import bpy
+import numpy as np
+import pytest
+from live_steps import STEPS, bits, confirm, tick_to_rest
+from posing import LEFT, RIGHT, add_posable, follow, pin, pose
+from rich_mesh import position_of
+from scene import add_monkey, add_triangles, select
+
+
+def test_the_frame_object_restarts_it(live, begin):
+    obj = add_triangles()
+    frame = bpy.data.objects.new("Frame", None)
+    bpy.context.collection.objects.link(frame)
+    session = begin(obj, space="FRAME", frame=frame)
+    assert live.live_properties().frame == "Frame"
+    tick_to_rest(session)
+    before = bits(obj)
+    frame.rotation_euler = (0.3, 0.2, 0.5)
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert bits(obj) != before
+    confirm(live, session)
+    shape = bits(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
+def test_the_frame_object_may_be_deleted(live, begin):
+    obj = add_monkey()
+    frame = bpy.data.objects.new("Frame", None)
+    bpy.context.collection.objects.link(frame)
+    session = begin(obj, space="FRAME", frame=frame)
+    tick_to_rest(session)
+    bpy.data.objects.remove(frame)
+    live.live_properties().cubeness = 0.5
+    tick_to_rest(session)
+    assert "Frame" in session.all_problems[0]
+    live.live_properties().space = "WORLD"
+    confirm(live, session)
+    assert session.summary
+
+
+def test_painted_weights_restart_it(live, begin):
+    obj = add_triangles()
+    group = obj.vertex_groups.new(name="Map")
+    group.add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    session = begin(obj, map_group="Map", cubeness=0.8)
+    tick_to_rest(session)
+    before = bits(obj)
+    bpy.context.view_layer.update()
+    group.add(range(len(obj.data.vertices) // 2), 0.0, "REPLACE")
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert session._timer is not None
+    tick_to_rest(session)
+    assert bits(obj) != before
+    confirm(live, session)
+    shape = bits(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
+def test_weights_changed_before_the_last_shape_is_evaluated_count(live, begin):
+    """Blender tells of both at once then, so that it looks like the update of Live alone."""
+    obj = add_monkey()
+    group = obj.vertex_groups.new(name="Map")
+    group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    session = begin(obj, map_group="Map")
+    for _ in range(STEPS):
+        session.tick(bpy.context)
+        if not session.meshes[0].is_working:
+            break
+        bpy.context.view_layer.update()
+    group.add(range(100), 1.0, "REPLACE")
+    obj.data.update()
+    bpy.context.view_layer.update()
+    shape = bits(obj)
+    tick_to_rest(session)
+    assert bits(obj) != shape
+    session.on(live.Event.CANCEL)
+
+
+def test_weight_paint_goes_on(live, begin):
+    obj = add_monkey()
+    session = begin(obj)
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    tick_to_rest(session)
+    assert not session.is_ended
+    confirm(live, session)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_a_handle_is_posed_live(live, begin):
+    obj, _, right = add_posable()
+    pin(obj, LEFT)
+    empty = follow(obj, RIGHT)
+    session = begin(obj, cubeness=0.0)
+    tick_to_rest(session)
+    before = position_of(obj.data)
+    empty.location.x += 0.7
+    bpy.context.view_layer.update()
+    assert session._timer is not None, "the moved empty has not woken it"
+    tick_to_rest(session)
+    moved = position_of(obj.data) - before
+    np.testing.assert_allclose(moved[right], [[0.7, 0.0, 0.0]] * len(right), atol=1e-5)
+    assert not session.take_back(), "Ctrl-Z is for Blender, which has moved the empty"
+    confirm(live, session)
+    shape = bits(obj)
+    select(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
+def test_a_handle_added_live_counts(live, begin):
+    obj, left, _ = add_posable()
+    original = position_of(obj.data)
+    session = begin(obj, cubeness=0.9)
+    tick_to_rest(session)
+    assert np.abs(position_of(obj.data) - original)[left].max() > 1e-3
+    bpy.ops.cubic_craft.handle_add(group=LEFT)
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert np.array_equal(position_of(obj.data)[left], original[left])
+    live.live_properties().use_handles = False
+    tick_to_rest(session)
+    assert not np.array_equal(position_of(obj.data)[left], original[left])
+
+
+def test_moving_object_and_handles_together_restarts_nothing(live, begin):
+    obj, _, _ = add_posable()
+    empty = pose(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    done = session.meshes[0].iteration
+    obj.location = (0.3, 5.1, -2.7)
+    obj.rotation_euler = (0.4, 1.0, 0.2)
+    bpy.context.view_layer.update()
+    session.tick(bpy.context)
+    assert session.meshes[0].iteration == done and session._timer is None
+    assert empty.parent == obj
+
+
+def test_a_setting_that_cannot_be_used_waits_for_a_better_one(live, begin):
+    obj = add_monkey()
+    session = begin(obj)
+    tick_to_rest(session)
+    live.live_properties().map_group = "Missing"
+    tick_to_rest(session)
+    assert "Missing" in session.all_problems[0]
+    session.on(live.Event.CONFIRM)
+    tick_to_rest(session)
+    assert not session.is_ended, "there is nothing to confirm"
+    live.live_properties().map_group = ""
+    tick_to_rest(session)
+    assert not session.all_problems
+    confirm(live, session)
+    assert session.summary
+
+
+def test_auto_orient_turns_the_live_cube(live, begin):
+    obj = add_triangles()
+    session = begin(obj)
+    session.tick(bpy.context)
+    bpy.ops.cubic_craft.auto_orient()
+    found = tuple(live.live_properties().orientation)
+    assert any(found) and not any(obj.cubic_craft.orientation)
+    session.on(live.Event.CANCEL)
+    bpy.ops.cubic_craft.auto_orient()
+    assert tuple(obj.cubic_craft.orientation) == pytest.approx(found, abs=1e-6)

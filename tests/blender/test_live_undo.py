@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live and Ctrl-Z: undo steps of Blender before and during it, and its own taking back."""
+
+import bpy
+import pytest
+from live_steps import bits, check_gone, confirm, tick_to_rest
+from mathutils import Matrix
+from scene import add_monkey, add_triangles, select
+
+
+def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    obj.location.x = 1.0
+    bpy.ops.ed.undo_push(message="Moved")
+    original = bits(obj)
+    session = begin(obj)
+    session.tick(bpy.context)
+    assert bits(obj) != original
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Suzanne"]
+    assert obj.location.x == 0.0
+    tick_to_rest(session)
+    assert not session.is_ended and not session.error
+    assert bits(obj) != original
+    session.on(live.Event.CANCEL)
+    assert bits(obj) == original
+    check_gone(live)
+
+
+def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    original = bits(obj)
+    session = begin(obj)
+    session.tick(bpy.context)
+    bpy.data.objects["Suzanne"].location.x = 1.0
+    bpy.ops.ed.undo_push(message="Moved in the middle of Live")
+    session.tick(bpy.context)
+    session.on(live.Event.CANCEL)
+    bpy.ops.ed.undo_push(message="After")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Suzanne"]
+    assert obj.location.x == 1.0
+    assert bits(obj) == original
+    check_gone(live)
+
+
+def test_undo_of_the_object_ends_it(live, begin):
+    bpy.ops.ed.undo_push(message="Empty")
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    session = begin(obj)
+    session.tick(bpy.context)
+    bpy.ops.ed.undo()
+    assert "Suzanne" not in bpy.data.objects
+    session.tick(bpy.context)
+    assert session.is_ended and not session.error
+    check_gone(live)
+
+
+def test_undo_to_another_shape_starts_from_that(live, begin):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    obj.data.transform(Matrix.Scale(2.0, 4, (1, 0, 0)))
+    bpy.ops.ed.undo_push(message="Stretched")
+    session = begin(obj)
+    tick_to_rest(session)
+    bpy.ops.ed.undo()
+    confirm(live, session)
+    obj = bpy.data.objects["Suzanne"]
+    shape = bits(obj)
+    select(obj)
+    bpy.ops.cubic_craft.restore()
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
+def test_taking_back_goes_through_the_settings_first(live, begin):
+    obj = add_monkey()
+    original = bits(obj)
+    session = begin(obj, cubeness=0.4)
+    session.tick(bpy.context)
+    live.live_properties().cubeness = 0.9
+    session.tick(bpy.context)
+    assert session.take_back()
+    assert live.live_properties().cubeness == pytest.approx(0.4)
+    session.tick(bpy.context)
+    assert not session.is_ended
+    assert session.take_back()
+    assert session.is_ended and bits(obj) == original
+
+
+def test_taking_back_leaves_moved_objects_to_blender(live, begin):
+    obj = add_monkey()
+    session = begin(obj, space="WORLD")
+    session.tick(bpy.context)
+    obj.rotation_euler.x = 0.5
+    bpy.context.view_layer.update()
+    session.tick(bpy.context)
+    assert not session.take_back()
+    assert not session.is_ended
+
+
+def test_taking_back_ends_live_where_blender_has_undone_all_of_it(live, begin):
+    obj = add_triangles()
+    frame = bpy.data.objects.new("Frame", None)
+    frame.rotation_euler.x = 0.5
+    bpy.context.collection.objects.link(frame)
+    obj.cubic_craft.space, obj.cubic_craft.frame = "FRAME", frame
+    bpy.ops.ed.undo_push(message="Before Live")
+    name, original = obj.name, bits(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    bpy.data.objects["Frame"].location.x = 1.0
+    bpy.ops.ed.undo_push(message="Moved")
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    bpy.ops.ed.redo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert not session.take_back(), "the move is Blender's to undo"
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert not session.is_ended
+    assert session.take_back() and session.is_ended
+    assert bits(bpy.data.objects[name]) == original
+    check_gone(live)
