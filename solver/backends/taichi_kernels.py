@@ -7,7 +7,9 @@ that results are the same bit for bit.
 
 Python runs through each kernel once per process, even when it is compiled already, and spends about
 as long on a product of two matrices in Taichi's own words as on a hundred products of scalars. So
-small algebra is `compile_time_algebra`, on entries; what is left are vectors and control flow.
+small algebra is `compile_time_algebra`, on entries; what is left are vectors and control flow. The
+loops over neighbours could end early, for an index that never comes: else LLVM makes vector loops
+of them, which gain nothing with six neighbours and take as long to load as all the rest.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
@@ -118,7 +120,10 @@ def make_kernels(real):
             S = mat3(0.0)
             quadratic = real(0.0)
             for entry in range(indptr[i], indptr[i + 1]):
-                edge = U[indices[entry]] - here
+                j = indices[entry]
+                if j < 0:
+                    break
+                edge = U[j] - here
                 S += mat3(ti.static(outer(*gather[entry], *edge)))
                 quadratic += weights[entry] * ti.static(dot(*edge, *edge))[0]
             S /= area_scale[i]
@@ -173,7 +178,7 @@ def make_kernels(real):
                         crossed = (1 - free) * (1 - active) * ti.cast(x * s < -real(slack), real)
                         beyond = ti.cast(size > real(1 + slack), real) + crossed
                         is_done = is_done and ti.static(total(*beyond))[0] == 0
-                        s = ti.select(freed, s / size, s)
+                        s = ti.select(freed, 2 * ti.cast(s > 0, real) - 1, s)
                         active = (1 - free) * active + crossed
                         if ti.static(total(*active))[0] > 2:
                             size = ti.abs(x)
@@ -200,7 +205,10 @@ def make_kernels(real):
         for i in range(rhs.shape[0]):
             total = vec3(0.0)
             for entry in range(indptr[i], indptr[i + 1]):
-                total += vec3(ti.static(times(*R[indices[entry]], *scatter[entry])))
+                j = indices[entry]
+                if j < 0:
+                    break
+                total += vec3(ti.static(times(*R[j], *scatter[entry])))
             rhs[i] = total / 3
 
     return SimpleNamespace(local_step=local_step, right_hand_side=right_hand_side)
