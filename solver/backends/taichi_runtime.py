@@ -109,12 +109,12 @@ class _WholeLines(TextWrapper):
 
 @contextlib.contextmanager
 def _quick_module_search():
-    """Let `inspect` look up the module of a frame by its name, instead of going through all.
+    """Let `inspect` take the module in whose namespace a frame runs, instead of searching all.
 
     Taichi looks at the line of source around each function that is declared for it, hundreds of
     its own ones included, and each time `inspect` compares the files of all modules that are
-    loaded: half of the time of Taichi's import, and more the more is loaded. The answer is the
-    same; where the name does not tell, `inspect` searches as before.
+    loaded: half of the time of Taichi's import, and more the more is loaded. It finds the same
+    one, or none where the code lies in no file. Frames outside of modules are searched as before.
     """
     search = inspect.getmodule
 
