@@ -197,12 +197,15 @@ def test_a_gpu_is_used_or_refused_but_never_crashes():
 def test_quick_compilation_changes_no_bit_and_leaves_taichi_as_it_was():
     passes(
         """
+        import inspect
         import textwrap
+        getmodule = inspect.getmodule
         from solver.backends import choice, taichi_runtime
         import contextlib
         quick = stylize(V, F, device="cpu", max_iterations=5).positions
         from taichi.lang.ast import ast_transformer_utils
         assert ast_transformer_utils.TextWrapper is textwrap.TextWrapper
+        assert inspect.getmodule is getmodule
         taichi_runtime.import_taichi().reset()  # else the kernels would not be compiled again
         choice.quick_compilation = contextlib.nullcontext
         slow = stylize(V, F, device="cpu", max_iterations=5).positions
@@ -242,3 +245,63 @@ def test_errors_in_kernels_keep_their_place_under_quick_compilation(tmp_path):
 def test_the_first_result_needs_no_graph_search_of_scipy():
     # its import takes longer than the set-up of a small mesh
     passes("stylize(V, F, max_iterations=2); assert 'scipy.sparse.csgraph' not in sys.modules")
+
+
+@needs_taichi
+def test_taichi_is_imported_and_its_kernels_compiled_without_searching_all_modules():
+    passes(
+        """
+        import inspect
+        searched = []
+        getmodule = inspect.getmodule
+        def spy(object, _filename=None):
+            searched.append(object)
+            return getmodule(object, _filename)
+        inspect.getmodule = spy
+        stylize(V, F, device="cpu", max_iterations=2)
+        assert inspect.getmodule is spy
+        assert not any(map(inspect.isframe, searched)), searched
+        """
+    )
+
+
+def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):
+    (tmp_path / "elsewhere.py").write_text("import sys\nframe = sys._getframe()\n")
+    passes(
+        f"""
+        import inspect
+        from solver.backends.taichi_runtime import _quick_module_search
+        sys.path.insert(0, {str(tmp_path)!r})
+        import elsewhere
+        nowhere = {{"__name__": "elsewhere", "sys": sys}}
+        exec("frame = sys._getframe()", nowhere)
+        nameless = {{"sys": sys}}
+        exec("frame = sys._getframe()", nameless)
+        frames = [elsewhere.frame, nowhere["frame"], nameless["frame"]]
+        expected = list(map(inspect.getmodule, frames))
+        assert expected[0] is elsewhere
+        with _quick_module_search():
+            assert list(map(inspect.getmodule, frames)) == expected
+            assert inspect.getmodule(stylize) is sys.modules["solver.runner"]
+        """
+    )
+
+
+@needs_taichi
+def test_no_function_of_taichi_is_compiled_into_the_kernels():
+    # each costs as much at every start as a tenth of a whole kernel
+    passes(
+        """
+        from solver.backends import taichi_runtime
+        taichi_runtime.import_taichi()
+        from taichi.lang import kernel_impl
+        compiled = []
+        original = kernel_impl._get_tree_and_ctx
+        def spy(function, *args, **kwargs):
+            compiled.append(function.func.__module__)
+            return original(function, *args, **kwargs)
+        kernel_impl._get_tree_and_ctx = spy
+        stylize(V, F, device="cpu", max_iterations=2)
+        assert set(compiled) == {"solver.backends.taichi_kernels"}, compiled
+        """
+    )
