@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .acceleration import Nesterov
+from .acceleration import Momentum
 from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
@@ -95,7 +95,7 @@ class Stylization:
         self._U[setup.pinned] = rest.box.to_unit(self._targets[held])
         self._start = self._U  # where the next local step looks
         count = rest.component_count
-        self._acceleration = Nesterov(rest.component, count) if is_accelerated else None
+        self._acceleration = Momentum(rest.component, count) if is_accelerated else None
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
@@ -185,7 +185,7 @@ class Stylization:
         if self._acceleration is None:
             self._start = U
         else:
-            self._start = self._acceleration.extrapolate(U, self._U)
+            self._start = self._acceleration.extrapolate(U, self._U, self._start)
         self._U = U
         self.iteration += 1
 

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from solver import stylize
-from solver.acceleration import Nesterov
+from solver.acceleration import FURTHER, Momentum
 
 
 @pytest.mark.parametrize("name", ["blob", "skewed_blob", "sphere"])
@@ -24,25 +24,38 @@ def test_it_ends_where_the_plain_iteration_does_in_fewer_iterations(name, cubene
 
 def test_the_momentum_of_a_component_is_its_own():
     component = np.array([0, 0, 1])
-    both = Nesterov(component, 2)
-    alone = [Nesterov(np.zeros(2, int), 1), Nesterov(np.zeros(1, int), 1)]
+    both = Momentum(component, 2)
+    alone = [Momentum(np.zeros(2, int), 1), Momentum(np.zeros(1, int), 1)]
     random = np.random.default_rng(3)
     for step in range(6):
-        new, old = random.normal(size=(2, 3, 3))
+        new, old, start = random.normal(size=(3, 3, 3))
         energies = np.array([-float(step), float(step == 3)])  # the second one rises once
         both.see(energies)
         alone[0].see(energies[:1])
         alone[1].see(energies[1:])
-        expected = [alone[0].extrapolate(new[:2], old[:2]), alone[1].extrapolate(new[2:], old[2:])]
-        np.testing.assert_allclose(both.extrapolate(new, old), np.concatenate(expected))
+        expected = [
+            alone[0].extrapolate(new[:2], old[:2], start[:2]),
+            alone[1].extrapolate(new[2:], old[2:], start[2:]),
+        ]
+        np.testing.assert_allclose(both.extrapolate(new, old, start), np.concatenate(expected))
 
 
-def test_it_starts_without_momentum_and_restarts_when_the_energy_rises():
-    nesterov = Nesterov(np.zeros(4, int), 1)
+def test_momentum_grows_until_the_energy_rises():
+    momentum = Momentum(np.zeros(4, int), 1)
     new, old = np.ones((4, 3)), np.zeros((4, 3))
-    nesterov.see(np.array([5.0]))
-    np.testing.assert_array_equal(nesterov.extrapolate(new, old), new)
-    nesterov.see(np.array([4.0]))
-    assert nesterov.extrapolate(new, old).min() > 1.2
-    nesterov.see(np.array([4.1]))
-    np.testing.assert_array_equal(nesterov.extrapolate(new, old), new)
+
+    def extrapolated(energy):
+        momentum.see(np.array([energy]))
+        return momentum.extrapolate(new, old, new).max()  # no further step
+
+    first, second, third = (extrapolated(energy) for energy in (5.0, 4.0, 3.0))
+    assert 1.0 < first < second < third < 2.0
+    assert extrapolated(3.1) == 1.0
+    assert 1.0 < extrapolated(3.0) < first
+
+
+def test_it_goes_further_along_the_step():
+    momentum = Momentum(np.zeros(4, int), 1)
+    new, start = np.ones((4, 3)), np.zeros((4, 3))
+    point = momentum.extrapolate(new, new, start)  # no momentum
+    assert 1.0 < point.min() == point.max() < 1.0 + FURTHER
