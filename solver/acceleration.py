@@ -20,27 +20,22 @@ class Nesterov:
 
     Parameters
     ----------
-    component : (n,) int array
-        Component of each vertex.
     count : int
         Number of components.
     """
 
-    def __init__(self, component, count):
-        self._component = component
+    def __init__(self, count):
         self._t = np.ones(count)
         self._energies = np.full(count, np.inf)
 
     def see(self, energies):
-        """Take in the energies (count,) of the point of `extrapolate`; restart what has risen."""
+        """Take in the energies (count,) of the extrapolated point; restart what has risen."""
         self._t[energies > self._energies] = 1.0
         self._energies = energies
 
-    def extrapolate(self, new, old):
-        """Return the point (n,3) that the next step starts from, given the last two positions."""
+    def momentum(self):
+        """Return how far each component goes on from its new positions, in steps: (count,)."""
         t_next = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * self._t * self._t))
         momentum = (self._t - 1.0) / t_next
         self._t = t_next
-        if len(momentum) > 1:
-            momentum = momentum[self._component][:, None]
-        return new + momentum * (new - old)
+        return momentum

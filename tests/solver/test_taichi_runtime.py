@@ -242,3 +242,15 @@ def test_errors_in_kernels_keep_their_place_under_quick_compilation(tmp_path):
 def test_the_first_result_needs_no_graph_search_of_scipy():
     # its import takes longer than the set-up of a small mesh
     passes("stylize(V, F, max_iterations=2); assert 'scipy.sparse.csgraph' not in sys.modules")
+
+
+@needs_taichi
+def test_small_meshes_do_not_pay_for_the_kernels_of_large_ones():
+    passes(
+        """
+        stylize(V, F, max_iterations=2)
+        assert "solver.backends.taichi_kernels" in sys.modules
+        assert "solver.backends.taichi_motion_kernels" not in sys.modules
+        assert "solver.backends.taichi_cycle_kernels" not in sys.modules
+        """
+    )
