@@ -64,7 +64,7 @@ def make_motion_kernels(real):
         means: vectors,
         covariances: matrices,
     ):
-        """Sum what each chunk adds to the centroid of its component, and to the covariance with V."""
+        """Sum what each chunk adds to the centroid of a component and to its covariance with V."""
         for c in range(component.shape[0]):
             about = centre[component[c]]
             mean, covariance = vec3(0.0), mat3(0.0)
