@@ -30,36 +30,30 @@ class Momentum:
 
     Parameters
     ----------
-    component : (n,) int array
-        Component of each vertex.
     count : int
         Number of components.
     """
 
-    def __init__(self, component, count):
-        self._component = component
+    def __init__(self, count):
         self._t = np.full(count, START)
         self._energies = np.full(count, np.inf)
 
     def see(self, energies):
-        """Take in the energies (count,) of the point of `extrapolate`; restart what has risen."""
+        """Take in the energies (count,) of the extrapolated point; restart what has risen."""
         self._t[energies > self._energies] = 1.0
         self._energies = energies
 
-    def extrapolate(self, new, old, start):
-        """Return the point (n,3) that the next step starts from.
+    def next(self):
+        """Return how far to go on from the new positions, for each component.
 
-        Parameters
-        ----------
-        new, old : (n,3) array
-            The last two positions.
-        start : (n,3) array
-            The point that the step to the new positions started from.
+        Returns
+        -------
+        momentum : (count,) array
+            In ways from the positions before to the new ones.
+        further : (count,) array
+            In steps from the extrapolated point to the new positions.
         """
         t_next = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * self._t * self._t))
         momentum, further = (self._t - 1.0) / t_next, FURTHER * self._t / t_next
         self._t = t_next
-        if len(momentum) > 1:
-            momentum = momentum[self._component][:, None]
-            further = further[self._component][:, None]
-        return new + momentum * (new - old) + further * (new - start)
+        return momentum, further

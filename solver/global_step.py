@@ -29,6 +29,11 @@ class GlobalStep:
     ------
     CubicCraftError
         All vertices are pinned.
+
+    Attributes
+    ----------
+    multigrid : Multigrid or None
+        None where the matrix is factorised.
     """
 
     def __init__(self, rest, pinned):
@@ -42,7 +47,13 @@ class GlobalStep:
             raise CubicCraftError("all vertices are pinned; leave some of them free")
         _, first_vertex = np.unique(rest.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
-        self._solve = _solver(rest.matrices.matrix(rest.matrices.laplacian), is_held)
+        L = rest.matrices.matrix(rest.matrices.laplacian)
+        self.multigrid = None
+        if n > FACTORIZED_VERTICES and has_multigrid():
+            self.multigrid = Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
+            self._solve = self.multigrid.solve
+        else:
+            self._solve = _solver(L, is_held)
         self._floating = None if has_pin.all() else self._centring_weights(has_pin)
 
     def _centring_weights(self, has_pin):
@@ -82,15 +93,13 @@ class GlobalStep:
 
 
 def _solver(L, is_held):
-    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B, or nearer to it.
+    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B.
 
     The rows of X that are held stay as they are.
     """
-    held, A = np.flatnonzero(is_held), decoupled(L, is_held)
-    if len(is_held) > FACTORIZED_VERTICES and has_multigrid():
-        return Multigrid(L, A, held).solve
+    held = np.flatnonzero(is_held)
     coupling = L[:, held]
-    solve = factorize(A)
+    solve = factorize(decoupled(L, is_held))
 
     def solve_all(B, X):
         rhs = B - coupling @ X[held]

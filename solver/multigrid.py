@@ -9,13 +9,15 @@ set-up takes time and memory in proportion to the mesh: 395 k vertices in a quar
 the Cholesky factorisation.
 """
 
+from functools import cached_property
+
 import numpy as np
 import scipy.sparse as sp
 
 from .factorization import factorize
 from .optional_packages import optional_package
 
-_COARSEST = 2000  # unknowns; so few are factorised
+_COARSEST = 1000  # unknowns; so few are solved exactly
 _SMOOTHED_PART = 4.0  # the smoother damps the upper end of the spectrum, down to this fraction
 
 
@@ -27,7 +29,8 @@ def has_multigrid():
 class Multigrid:
     """One V-cycle, as an approximate inverse of a sparse positive definite matrix.
 
-    The corrections are computed in 32 bit; what they correct is not.
+    The corrections are computed in 32 bit; what they correct is not. `backends/taichi_cycle.py`
+    does the same with all cores.
 
     Parameters
     ----------
@@ -37,61 +40,106 @@ class Multigrid:
         The same without what couples to the rows that are held: positive definite.
     held : (k,) int array
         Rows of the solution that stay as they are given.
+
+    Attributes
+    ----------
+    levels : list of Level
+        All but the coarsest, from fine to coarse. The matrix of each is scaled on both sides to a
+        diagonal of ones.
+    scale : (n,) float32 array
+        What the residual is multiplied by before the cycle, and the correction after it; 0 for what
+        is held.
+    coarsest : csr_matrix
+        The scaled matrix of the coarsest level.
     """
 
     def __init__(self, A, decoupled, held):
-        self._A, self._held = A, held
-        hierarchy = optional_package("pyamg").smoothed_aggregation_solver(
-            decoupled,
-            B=np.ones((decoupled.shape[0], 1)),
-            smooth=("jacobi", {"weighting": "local"}),  # the others draw random numbers
-            improve_candidates=None,
-            presmoother=None,
-            postsmoother=None,
-            max_coarse=_COARSEST,
+        self._A = A
+        hierarchy = (
+            optional_package("pyamg")
+            .smoothed_aggregation_solver(
+                decoupled,
+                B=np.ones((decoupled.shape[0], 1)),
+                smooth=("jacobi", {"weighting": "local"}),  # the others draw random numbers
+                improve_candidates=None,
+                presmoother=None,
+                postsmoother=None,
+                max_coarse=_COARSEST,
+            )
+            .levels
         )
-        self._levels = [_Level(level.A, level.P) for level in hierarchy.levels[:-1]]
-        self._solve_coarsest = factorize(hierarchy.levels[-1].A.tocsr())
+        scales = [1.0 / np.sqrt(level.A.diagonal()) for level in hierarchy]
+        self.levels = [
+            Level(_scaled(level.A, fine, fine), _scaled(level.P, 1.0 / fine, coarse), fine)
+            for level, fine, coarse in zip(hierarchy, scales, scales[1:], strict=False)
+        ]
+        self.coarsest = _scaled(hierarchy[-1].A, scales[-1], scales[-1])
+        self.scale = scales[0].astype(np.float32)
+        self.scale[held] = 0.0
 
     def solve(self, B, near):
         """Return X (n,3), nearer to A X = B than the given one (n,3)."""
-        rest = (B.T - _product(self._A, np.ascontiguousarray(near.T))).astype(np.float32)
-        rest[:, self._held] = 0.0
-        return near + self._cycle(rest, 0).T
+        rest = (B.T - _product(self._A, np.ascontiguousarray(near.T))) * self.scale
+        return near + (self.scale * self._cycle(rest.astype(np.float32), 0)).T
 
     def _cycle(self, B, depth):
-        if depth == len(self._levels):
+        if depth == len(self.levels):
             return self._solve_coarsest(B.T.astype(np.float64)).T.astype(np.float32)
-        level = self._levels[depth]
+        level = self.levels[depth]
         X = level.smooth(B)
         rest = _product(level.restrict, B - _product(level.A, X))
         X += _product(level.P, self._cycle(rest, depth + 1))
         X += level.smooth(B - _product(level.A, X))
         return X
 
+    @cached_property
+    def _solve_coarsest(self):
+        return factorize(self.coarsest)
 
-class _Level:
-    """One level of the hierarchy but the coarsest."""
 
-    def __init__(self, A, P):
-        self.A = sp.csr_matrix(A, dtype=np.float32)
-        self.P = sp.csr_matrix(P, dtype=np.float32)
+class Level:
+    """One level of the hierarchy but the coarsest.
+
+    Parameters
+    ----------
+    A : (n,n) csr_matrix
+        With a diagonal of ones.
+    P : (n,k) csr_matrix
+        Prolongation from the next level.
+    scale : (n,) array
+        What A was multiplied by on both sides.
+
+    Attributes
+    ----------
+    A, P, restrict : csr_matrix
+        In 32 bit; the last is the transpose of P.
+    of_b, of_ab : float32
+        The smoother is of_b B + of_ab A B, the Chebyshev polynomial of degree 2 that damps the
+        upper end of the spectrum.
+    """
+
+    def __init__(self, A, P, scale):
+        self.A, self.P = A.astype(np.float32), P.astype(np.float32)
         self.restrict = self.P.T.tocsr()
-        diagonal = self.A.diagonal()
-        # Gershgorin's bound of the spectrum of D^-1 A
-        greatest = float((np.asarray(abs(self.A).sum(axis=1)).ravel() / diagonal).max())
+        # Gershgorin's bound of the spectrum, from the matrix scaled on one side
+        greatest = float((scale * (abs(A) @ (1.0 / scale))).max())
         least = greatest / _SMOOTHED_PART
         centre, radius = (greatest + least) / 2, (greatest - least) / 2
         second = 1 / (2 * centre / radius - radius / centre)
-        self._first_step = 1 / centre / diagonal
-        self._momentum = np.float32(second * radius / centre)
-        self._second_step = (2 * second / radius / diagonal).astype(np.float32)
+        of_rest = 2 * second / radius
+        self.of_b = np.float32((1 + second * radius / centre) / centre + of_rest)
+        self.of_ab = np.float32(-of_rest / centre)
 
     def smooth(self, B):
-        """Return the Chebyshev polynomial of degree 2 of D^-1 A that damps the upper spectrum."""
-        step = self._first_step * B
-        rest = B - _product(self.A, step)
-        return step + (self._momentum * step + self._second_step * rest)
+        """Return the smoothed B (3,n)."""
+        return self.of_b * B + self.of_ab * _product(self.A, B)
+
+
+def _scaled(A, left, right):
+    """Return diag(left) A diag(right) as csr_matrix."""
+    A = sp.csr_matrix(A)
+    data = A.data * np.repeat(left, np.diff(A.indptr)) * right[A.indices]
+    return sp.csr_matrix((data, A.indices, A.indptr), shape=A.shape)
 
 
 def _product(A, X):

@@ -13,9 +13,12 @@ from .mesh_checks import check_mesh
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .unit_box import UnitBox, unit_box
+from .vertex_order import vertex_order
 
 COARSENING = 4
 """triangles of a mesh for each triangle of its coarser mesh"""
+
+_CHUNK = 256
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class RestMesh:
     input_positions: np.ndarray
     """(N,3) float64 rest positions as given, loose vertices included"""
     used: np.ndarray
-    """(n,) int vertices of the input that lie in a triangle, ascending"""
+    """(n,) int vertices of the input that lie in a triangle; ascending, unless the mesh is large"""
     box: UnitBox
     V: np.ndarray
     """(n,3) float64 rest positions in the unit box"""
@@ -67,6 +70,19 @@ class RestMesh:
         V, F, cluster = decimated
         return Coarsening(rest_mesh(V, F), cluster)
 
+    @cached_property
+    def chunks(self):
+        """Up to 256 vertices each, one after the other and of one component, for sums in parallel.
+
+        (k+1,) int32 where each begins, and (k,) int32 the component of each.
+        """
+        is_start = np.zeros(len(self.V), dtype=bool)
+        is_start[::_CHUNK] = True
+        is_start[1:] |= self.component[1:] != self.component[:-1]
+        start = np.flatnonzero(is_start)
+        bounds = np.append(start, len(self.V)).astype(np.int32)
+        return bounds, self.component[start].astype(np.int32)
+
     def sum_parts(self, values):
         """Sum values (n,) over each component, to (component_count,)."""
         if self.component_count == 1:
@@ -92,7 +108,7 @@ def rest_mesh(V, F):
         See `check_mesh`.
     """
     input_positions, F = check_mesh(V, F)
-    used, F = _used_vertices(F, len(input_positions))
+    used, F = _ordered(*_used_vertices(F, len(input_positions)))
     V = input_positions[used]
     box = unit_box(V)
     V = box.to_unit(V)
@@ -113,3 +129,13 @@ def _used_vertices(F, count):
         return used, F.copy()  # it may be the caller's
     number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
     return used, number[F]
+
+
+def _ordered(used, F):
+    """Put the vertices that are used, and F, in the order of `vertex_order`."""
+    order = vertex_order(F, len(used))
+    if order is None:
+        return used, F
+    number = np.empty(len(order), dtype=np.int32)
+    number[order] = np.arange(len(order), dtype=np.int32)
+    return used[order], number[F]

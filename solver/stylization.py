@@ -10,7 +10,6 @@ from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
 from .mesh_checks import per_vertex
-from .placement import turn_back
 
 _FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
 
@@ -90,12 +89,11 @@ class Stylization:
         make_local_step = local_step_class(device, precision)
         self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         self._targets = _targets(targets, setup)
-        self._U = rest.V.copy()
+        U = rest.V.copy()
         held = rest.used[setup.pinned]
-        self._U[setup.pinned] = rest.box.to_unit(self._targets[held])
-        self._start = self._U  # where the next local step looks
-        count = rest.component_count
-        self._acceleration = Momentum(rest.component, count) if is_accelerated else None
+        U[setup.pinned] = rest.box.to_unit(self._targets[held])
+        self._motion = self._local.motion(setup, U)
+        self._acceleration = Momentum(rest.component_count) if is_accelerated else None
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
@@ -118,7 +116,7 @@ class Stylization:
     @property
     def positions(self):
         """(n,3) present positions in the unit box, of the vertices of `rest`."""
-        return self._U
+        return self._motion.positions
 
     @property
     def rotations(self):
@@ -142,7 +140,7 @@ class Stylization:
 
         is_pinned = np.zeros(len(self.rest.V))
         is_pinned[self.setup.pinned] = 1.0
-        moved = (self._U - self.rest.V).T
+        moved = (self.positions - self.rest.V).T
         return Stylization(
             setup,
             means(self._lam, areas * (1.0 - is_pinned) + 1e-300),
@@ -157,11 +155,9 @@ class Stylization:
     def start_from(self, R, near):
         """Let the iteration begin with rotations (n,3,3) and positions (n,3) of the unit box."""
         self._local.start_from(R)
-        near[self.setup.pinned] = self._U[self.setup.pinned]
-        rhs = self._local.right_hand_side()
-        for _ in range(_FIRST_SOLVES):
-            near = self.setup.global_step.positions(rhs, near)
-        self._U = self._start = near
+        near[self.setup.pinned] = self.positions[self.setup.pinned]
+        self._motion.put(near)
+        self._motion.relax(_FIRST_SOLVES)
 
     def step(self):
         """Do one local and one global step."""
@@ -170,28 +166,23 @@ class Stylization:
 
     def local_step(self):
         """Fit the rotations to the positions."""
-        arap, cubic = self._local.update(self._start)
+        arap, cubic = self._local.update(self._motion.point)
         if self._acceleration is not None:
             self._acceleration.see(arap + cubic)
         self.energy = Energy(float(arap.sum()), float(cubic.sum()))
 
     def global_step(self):
         """Move the positions toward the rotations of the local step before."""
-        U = self.setup.global_step.positions(self._local.right_hand_side(), self._start)
-        if self._keep_rotation:
-            U = turn_back(self.rest, U, self.setup.has_pin)
-        self.displacement = float(np.abs(U - self._U).max())
-        self.distance = float(np.abs(U - self.rest.V).max())
         if self._acceleration is None:
-            self._start = U
+            momentum = further = np.zeros(self.rest.component_count)
         else:
-            self._start = self._acceleration.extrapolate(U, self._U, self._start)
-        self._U = U
+            momentum, further = self._acceleration.next()
+        self.displacement, self.distance = self._motion.step(momentum, further, self._keep_rotation)
         self.iteration += 1
 
     def finish(self):
         """Fit the rotations to the last positions and return the Energy of both."""
-        self._start = self._U
+        self._motion.look_at_positions()
         self.local_step()
         return self.energy
 
@@ -206,7 +197,7 @@ class Stylization:
             Local steps; each starts from the rotations of the one before, and the best counts.
         """
         used = np.asarray(positions, dtype=np.float64)[self.rest.used]
-        self._U = self.rest.box.to_unit(used)
+        self._motion.put(self.rest.box.to_unit(used))
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
     def placed(self, R=None, U=None):
@@ -223,7 +214,7 @@ class Stylization:
         """Return the positions alone, for those who look on while it runs."""
         rest = self.rest
         positions = rest.input_positions.copy()
-        positions[rest.used] = rest.box.from_unit(self._U if U is None else U)
+        positions[rest.used] = rest.box.from_unit(self.positions if U is None else U)
         held = self.setup.pinned_input
         positions[held] = self._targets[held]
         return positions

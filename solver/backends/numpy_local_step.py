@@ -6,6 +6,7 @@ import numpy as np
 from ..active_set import active_set_rotations, starting_signs
 from ..admm import admm_rotations
 from ..local_problem import LocalProblem
+from ..motion import Motion
 from ..rotation_fit import orthonormalize
 
 SMALLEST_AREA = 1e-30
@@ -53,6 +54,10 @@ class NumpyLocalStep:
         Q = np.broadcast_to(Q, (n, 3, 3))
         self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
         self._s = starting_signs(self._rest_problem.cube_normals(self.R))
+
+    def motion(self, setup, U):
+        """Return the Motion that follows these rotations, from positions U (n,3)."""
+        return Motion(setup, self, U)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""

@@ -2,7 +2,7 @@
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
 import time
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -10,8 +10,10 @@ from ..active_set import starting_signs
 from ..admm import admm_rotations
 from ..errors import CubicCraftError
 from ..local_problem import LocalProblem
+from ..motion import Motion
 from . import taichi_runtime
 from .numpy_local_step import area_scale, local_cubeness
+from .rehearsal import rehearse
 
 
 class TaichiLocalStep:
@@ -31,6 +33,8 @@ class TaichiLocalStep:
         Such as "taichi-cpu".
     resolution : float
         As in `NumpyLocalStep`.
+    precision, real : str and dtype
+        The precision, "f64" or "f32", and NumPy's type for it.
     compile_seconds : float
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
@@ -45,7 +49,7 @@ class TaichiLocalStep:
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         self._kernels = _kernels(precision)
-        self._real = real
+        self.precision, self.real = precision, real
         m = rest.matrices
         n = len(rest.V)
 
@@ -84,7 +88,24 @@ class TaichiLocalStep:
             self._energies,
             self._certified,
         )
+        self._sum_on_device = None
         self.compile_seconds = _compile(self._kernels, self._arguments, precision)
+
+    def motion(self, setup, U):
+        """Return the Motion that follows these rotations, from positions U (n,3)."""
+        if setup.global_step.multigrid is None:
+            return Motion(setup, self, U)
+        from .taichi_motion import TaichiMotion, motion_kernels
+
+        bounds, self._chunk_component = setup.rest.chunks
+        self._sums = np.empty((len(self._chunk_component), 3), self.real)
+        weight = self._cubic_weight.astype(self.real)
+        arguments = (bounds, self._energies, weight, self._certified, self._sums)
+        kernel = motion_kernels(self.precision).sum_energies
+        self._sum_on_device = partial(kernel, *arguments)
+        motion = TaichiMotion(setup, self, U)
+        self.compile_seconds += rehearse([(kernel, arguments)]) + motion.compile_seconds
+        return motion
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
@@ -94,14 +115,27 @@ class TaichiLocalStep:
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         taichi_runtime.start(self._wanted)  # another add-on may have reset it since
-        U = np.ascontiguousarray(U, dtype=self._real)
+        U = np.ascontiguousarray(U, dtype=self.real)
         self._kernels.local_step(U, *self._arguments)
+        if self._sum_on_device is not None:
+            return self._summed(U, self._sum_on_device)
         rows = np.flatnonzero(self._certified == 0)
         if len(rows):
             self._solve_by_admm(U, rows)
         quadratic, trace, l1 = self._energies.T.astype(np.float64)
         arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
         return arap, self._rest.sum_parts(self._cubic_weight * l1)
+
+    def _summed(self, U, sum_on_device):
+        """Return the energies of a large mesh."""
+        sum_on_device()
+        if self._sums[:, 2].any():
+            self._solve_by_admm(U, np.flatnonzero(self._certified == 0))
+            sum_on_device()
+        arap, cubic, _ = self._sums.T.astype(np.float64)
+        count = self._rest.component_count
+        arap = self._rest_quadratic + np.bincount(self._chunk_component, arap, count)
+        return arap, np.bincount(self._chunk_component, cubic, count)
 
     def _solve_by_admm(self, U, rows):
         """Find the rotations of some rows that the kernel has left as they were."""
@@ -121,6 +155,15 @@ class TaichiLocalStep:
         taichi_runtime.start(self._wanted)
         self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self.R, self._rhs)
         return self._rhs.astype(np.float64, copy=False)
+
+    def start_device(self):
+        """Make sure that kernels can run: another add-on may have reset Taichi."""
+        taichi_runtime.start(self._wanted)
+
+    def residual_arguments(self, point, scale, B):
+        """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
+        indptr, indices, _, weights = self._arguments[:4]
+        return indptr, indices, self._scatter, weights, self.R, point, scale, B
 
 
 @cache

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from solver import stylize
-from solver.acceleration import FURTHER, Momentum
+from solver import Setup, Stylization, rest_mesh, stylize
+from solver.acceleration import Momentum
 
 
 @pytest.mark.parametrize("name", ["blob", "skewed_blob", "sphere"])
@@ -23,39 +23,43 @@ def test_it_ends_where_the_plain_iteration_does_in_fewer_iterations(name, cubene
 
 
 def test_the_momentum_of_a_component_is_its_own():
-    component = np.array([0, 0, 1])
-    both = Momentum(component, 2)
-    alone = [Momentum(np.zeros(2, int), 1), Momentum(np.zeros(1, int), 1)]
-    random = np.random.default_rng(3)
+    both, alone = Momentum(2), [Momentum(1), Momentum(1)]
     for step in range(6):
-        new, old, start = random.normal(size=(3, 3, 3))
         energies = np.array([-float(step), float(step == 3)])  # the second one rises once
         both.see(energies)
-        alone[0].see(energies[:1])
-        alone[1].see(energies[1:])
-        expected = [
-            alone[0].extrapolate(new[:2], old[:2], start[:2]),
-            alone[1].extrapolate(new[2:], old[2:], start[2:]),
-        ]
-        np.testing.assert_allclose(both.extrapolate(new, old, start), np.concatenate(expected))
+        expected = []
+        for momentum, energy in zip(alone, energies, strict=True):
+            momentum.see(np.array([energy]))
+            expected.append(np.concatenate(momentum.next()))
+        np.testing.assert_array_equal(np.stack(both.next(), axis=1), expected)
+    assert (expected[0] > expected[1]).all()
 
 
 def test_momentum_grows_until_the_energy_rises():
-    momentum = Momentum(np.zeros(4, int), 1)
-    new, old = np.ones((4, 3)), np.zeros((4, 3))
+    momentum = Momentum(1)
 
-    def extrapolated(energy):
+    def after(energy):
         momentum.see(np.array([energy]))
-        return momentum.extrapolate(new, old, new).max()  # no further step
+        return momentum.next()[0]
 
-    first, second, third = (extrapolated(energy) for energy in (5.0, 4.0, 3.0))
-    assert 1.0 < first < second < third < 2.0
-    assert extrapolated(3.1) == 1.0
-    assert 1.0 < extrapolated(3.0) < first
+    first, second, third = (after(energy) for energy in (5.0, 4.0, 3.0))
+    assert 0.0 < first < second < third < 1.0
+    assert after(3.1) == 0.0
+    assert 0.0 < after(3.0) < first
 
 
-def test_it_goes_further_along_the_step():
-    momentum = Momentum(np.zeros(4, int), 1)
-    new, start = np.ones((4, 3)), np.zeros((4, 3))
-    point = momentum.extrapolate(new, new, start)  # no momentum
-    assert 1.0 < point.min() == point.max() < 1.0 + FURTHER
+@pytest.mark.parametrize("is_large", [False, True])
+def test_the_next_point_lies_beyond_the_new_positions(is_large, monkeypatch):
+    pytest.importorskip("pyamg")
+    monkeypatch.setattr("solver.global_step.FACTORIZED_VERTICES", 100 if is_large else 10**9)
+    V, F = shapes.blob()
+    state = Stylization(Setup(rest_mesh(V, F)), 0.4)
+    state.step()
+    old, start = state.positions, state._motion.point.copy()
+    state.step()
+    new = state.positions
+    momentum = Momentum(1)
+    momentum.next()
+    for_way, for_step = momentum.next()
+    expected = new + for_way * (new - old) + for_step * (new - start)
+    np.testing.assert_allclose(state._motion.point, expected, rtol=0, atol=1e-12)

@@ -305,3 +305,15 @@ def test_no_function_of_taichi_is_compiled_into_the_kernels():
         assert set(compiled) == {"solver.backends.taichi_kernels"}, compiled
         """
     )
+
+
+@needs_taichi
+def test_small_meshes_do_not_pay_for_the_kernels_of_large_ones():
+    passes(
+        """
+        stylize(V, F, max_iterations=2)
+        assert "solver.backends.taichi_kernels" in sys.modules
+        assert "solver.backends.taichi_motion_kernels" not in sys.modules
+        assert "solver.backends.taichi_cycle_kernels" not in sys.modules
+        """
+    )

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The positions of a run on a large mesh, moved by kernels on all cores. See `Motion`."""
+
+from functools import cache
+
+import numpy as np
+
+from ..rotation_fit import svd_rotations
+from . import taichi_runtime
+from .rehearsal import rehearse
+from .taichi_cycle import TaichiCycle
+
+
+class TaichiMotion:
+    """As `Motion`, where the global step is a V-cycle.
+
+    One pass over the vertices finds how each component has moved as a whole, and another one takes
+    that back, extrapolates and measures. Between them only the sums of `RestMesh.chunks` are looked
+    at in NumPy.
+
+    Parameters
+    ----------
+    setup, local, U
+        As in `Motion`; the local step is one of Taichi.
+
+    Attributes
+    ----------
+    compile_seconds : float
+        As in `TaichiLocalStep`.
+    """
+
+    def __init__(self, setup, local, U):
+        self._local, self._has_pin = local, setup.has_pin
+        rest, real = setup.rest, local.real
+        self._kernels = motion_kernels(local.precision)
+        multigrid = setup.global_step.multigrid
+        self._cycle = TaichiCycle(multigrid)
+        self._scale = multigrid.scale
+        self._bounds, self._component = rest.chunks
+        weight = rest.areas + 1e-300
+        total = np.bincount(rest.component, weight, rest.component_count)
+        share = weight / total[rest.component]
+        self._centre = np.stack(
+            [np.bincount(rest.component, share * x, rest.component_count) for x in rest.V.T], axis=1
+        )
+        self._rest_centre = self._centre.astype(real)
+        self._V, self._share = rest.V.astype(real), share.astype(real)
+        count = len(self._component)
+        self._means, self._largest = (np.empty((count, 3), real) for _ in range(2))
+        self._covariances = np.empty((count, 3, 3), real)
+        self.put(U)
+        count = len(self._centre)
+        nothing = np.zeros(count)
+        still = (np.zeros((count, 3, 3)), self._centre, self._centre, nothing, nothing)
+        self.compile_seconds = rehearse(
+            [
+                (
+                    self._kernels.residual,
+                    local.residual_arguments(self.point, self._scale, self._cycle.B),
+                ),
+                (self._kernels.moments, self._moments_arguments()),
+                (self._kernels.move, self._move_arguments(*still)),
+                *self._cycle.calls(),
+            ]
+        )
+
+    @property
+    def positions(self):
+        """(n,3) float64 present positions in the unit box."""
+        return self._U.astype(np.float64)
+
+    def put(self, U):
+        """Go to other positions (n,3)."""
+        self._U = np.array(U, self._local.real)
+        self.point = self._U.copy()
+
+    def look_at_positions(self):
+        """Let the next local step look at the positions themselves."""
+        self.point[:] = self._U
+
+    def relax(self, times):
+        """Come nearer to what the rotations ask for, without momentum or turning."""
+        for _ in range(times):
+            self.step(np.zeros(len(self._centre)), np.zeros(len(self._centre)), False)
+
+    def step(self, momentum, further, keep_rotation):
+        """Do one global step; see `Motion.step`."""
+        self._local.start_device()
+        arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
+        self._kernels.residual(*arguments)
+        self._cycle.run()
+        whole = self._whole(keep_rotation)
+        self._kernels.move(*self._move_arguments(*whole, momentum, further))
+        displacement, distance, _ = self._largest.max(axis=0)
+        return float(displacement), float(distance)
+
+    def _moments_arguments(self):
+        return (
+            self._bounds,
+            self._component,
+            self._V,
+            self._rest_centre,
+            self._share,
+            self.point,
+            self._scale,
+            self._cycle.X,
+            self._means,
+            self._covariances,
+        )
+
+    def _move_arguments(self, turn, centre, target, momentum, further):
+        real = self._local.real
+        return (
+            self._bounds,
+            self._component,
+            self._V,
+            self._scale,
+            self._cycle.X,
+            turn.astype(real),
+            centre.astype(real),
+            target.astype(real),
+            momentum.astype(real),
+            further.astype(real),
+            self.point,
+            self._U,
+            self._largest,
+        )
+
+    def _whole(self, keep_rotation):
+        """Return turns (c,3,3) of the components about centres (c,3), which go to targets (c,3)."""
+        count = len(self._centre)
+        turn = np.tile(np.eye(3), (count, 1, 1))
+        if self._has_pin.all():
+            return turn, np.zeros((count, 3)), np.zeros((count, 3))
+        self._kernels.moments(*self._moments_arguments())
+        if keep_rotation:
+            free = ~self._has_pin
+            turn[free] = svd_rotations(self._sums(self._covariances)[free])
+        is_held = self._has_pin[:, None]
+        centre = np.where(is_held, 0.0, self._sums(self._means))
+        return turn, centre, np.where(is_held, 0.0, self._centre)
+
+    def _sums(self, parts):
+        """Add up what there is of each chunk, to (component_count, ...)."""
+        count = len(self._centre)
+        flat = parts.reshape(len(parts), -1).T.astype(np.float64)
+        sums = [np.bincount(self._component, column, count) for column in flat]
+        return np.stack(sums, axis=1).reshape(count, *parts.shape[1:])
+
+
+@cache
+def motion_kernels(precision):
+    """Return the kernels for "f64" or "f32"."""
+    ti = taichi_runtime.import_taichi()
+    from .taichi_motion_kernels import make_motion_kernels
+
+    return make_motion_kernels(ti.f64 if precision == "f64" else ti.f32)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an iteration on a large mesh does beside the local step and the V-cycle, as Taichi kernels.
+
+Import this only after `taichi_runtime.import_taichi`. Sums and maxima are those of the chunks of
+`RestMesh`, each in a fixed order; the few that are left are added up in NumPy.
+"""
+
+# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
+# pyright: reportIndexIssue=false
+
+from types import SimpleNamespace
+
+import taichi as ti
+
+
+def make_motion_kernels(real):
+    """Return the kernels for the type ti.f64 or ti.f32."""
+    vec3 = ti.types.vector(3, real)
+    mat3 = ti.types.matrix(3, 3, real)
+    vec4 = ti.types.vector(4, ti.f32)
+    scalars = ti.types.ndarray(dtype=real, ndim=1)
+    singles = ti.types.ndarray(dtype=ti.f32, ndim=1)
+    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
+    vectors = ti.types.ndarray(dtype=vec3, ndim=1)
+    vectors4 = ti.types.ndarray(dtype=vec4, ndim=1)
+    matrices = ti.types.ndarray(dtype=mat3, ndim=1)
+
+    @ti.func
+    def moved(point, correction, scale):
+        return point + ti.cast(scale, real) * vec3(correction[0], correction[1], correction[2])
+
+    @ti.kernel
+    def residual(
+        indptr: integers,
+        indices: integers,
+        scatter: vectors,
+        weights: scalars,
+        R: matrices,
+        point: vectors,
+        scale: singles,
+        B: vectors4,
+    ):
+        """Set B = scale (rhs - L point), with the right-hand side of the rotations."""
+        for i in range(point.shape[0]):
+            here = point[i]
+            turned, pull = vec3(0.0), vec3(0.0)
+            for entry in range(indptr[i], indptr[i + 1]):
+                j = indices[entry]
+                turned += R[j] @ scatter[entry]
+                pull += weights[entry] * (point[j] - here)
+            total = ti.cast(turned / 3 + pull, ti.f32) * scale[i]
+            B[i] = vec4(total[0], total[1], total[2], 0.0)
+
+    @ti.kernel
+    def moments(
+        bounds: integers,
+        component: integers,
+        V: vectors,
+        centre: vectors,
+        share: scalars,
+        point: vectors,
+        scale: singles,
+        X: vectors4,
+        means: vectors,
+        covariances: matrices,
+    ):
+        """Sum what each chunk adds to the centroid of a component and to its covariance with V."""
+        for c in range(component.shape[0]):
+            about = centre[component[c]]
+            mean, covariance = vec3(0.0), mat3(0.0)
+            for i in range(bounds[c], bounds[c + 1]):
+                u = share[i] * moved(point[i], X[i], scale[i])
+                mean += u
+                covariance += u.outer_product(V[i] - about)
+            means[c] = mean
+            covariances[c] = covariance
+
+    @ti.kernel
+    def move(
+        bounds: integers,
+        component: integers,
+        V: vectors,
+        scale: singles,
+        X: vectors4,
+        turn: matrices,
+        centre: vectors,
+        target: vectors,
+        momentum: scalars,
+        further: scalars,
+        point: vectors,
+        U: vectors,
+        largest: vectors,
+    ):
+        """Find new positions U by the correction X, and the point that the next step starts from.
+
+        Each component is turned about its centre, which goes to its target. Of each chunk:
+        largest displacement and largest distance from rest, by coordinate.
+        """
+        for c in range(component.shape[0]):
+            k = component[c]
+            R, before, after = turn[k], centre[k], target[k]
+            displacement, distance = real(0.0), real(0.0)
+            for i in range(bounds[c], bounds[c + 1]):
+                u = R @ (moved(point[i], X[i], scale[i]) - before) + after
+                way = u - U[i]
+                displacement = ti.max(displacement, ti.abs(way).max())
+                distance = ti.max(distance, ti.abs(u - V[i]).max())
+                U[i] = u
+                point[i] = u + momentum[k] * way + further[k] * (u - point[i])
+            largest[c] = vec3(displacement, distance, 0.0)
+
+    @ti.kernel
+    def sum_energies(
+        bounds: integers,
+        energies: vectors,
+        cubic_weight: scalars,
+        certified: integers,
+        sums: vectors,
+    ):
+        """Sum the ARAP energy less that at rest, the cubic energy, and what is not certified."""
+        for c in range(sums.shape[0]):
+            total = vec3(0.0)
+            for i in range(bounds[c], bounds[c + 1]):
+                e = energies[i]
+                total += vec3(
+                    real(0.75) * e[0] - e[1],
+                    cubic_weight[i] * e[2],
+                    ti.cast(certified[i] == 0, real),
+                )
+            sums[c] = total
+
+    return SimpleNamespace(residual=residual, moments=moments, move=move, sum_energies=sum_energies)

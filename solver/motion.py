@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The positions of a run and how a global step moves them."""
+
+import numpy as np
+
+from .placement import turn_back
+
+
+class Motion:
+    """The positions in NumPy; `backends/taichi_motion.py` has the same for large meshes.
+
+    Parameters
+    ----------
+    setup : Setup
+    local : NumpyLocalStep or TaichiLocalStep
+        Whose rotations the positions follow.
+    U : (n,3) float64 array
+        The first positions in the unit box, with pinned vertices at their targets.
+
+    Attributes
+    ----------
+    point : (n,3) array
+        Where the next local step looks.
+    """
+
+    def __init__(self, setup, local, U):
+        self._setup, self._local = setup, local
+        self.put(U)
+
+    @property
+    def positions(self):
+        """(n,3) float64 present positions in the unit box."""
+        return self._U
+
+    def put(self, U):
+        """Go to other positions (n,3)."""
+        self._U = self.point = U
+
+    def look_at_positions(self):
+        """Let the next local step look at the positions themselves."""
+        self.point = self._U
+
+    def relax(self, times):
+        """Come nearer to what the rotations ask for, without momentum or turning."""
+        rhs = self._local.right_hand_side()
+        for _ in range(times):
+            self.put(self._setup.global_step.positions(rhs, self._U))
+
+    def step(self, momentum, further, keep_rotation):
+        """Do one global step.
+
+        Parameters
+        ----------
+        momentum, further : (component_count,) arrays
+            How far the point goes on from the new positions, see `Momentum.next`.
+        keep_rotation : bool
+            Turn each component without pins back to how it is at rest.
+
+        Returns
+        -------
+        displacement, distance : float
+            The largest of any coordinate, in this step and from rest.
+        """
+        rest = self._setup.rest
+        U = self._setup.global_step.positions(self._local.right_hand_side(), self.point)
+        if keep_rotation:
+            U = turn_back(rest, U, self._setup.has_pin)
+        way = U - self._U
+        displacement = float(np.abs(way).max())
+        if rest.component_count > 1:
+            momentum, further = (share[rest.component][:, None] for share in (momentum, further))
+        self.point = U + momentum * way + further * (U - self.point)
+        self._U = U
+        return displacement, float(np.abs(U - rest.V).max())

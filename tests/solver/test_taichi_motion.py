@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The kernels of the iteration on large meshes do what NumPy and SciPy do."""
+
+import numpy as np
+import pytest
+import shapes
+from optional_marks import needs
+from taichi_marks import needs_taichi
+
+from solver import Setup, Stylization, rest_mesh, stylize
+from solver.motion import Motion
+
+pytestmark = [needs("pyamg"), needs_taichi]
+
+
+@pytest.fixture(autouse=True)
+def multigrid_with_some_levels(monkeypatch):
+    monkeypatch.setattr("solver.global_step.FACTORIZED_VERTICES", 0)
+    monkeypatch.setattr("solver.multigrid._COARSEST", 20)
+
+
+def stylization(name="blob", pins=0, **options):
+    V, F = shapes.ALL[name]()
+    pinned = np.argsort(V[:, 2])[:pins]
+    options = {"targets": V + [0.0, 0.1, 0.2], "device": "cpu", **options}
+    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, **options)
+
+
+@pytest.mark.parametrize("coarsest", [20, 10_000])
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_the_cycle_is_that_of_scipy(name, coarsest, monkeypatch):
+    from solver.backends.taichi_cycle import TaichiCycle
+
+    monkeypatch.setattr("solver.multigrid._COARSEST", coarsest)
+    state = stylization(name)
+    multigrid = state.setup.global_step.multigrid
+    assert bool(multigrid.levels) == (coarsest == 20)
+    cycle = TaichiCycle(multigrid)
+    B = np.random.default_rng(2).normal(size=(3, len(multigrid.scale))).astype(np.float32)
+    B *= multigrid.scale > 0.0
+    cycle.B[:, :3] = B.T
+    cycle.run()
+    expected = multigrid._cycle(B, 0)
+    np.testing.assert_allclose(cycle.X[:, :3], expected.T, atol=2e-5 * np.abs(expected).max())
+    assert not cycle.X[:, 3].any()
+
+
+@pytest.mark.parametrize("keep_rotation", [True, False])
+@pytest.mark.parametrize("pins", [0, 12])
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_a_step_is_that_of_numpy(name, pins, keep_rotation):
+    state = stylization(name, pins)
+    fast, plain = state._motion, Motion(state.setup, state._local, state.positions)
+    for size in (0.0, 0.3, 0.7):
+        state._local.update(plain.point)
+        momentum = np.full(state.rest.component_count, size)
+        measured = fast.step(momentum, keep_rotation)
+        np.testing.assert_allclose(measured, plain.step(momentum, keep_rotation), rtol=1e-4)
+        np.testing.assert_allclose(fast.positions, plain.positions, atol=1e-6)
+        np.testing.assert_allclose(fast.point, plain.point, atol=2e-6)
+        plain.put(fast.positions)  # or their ways would part where rounding decides
+        plain.point = fast.point.copy()
+    pinned = state.setup.pinned
+    start = stylization(name, pins)
+    np.testing.assert_array_equal(fast.positions[pinned], start.positions[pinned])
+
+
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_energies_are_those_of_numpy(name):
+    state = stylization(name)
+    for _ in range(3):
+        state.step()
+    state.local_step()
+    local = state._local
+    fast = local.update(state._motion.point)
+    local._sum_on_device = None
+    np.testing.assert_allclose(fast, local.update(state._motion.point), rtol=1e-6)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_runs_end_where_those_of_numpy_do(precision):
+    V, F = shapes.two_blobs()
+    fast = stylize(V, F, 0.4, device="cpu", precision=precision)
+    again = stylize(V, F, 0.4, device="cpu", precision=precision)
+    plain = stylize(V, F, 0.4, device="numpy")
+    assert fast.converged
+    assert fast.energy.total == pytest.approx(plain.energy.total, rel=1e-3)
+    np.testing.assert_array_equal(fast.positions, again.positions)
+
+
+def test_rotations_that_the_kernel_does_not_certify_are_found_too(monkeypatch):
+    state = stylization()
+    state.step()
+    local = state._local
+    solved, expected = [], local.update(state._motion.point)
+    local._certified[5] = 0
+    monkeypatch.setattr(local, "_solve_by_admm", lambda U, rows: solved.extend(rows))
+    fast = local._summed(state._motion.point, local._sum_on_device)
+    np.testing.assert_array_equal(fast, expected)
+    assert solved == [5]
