@@ -7,6 +7,9 @@ aggregation (Vanek, Mandel and Brezina, 1996) is near enough to the inverse that
 about a third more steps (98,721 vertices, cubeness 0.4: 40 in place of 30 to a gap of 1 %), and its
 set-up takes time and memory in proportion to the mesh: 395 k vertices in a quarter of the time of
 the Cholesky factorisation.
+
+With Taichi the cycle runs in its kernels, which need 40 ms of processor time in place of 115
+for 395 k vertices, and 100 in place of 280 for a million; both cores share it.
 """
 
 from functools import cached_property
