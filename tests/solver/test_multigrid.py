@@ -87,3 +87,18 @@ def test_without_the_package_all_is_factorised(monkeypatch):
     solve = Setup(rest).global_step.positions
     L = rest.matrices.matrix(rest.matrices.laplacian)
     np.testing.assert_allclose(solve(L @ rest.V, np.zeros_like(rest.V)), rest.V, atol=1e-9)
+
+
+def test_many_small_parts_have_nothing_coarser_than_one_row(monkeypatch, device):
+    monkeypatch.setattr("solver.multigrid._COARSEST", 20)
+    V, F = shapes.sphere(1)
+    count = 40
+    W = np.concatenate([V + [3.0 * k, 0.0, 0.0] for k in range(count)])
+    G = np.concatenate([F + len(V) * k for k in range(count)])
+    exact = stylize(W, G, 0.4, device=device, tolerance=1e-4)
+    monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
+    near = stylize(W, G, 0.4, device=device, tolerance=1e-4)
+    levels = Setup(rest_mesh(W, G)).global_step.multigrid.levels
+    assert levels[-1].P.shape[1] == 1 and not levels[-1].P.nnz
+    assert near.converged
+    assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
