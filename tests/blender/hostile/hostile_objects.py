@@ -78,9 +78,7 @@ def asked(draw):
         draw(st.sampled_from(sorted(TRANSFORMS))),
         draw(SEEDS),
         draw(st.integers(0, 2)),
-        draw(
-            st.sampled_from([*10 * ["no"], "nan", "infinity", "key", "empty group", "hidden"])
-        ),
+        draw(st.sampled_from([*10 * ["no"], "nan", "infinity", "key", "empty group", "hidden"])),
         options,
         draw(st.sampled_from(["none", "none", *POSES])),
     )
