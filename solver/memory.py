@@ -8,8 +8,8 @@ from pathlib import Path
 
 from .errors import CubicCraftError
 
-BYTES_PER_VERTEX = 2500
-"""peak of a run, measured on meshes of 400,000 and a million vertices; see docs/benchmarks.md"""
+BYTES_PER_VERTEX = 2700
+"""peak of a run, measured on meshes of 245,000 and 405,000 vertices; smaller ones take less"""
 _LINUX = Path("/proc/meminfo")
 
 

@@ -14,13 +14,13 @@ from pieces import PIECES
 
 from solver import CubicCraftError, rest_mesh, stylize
 
-ITERATIONS = 12
+ITERATIONS = 10
 ROUNDING = 1e-9
 """of the energy at rest: what sums of 64 bit numbers may differ by, with cotangents up to 1e3"""
 NOTHING = 1e-11
 """an energy in the unit box that is nothing but rounding"""
 HAS_TAICHI = importlib.util.find_spec("taichi") is not None
-DEVICES = ("cpu", "cpu", "cpu", "numpy") if HAS_TAICHI else ("numpy",)  # NumPy is slower
+DEVICES = (*4 * ["cpu"], "numpy") if HAS_TAICHI else ("numpy",)  # NumPy is slower
 
 
 def _not_finite(arguments, rng):
