@@ -15,7 +15,7 @@ SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui lint \
+.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui test-hostile lint \
 	typecheck build bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
@@ -39,10 +39,15 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 test: test-solver test-blender ## All tests that need no window
 
 test-solver: setup ## The solver, and what decides in Live, without Blender
-	$(PY) $(PYTEST) tests/solver tests/live
+	$(PY) $(PYTEST) tests/solver tests/live tests/hostile
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
+
+test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in each run
+	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) $(PY) $(PYTEST) tests/hostile
+	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) CUBIC_CRAFT_ZIP=$(ZIP) \
+		$(PY) $(PYTEST) tests/blender/hostile
 
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts

@@ -118,16 +118,12 @@ def prepare(
     known = None if weights_changed else earlier
     handle_of = _handle_of(obj, settings, known)
     map_weights = _map_weights(obj, settings, known)
-    try:
-        if earlier and np.array_equal(earlier.stretch, stretch):
-            setup = earlier.setup
-            if not np.array_equal(earlier.handle_of >= 0, handle_of >= 0):
-                setup = solver.Setup(setup.rest, np.flatnonzero(handle_of >= 0))
-        else:
-            rest = stretched_rest(obj, shape, stretch)
-            setup = solver.Setup(rest, np.flatnonzero(handle_of >= 0))
-    except solver.CubicCraftError as error:
-        raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
+    if earlier and np.array_equal(earlier.stretch, stretch):
+        setup = earlier.setup
+        if not np.array_equal(earlier.handle_of >= 0, handle_of >= 0):
+            setup = _setup(obj, setup.rest, handle_of)
+    else:
+        setup = _setup(obj, stretched_rest(obj, shape, stretch), handle_of)
     return Prepared(
         obj.name,
         shape,
@@ -167,6 +163,13 @@ def stretched_rest(obj: bpy.types.Object, shape: Shape, stretch):
     positions = shape.original.astype(np.float64) @ stretch.T
     try:
         return solver.rest_mesh(positions, shape.triangles)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
+
+
+def _setup(obj, rest, handle_of):
+    try:
+        return solver.Setup(rest, np.flatnonzero(handle_of >= 0))
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f'"{obj.name}": {error}') from error
 

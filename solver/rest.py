@@ -9,6 +9,7 @@ import numpy as np
 from .components import components
 from .cotangents import cotangents
 from .decimation import decimate
+from .memory import check_memory
 from .mesh_checks import check_mesh
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
@@ -105,9 +106,10 @@ def rest_mesh(V, F):
     Raises
     ------
     CubicCraftError
-        See `check_mesh`.
+        See `check_mesh` and `check_memory`.
     """
     input_positions, F = check_mesh(V, F)
+    check_memory(len(input_positions), len(F))
     used, F = _ordered(*_used_vertices(F, len(input_positions)))
     V = input_positions[used]
     box = unit_box(V)

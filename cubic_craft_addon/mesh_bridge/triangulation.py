@@ -4,6 +4,7 @@
 import bpy
 import numpy as np
 
+from ...solver.errors import CubicCraftError
 from .arrays import corner_vertices, write_position
 
 
@@ -21,8 +22,21 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     Returns
     -------
     (m,3) numpy int32 array; vertices in no face do not occur
+
+    Raises
+    ------
+    CubicCraftError
+        A face names a vertex that is not there. Some importers let such faces into a mesh, and
+        triangulating them would read memory that is not the mesh's.
     """
     corners = corner_vertices(mesh)
+    wrong = corners[(corners < 0) | (corners >= len(positions))]
+    if len(wrong):
+        raise CubicCraftError(
+            f"A face of mesh '{mesh.name}' names vertex {wrong[0]}, but there are only"
+            f" {len(positions)}: repair it (mesh.validate() in the Python console) or import it"
+            " again"
+        )
     if len(corners) == 3 * len(mesh.polygons):
         return corners.reshape(-1, 3)
     starts = np.empty(len(mesh.polygons), np.int32)

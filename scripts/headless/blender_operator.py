@@ -27,6 +27,12 @@ def operator(name: str, path: Path) -> Callable[..., Any]:
 
 
 def reason(error: RuntimeError) -> str:
-    """Return the first line of what an operator reported when it failed."""
+    """Return the first line of what an operator reported when it failed.
+
+    Of an exception in an operator that is written in Python, it is the exception itself.
+    """
     lines = str(error).strip().splitlines() or ["no reason given"]
+    if "Traceback (most recent call last)" in lines[0]:
+        own = [line for line in lines[1:] if not line.startswith((" ", "Location:"))]
+        return own[-1].rstrip(". ") if own else "an exception in Blender"
     return lines[0].removeprefix("Error: ").rstrip(". ")

@@ -1,6 +1,7 @@
-"""Find coordinates in .ply and .stl files that are not finite.
+"""Find what Blender's importers of .ply and .stl files do not survive, or hide.
 
-Blender's importers turn them into zeros without a word, which would look like a sound mesh.
+Coordinates that are not there or not finite become zeros without a word, which would look like a
+sound mesh. Counts beyond the end of the file take memory until Blender aborts.
 """
 
 import contextlib
@@ -38,12 +39,24 @@ def refuse_infinite(path: Path) -> None:
         Naming the file, the first vertex that is wrong, and the cure.
     """
     data = path.read_bytes()
-    find = {".ply": _first_in_ply, ".stl": _first_in_stl}[path.suffix.lower()]
-    vertex = None
+    is_ply = path.suffix.lower() == ".ply"
+    vertex, is_whole = None, True
     with contextlib.suppress(ValueError, IndexError):  # a header that makes no sense
-        vertex = find(data)
+        vertex = (_first_in_ply if is_ply else _first_in_stl)(data)
+        is_whole = not is_ply or _holds_all(data)
+    if not is_whole:
+        raise InputError(
+            f"{path}: cannot be read (cut off, or its counts are wrong); export it again"
+        )
     if vertex is not None:
         raise InputError(f"{path}: vertex {vertex} has no finite coordinates; repair the file")
+
+
+def _holds_all(data: bytes) -> bool:
+    """Tell whether a .ply can have as many rows as its header says, of a byte each at least."""
+    header, _, body = data.partition(b"end_header")
+    rows = [line.split() for line in header.splitlines()]
+    return sum(int(row[2]) for row in rows if row[:1] == [b"element"]) <= len(body)
 
 
 def _first_in_ply(data: bytes) -> int | None:
@@ -63,7 +76,8 @@ def _first_in_ply(data: bytes) -> int | None:
     kind = next((line[1] for line in lines if line[:1] == ["format"]), "")
     if kind == "ascii":
         rows = body.split(b"\n", count)[:count]
-        return next((n for n, row in enumerate(rows) if NOT_FINITE.search(row)), None)
+        is_broken = (NOT_FINITE.search(row) or len(row.split()) < len(properties) for row in rows)
+        return next((n for n, broken in enumerate(is_broken) if broken), None)
     order = "<" if kind == "binary_little_endian" else ">"
     if any(line[1] not in PLY_TYPES for line in properties):
         return None

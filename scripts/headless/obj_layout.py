@@ -5,6 +5,7 @@ of the file. To give a result back with the vertices of the file, in its order, 
 once more for the indices alone; the loose vertices are put back into the meshes.
 """
 
+import codecs
 import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -43,7 +44,8 @@ def read_layout(path: Path) -> ObjLayout:
     Raises
     ------
     InputError
-        A vertex without three finite coordinates, which Blender would read as zeros.
+        A vertex without three finite coordinates, which Blender would read as zeros, or a byte
+        order mark.
     """
     coordinates: list[list[str]] = []
     sections: list[tuple[set[int], list[int]]] = [(set(), [])]  # used vertices, own vertices
@@ -88,6 +90,10 @@ def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
 def _logical_lines(path: Path) -> Iterator[str]:
     """Lines of the file without comments, those that end in a backslash joined."""
     pending = ""
+    with path.open("rb") as file:
+        if file.read(len(codecs.BOM_UTF8)) == codecs.BOM_UTF8:
+            # Blender's importer would pass over the first line, and all numbers would be wrong.
+            raise InputError(f"{path}: begins with a byte order mark; save it as UTF-8 without one")
     with path.open(encoding="utf-8", errors="replace") as file:
         for line in file:
             line = pending + line.partition("#")[0].rstrip()
@@ -113,7 +119,7 @@ def _indices(words: list[str], count: int) -> Iterator[int]:
 def _positions(coordinates: list[list[str]], path: Path) -> np.ndarray:
     positions = np.full((len(coordinates), 3), np.nan, np.float32)
     for number, words in enumerate(coordinates):
-        with contextlib.suppress(ValueError):
+        with contextlib.suppress(ValueError), np.errstate(over="ignore"):  # infinite in 32 bit
             positions[number] = [float(word) for word in words]
     broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
     if len(broken):

@@ -105,3 +105,12 @@ def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
         cubify()
     for o, taken in zip((obj, other), before, strict=True):
         assert differences(taken, snapshot_object(o), READ) == []
+
+
+def test_a_refusal_by_the_solver_names_the_object_once(extension, monkeypatch):
+    add_monkey()
+    memory = importlib.import_module(f"{extension.__name__}.solver.memory")
+    monkeypatch.setattr(memory, "free_memory", lambda: 1_000_000)
+    with pytest.raises(RuntimeError, match=r"507 vertices need about .* of memory") as caught:
+        cubify()
+    assert str(caught.value).count("Suzanne") == 1

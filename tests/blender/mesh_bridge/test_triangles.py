@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import bpy
 import numpy as np
+import pytest
 from rich_mesh import cubic_like, set_position
 from snapshot import differences, snapshot_object
 
@@ -74,3 +75,12 @@ def test_nothing_is_left_behind(bridge, monkey):
     bridge.triangles(monkey.data, bridge.read_positions(monkey.data))
     assert len(bpy.data.meshes) == count
     assert differences(before, snapshot_object(monkey)) == []
+
+
+@pytest.mark.parametrize("size", [3, 4])
+@pytest.mark.parametrize("vertex", [-1, 2_000_000_000])
+def test_a_vertex_that_is_not_there_is_refused(bridge, error, size, vertex):
+    mesh = mesh_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [range(size)])
+    mesh.loops.foreach_set("vertex_index", np.array([*range(size - 1), vertex], np.int32))
+    with pytest.raises(error, match=f"'Cut' names vertex {vertex}, but there are only 4"):
+        bridge.triangles(mesh, bridge.read_positions(mesh))

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Broken files: a finite result, or one line that says why not, and never more than that."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from headless import headless
+
+CORPUS = Path(__file__).resolve().parents[1] / "corpus"
+sys.path.insert(0, str(CORPUS))
+from expected import DONE, REFUSED  # noqa: E402
+from make_corpus import corpus  # noqa: E402
+
+ARGUMENTS = ("--no-render", "--save-mesh", "result.obj", "--max-iterations", "10")
+
+
+def test_the_files_are_those_of_the_script():
+    written = {path.name: path.read_bytes() for path in (CORPUS / "files").iterdir()}
+    assert written == corpus()
+    assert sorted(written) == sorted(DONE | REFUSED)
+
+
+@pytest.mark.parametrize("name", DONE)
+def test_what_can_be_cubified_is(name, tmp_path):
+    process = headless(CORPUS / "files" / name, *ARGUMENTS, cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert "Traceback" not in process.stderr
+    lines = (tmp_path / "result.obj").read_text().splitlines()
+    V = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+    assert V.shape == (DONE[name], 3)
+    assert np.isfinite(V).all()
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_is_refused_in_one_line(name, tmp_path):
+    process = headless(CORPUS / "files" / name, *ARGUMENTS, cwd=tmp_path)
+    assert process.returncode == 2, process.stderr
+    assert process.stdout == ""
+    lines = process.stderr.splitlines()
+    assert len(lines) == 1, process.stderr
+    for word in (name, *REFUSED[name]):
+        assert word in lines[0]
+    assert list(tmp_path.iterdir()) == []
