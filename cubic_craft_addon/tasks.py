@@ -16,6 +16,7 @@ from .handles.baked_pose import remember_pose
 from .object_frame import stretch_and_orientation
 from .object_properties import object_properties
 from .settings_rollback import settings_kept
+from .taichi_news import taichi_news
 
 _log = logging.getLogger(__name__)
 
@@ -76,13 +77,14 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     summary : str
         Empty if nothing was written.
     problems : list of str
-        What was written before a failure stays and needs its undo step.
+        What was written before a failure stays and needs its undo step. Also that Taichi does not
+        work, once.
     """
     # All texts come before the first write: what follows a write must not fail.
     solutions = [task.solution for task in tasks if task.solution is not None]
     statuses = [_status(solution) for solution in solutions]
     ends = list(accumulate(solution.total_seconds for solution in solutions))
-    written, problems = 0, []
+    written, problems = 0, taichi_news()
     try:
         for task, status in zip(tasks, statuses, strict=True):
             _write(choice, task, status)
