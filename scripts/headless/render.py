@@ -86,9 +86,10 @@ def _set_up_cycles(scene: bpy.types.Scene, samples: int) -> None:
 
 
 def _render_still(scene: bpy.types.Scene, path: Path, engine: str) -> None:
-    scene.render.filepath = str(path)
     try:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
+        bpy.ops.render.render(scene=scene.name)
+        # Not by `write_still`, which takes {braces} in a path for a template.
+        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
     except RuntimeError as error:
         raise InputError(f"--engine {engine}: {reason(error)}; {_cure(engine)}") from error
     if not path.is_file():
