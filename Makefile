@@ -15,8 +15,8 @@ SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-reliability test-gui lint \
-	typecheck build bench bench-quick bench-live docs-images clean has-py313
+.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-reliability \
+	test-gui lint typecheck build bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
