@@ -8,7 +8,7 @@ UNFORESEEN = (Exception, KeyboardInterrupt)
 def in_words(error: BaseException) -> str:
     """Return an error as one short line, without a full stop."""
     if isinstance(error, MemoryError):
-        return "there is not enough memory: close other programs, or use a mesh with less vertices"
+        return "there is not enough memory: close other programs, or use a mesh with fewer vertices"
     if isinstance(error, KeyboardInterrupt):
         return "it was interrupted"
     lines = str(error).strip().splitlines()
