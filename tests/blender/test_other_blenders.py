@@ -2,8 +2,8 @@
 """Files that go from one Blender to another: without the extension and back, and to a newer one.
 
 ``CUBIC_CRAFT_OLDER_PYTHON=path`` names a Python with an older bpy, as ``make test-reliability`` has
-it; without it the file stays in this one. The other way is closed by Blender itself: before 4.5 it
-cannot read files of Blender 5.
+it; without it the file stays in this one. The other way is closed by Blender itself: 4.2 refuses
+files of Blender 5.
 """
 
 import os
