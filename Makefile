@@ -15,8 +15,9 @@ SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-gui test-hostile lint \
-	typecheck build bench bench-quick bench-live docs-images clean has-py313
+.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
+	test-reliability test-gui lint typecheck build bench bench-quick bench-live docs-images clean \
+	has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -69,6 +70,13 @@ $(VENV)-py313/.done: requirements/*.txt
 
 has-py313:
 	@test -n "$(PYTHON313)"
+
+test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/reliability.md; hours
+	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_FAULTS=1 CUBIC_CRAFT_ROUNDS=1000 CUBIC_CRAFT_OBJECTS=1000 \
+		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
+		$(PY) $(PYTEST) tests/blender/test_faults.py tests/blender/test_leaks.py \
+		tests/blender/test_scenes.py tests/blender/test_other_blenders.py \
+		tests/scripts/test_headless_interrupted.py
 
 test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path for your own
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)

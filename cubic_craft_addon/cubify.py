@@ -235,24 +235,34 @@ def solution_of(prepared: Prepared, run: solver.Run) -> Solution:
     return Solution(positions, rotations, result, prepared.seconds)
 
 
-def write(obj: bpy.types.Object, solution: Solution, result: str) -> bpy.types.Object:
+def write(
+    obj: bpy.types.Object,
+    solution: Solution,
+    result: str,
+    remember: Callable[[bpy.types.Object], None] = lambda target: None,
+) -> bpy.types.Object:
     """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
 
     Parameters
     ----------
     result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
+    remember : callable
+        Called with the object that gets the cubic shape, before the step that cannot be taken back:
+        if it raises, or what follows, all meshes and objects are as they were before. What it has
+        done to the settings of an object that was there is for the caller to put back.
 
     Returns
     -------
     bpy.types.Object
         The object that now has the cubic shape.
     """
+    if result == "NEW_OBJECT":
+        return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations, remember)
+    remember(obj)
     if result == "SHAPE_KEY":
         mesh_bridge.write_shape_key(obj, solution.positions)
-        return obj
-    if result == "NEW_OBJECT":
-        return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations)
-    mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
+    else:
+        mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
     return obj
 
 

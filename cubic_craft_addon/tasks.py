@@ -3,6 +3,7 @@
 
 import logging
 from dataclasses import replace
+from itertools import accumulate
 
 import bpy
 import numpy as np
@@ -10,9 +11,12 @@ import numpy as np
 from ..solver import CubicCraftError
 from . import cubify, mesh_bridge
 from .choice import Choice
+from .failures import UNFORESEEN, in_words
 from .handles.baked_pose import remember_pose
 from .object_frame import stretch_and_orientation
 from .object_properties import object_properties
+from .settings_rollback import settings_kept
+from .taichi_news import taichi_news
 
 _log = logging.getLogger(__name__)
 
@@ -73,23 +77,41 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     summary : str
         Empty if nothing was written.
     problems : list of str
-        What was written before a failure stays and needs its undo step.
+        What was written before a failure stays and needs its undo step. Also that Taichi does not
+        work, once.
     """
-    written, problems = [], []
+    # All texts come before the first write: what follows a write must not fail.
+    solutions = [task.solution for task in tasks if task.solution is not None]
+    statuses = [_status(solution) for solution in solutions]
+    ends = list(accumulate(solution.total_seconds for solution in solutions))
+    written, problems = 0, taichi_news()
     try:
-        for task in tasks:
-            assert task.solution is not None
-            target = cubify.write(task.obj, task.solution, task.settings.result)
-            written.append(task.solution)
-            # A shape key poses nothing: its basis is still the original.
-            is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
-            remember_pose(target, is_posed=is_posed)
-            choice.remember_on(target, task.settings)
-            object_properties(target).status = _status(task.solution)
-    except Exception as error:
-        _log.exception("Writing a result failed")  # the bridge has put this mesh back
-        problems.append(f"Writing failed ({error}); what was not written yet is unchanged")
-    return _summary(written), problems
+        for task, status in zip(tasks, statuses, strict=True):
+            _write(choice, task, status)
+            written += 1
+    except UNFORESEEN as error:
+        _log.exception("Writing a result failed")  # this object has been put back
+        reason = in_words(error)
+        problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
+    if written == 1:
+        return f"Cubified: {statuses[0]}", problems
+    if written:
+        return f"Cubified {written} meshes in {ends[written - 1]:.2f} s", problems
+    return "", problems
+
+
+def _write(choice, task, status):
+    """Write one solution, or nothing at all."""
+
+    def remember(target):
+        # A shape key poses nothing: its basis is still the original.
+        is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
+        remember_pose(target, is_posed=is_posed)
+        choice.remember_on(target, task.settings)
+        object_properties(target).status = status
+
+    with settings_kept([task.mesh]):
+        cubify.write(task.obj, task.solution, task.settings.result, remember)
 
 
 def _status(solution):
@@ -99,12 +121,3 @@ def _status(solution):
         f"{len(solution.positions):,} vertices, {r.iterations} iterations, energy"
         f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"
     )
-
-
-def _summary(written):
-    if not written:
-        return ""
-    if len(written) == 1:
-        return f"Cubified: {_status(written[0])}"
-    seconds = sum(solution.total_seconds for solution in written)
-    return f"Cubified {len(written)} meshes in {seconds:.2f} s"

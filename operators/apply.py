@@ -7,6 +7,7 @@ from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.baked_pose import rest_in_pose
 from .originals import for_each_original, poll_originals
 from .selection import poll_meshes
+from .unforeseen import reporting
 
 
 class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
@@ -22,11 +23,12 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
         """There is a mesh with an original."""
         return poll_meshes(cls, context) and poll_originals(cls, context)
 
+    @reporting
     def execute(self, context):
         """Forget each mesh's original once."""
         return for_each_original(self, context, _apply, "Applied")
 
 
 def _apply(obj):
-    mesh_bridge.forget(obj.data)
     rest_in_pose(obj.data)
+    mesh_bridge.forget(obj.data)

@@ -11,6 +11,7 @@ from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import settings_of
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
+from .unforeseen import reporting
 
 
 class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
@@ -29,6 +30,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         """There is a mesh that can be cubified, or one that is live."""
         return live.current() is not None or poll_usable(cls, context)
 
+    @reporting
     def execute(self, context):
         """Find the orientation of each mesh, then set all."""
         session = live.current()

@@ -19,9 +19,11 @@ from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties
+from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..cubic_craft_addon.tasks import plan, write_all
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
+from .unforeseen import reporting
 
 _PROGRESS_STEPS = 100
 
@@ -54,19 +56,21 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         """There is a mesh that can be cubified."""
         return poll_usable(cls, context)
 
+    @reporting
     def execute(self, context):
         """Solve all objects, then write all results."""
         objects = selected_meshes(context)
-        settle(objects)
         _adopt_settings(self, objects)
-        try:
-            choice = _choice(self, objects[0])
-        except CubicCraftError as error:
-            return report_all(self, "", [str(error)])
-        tasks, problems = plan(choice, objects)
-        solved, unsolved = _solve_all(tasks, context.window_manager)
-        summary, unwritten = write_all(choice, solved)
-        return report_all(self, summary, problems + unsolved + unwritten)
+        choice = _choice(self, objects[0])
+        with settings_kept([obj.data for obj in objects]):
+            settle(objects)
+            tasks, problems = plan(choice, objects)
+            solved, unsolved = _solve_all(tasks, context.window_manager)
+            summary, unwritten = write_all(choice, solved)
+            problems += unsolved + unwritten
+            if not summary:
+                raise CubicCraftError("; ".join(problems))
+        return report_all(self, summary, problems)
 
     def draw(self, context):
         """Draw the redo panel."""

@@ -6,7 +6,9 @@ import logging
 import bpy
 
 from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.failures import UNFORESEEN, in_words
 from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..solver import CubicCraftError
 from .selection import report_all, selected_meshes
 
@@ -22,7 +24,10 @@ def poll_originals(operator_class, context):
 
 
 def for_each_original(operator, context, action, done):
-    """Call ``action(obj)`` once per selected mesh that holds something of ours, and report."""
+    """Call ``action(obj)`` once per selected mesh that holds something of ours, and report.
+
+    The action changes the mesh as its last step, or not at all.
+    """
     problems, names = [], []
     meshes = set()
     for obj in selected_meshes(context):
@@ -31,17 +36,21 @@ def for_each_original(operator, context, action, done):
         meshes.add(obj.data)
         try:
             mesh_bridge.check_usable(obj)
-            action(obj)
+            with settings_kept([obj.data]):
+                _forget_status(obj.data)
+                action(obj)
         except CubicCraftError as error:
             problems.append(str(error))
-            continue
-        except Exception as error:
-            # The bridge has put this mesh back; the others need their undo step.
+        except UNFORESEEN as error:
+            # This one has been put back; the others need their undo step.
             _log.exception("%s failed", operator.bl_label)
-            problems.append(f'"{obj.name}" is unchanged, because of an error ({error})')
-            continue
-        for user in bpy.data.user_map(subset=[obj.data])[obj.data]:
-            if isinstance(user, bpy.types.Object) and user.library is None:
-                object_properties(user).status = ""
-        names.append(obj.name)
+            problems.append(f'"{obj.name}" is unchanged: {in_words(error)}')
+        else:
+            names.append(obj.name)
     return report_all(operator, f"{done} {', '.join(names)}" if names else "", problems)
+
+
+def _forget_status(mesh):
+    for user in bpy.data.user_map(subset=[mesh])[mesh]:
+        if isinstance(user, bpy.types.Object) and user.library is None:
+            object_properties(user).status = ""

@@ -7,6 +7,7 @@ from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.baked_pose import remember_pose
 from .originals import for_each_original, poll_originals
 from .selection import poll_meshes
+from .unforeseen import reporting
 
 
 class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
@@ -22,11 +23,12 @@ class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
         """There is a mesh with an original."""
         return poll_meshes(cls, context) and poll_originals(cls, context)
 
+    @reporting
     def execute(self, context):
         """Restore each mesh once."""
         return for_each_original(self, context, _restore, "Restored")
 
 
 def _restore(obj):
-    mesh_bridge.restore(obj)
     remember_pose(obj, is_posed=False)
+    mesh_bridge.restore(obj)

@@ -7,7 +7,6 @@ Runs under the ``bpy`` module and in Blender alike::
 """
 
 import os
-import signal
 import sys
 import time
 from pathlib import Path
@@ -18,11 +17,11 @@ if str(ROOT / "scripts") not in sys.path:  # Blender does not put a script's fol
 
 from headless.arguments import parse  # noqa: E402
 from headless.errors import InputError  # noqa: E402
+from headless.interruption import end_on_signals  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 
 IS_INSIDE_BLENDER = "bpy" in sys.modules
-INTERRUPTED = 130
-"""exit code after Ctrl-C, as shells have it"""
+PROGRAM = "headless_render.py"
 
 
 def arguments_of_script() -> list[str]:
@@ -48,9 +47,7 @@ def leave(code: int) -> None:
 
 def main() -> int:
     """Run once and return the exit code."""
-    if signal.getsignal(signal.SIGINT) is None:
-        # In Blender Ctrl-C is Blender's, which only heeds it while it renders.
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    end_on_signals(PROGRAM)
     try:
         begin = time.perf_counter()
         options = parse(arguments_of_script())
@@ -60,11 +57,8 @@ def main() -> int:
 
         run(options, ROOT, begin)
     except InputError as error:
-        print(f"headless_render.py: error: {error}", file=sys.stderr)
+        print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("headless_render.py: interrupted", file=sys.stderr)
-        return INTERRUPTED
     return 0
 
 

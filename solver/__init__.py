@@ -12,7 +12,7 @@ from .errors import CubicCraftError
 
 if TYPE_CHECKING:
     from .auto_orientation import auto_orient, nearest_to_identity
-    from .backends import DEVICES, set_cache_folder
+    from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .progress import Progress
     from .rest import RestMesh, rest_mesh
     from .rest_measures import triangle_areas_and_normals
@@ -35,6 +35,7 @@ __all__ = [
     "Stylization",
     "auto_orient",
     "nearest_to_identity",
+    "problem_with_taichi",
     "rest_mesh",
     "run",
     "set_cache_folder",
@@ -55,6 +56,7 @@ _MODULES = {
     "Stylization": "stylization",
     "auto_orient": "auto_orientation",
     "nearest_to_identity": "auto_orientation",
+    "problem_with_taichi": "backends",
     "rest_mesh": "rest",
     "run": "runner",
     "set_cache_folder": "backends",

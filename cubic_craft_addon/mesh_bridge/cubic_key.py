@@ -80,38 +80,41 @@ def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> No
     """Remove the shape key of ours, and Basis where we made it and no other key needs it.
 
     `key` is what `find_cubic_key` found before anything was written: it compares the key with
-    the base.
+    the base. Removing it is the last that is done, as it cannot be taken back.
     """
     note = read_note(mesh)
     noted = note.pop("key", None)
-    if key is not None:
-        remove_key(mesh, key)
-        shape_keys = mesh.shape_keys
-        if noted["made_basis"] and shape_keys is not None and len(shape_keys.key_blocks) == 1:
-            remove_key(mesh, shape_keys.reference_key)
     write_note(mesh, note)
+    if key is None:
+        return
+    shape_keys = mesh.shape_keys
+    assert shape_keys is not None
+    # With Basis alone Blender takes it for no shape key at all.
+    is_all_ours = noted["made_basis"] and len(shape_keys.key_blocks) == 2
+    remove_keys(mesh, [key, shape_keys.reference_key] if is_all_ours else [key])
 
 
-def remove_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
-    """Remove a shape key with its drivers, on every object of the mesh.
+def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
+    """Remove shape keys with their drivers, on every object of the mesh.
 
     The active shape key is remembered per object, by number, and Blender corrects that of one
     object only. So the key is removed through a passing object, and all are corrected alike.
     """
-    shape_keys = mesh.shape_keys
-    assert shape_keys is not None
-    place = shape_keys.key_blocks.find(key.name)
-    active = {obj: obj.active_shape_key_index for obj in bpy.data.objects if obj.data == mesh}
-    animation = shape_keys.animation_data
-    if animation is not None:  # Blender 4.2 would leave them behind, pointing nowhere
-        path = key.path_from_id() + "."
-        for driver in [d for d in animation.drivers if d.data_path.startswith(path)]:
-            animation.drivers.remove(driver)
-    passing = bpy.data.objects.new(key.name, mesh)
-    try:
-        passing.shape_key_remove(key)
-    finally:
-        bpy.data.objects.remove(passing)
-    for obj, index in active.items():
-        if index and index >= place:
-            obj.active_shape_key_index = index - 1
+    for key in keys:
+        shape_keys = mesh.shape_keys
+        assert shape_keys is not None
+        place = shape_keys.key_blocks.find(key.name)
+        active = {obj: obj.active_shape_key_index for obj in bpy.data.objects if obj.data == mesh}
+        animation = shape_keys.animation_data
+        if animation is not None:  # Blender 4.2 would leave them behind, pointing nowhere
+            path = key.path_from_id() + "."
+            for driver in [d for d in animation.drivers if d.data_path.startswith(path)]:
+                animation.drivers.remove(driver)
+        passing = bpy.data.objects.new(key.name, mesh)
+        try:
+            passing.shape_key_remove(key)
+        finally:
+            bpy.data.objects.remove(passing)
+        for obj, index in active.items():
+            if index and index >= place:
+                obj.active_shape_key_index = index - 1

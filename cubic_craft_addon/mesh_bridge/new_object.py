@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write a result to a copy of the object; the source stays as it is, bit for bit."""
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 
@@ -10,7 +12,10 @@ from .results import write_mesh
 
 
 def write_new_object(
-    obj: bpy.types.Object, positions: np.ndarray, rotations: np.ndarray
+    obj: bpy.types.Object,
+    positions: np.ndarray,
+    rotations: np.ndarray,
+    prepare: Callable[[bpy.types.Object], None] = lambda new: None,
 ) -> bpy.types.Object:
     """Copy an object with its mesh and write a result to the copy's mesh.
 
@@ -23,6 +28,7 @@ def write_new_object(
     obj : an object with a mesh, not in Edit Mode
     positions : (n,3) numpy array, object space
     rotations : (n,3,3) numpy array
+    prepare : called with the new object once it has the result, before it takes the place of `obj`
 
     Returns
     -------
@@ -31,7 +37,7 @@ def write_new_object(
     Raises
     ------
     CubicCraftError
-        As `write_mesh`; there is then no new object.
+        As `write_mesh`. Whatever is raised, there is then no new object.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -44,6 +50,7 @@ def write_new_object(
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
         _link_beside(obj, new)
+        prepare(new)
         _select_instead(obj, new)
     except BaseException:
         bpy.data.objects.remove(new)

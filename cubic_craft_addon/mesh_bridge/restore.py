@@ -39,8 +39,8 @@ def restore(obj: bpy.types.Object) -> None:
         if stored_result(mesh) is not None:
             write_shapes(mesh, original)
         drop_stored(mesh)
-        remove_cubic_key(mesh, cubic_key)
         mark_moved(mesh)
+        remove_cubic_key(mesh, cubic_key)
 
 
 def has_traces(mesh: bpy.types.Mesh | None) -> bool:
@@ -61,9 +61,10 @@ def forget(mesh: bpy.types.Mesh) -> None:
     Raises
     ------
     CubicCraftError
-        A mesh that cannot be written.
+        A mesh that cannot be written; it is then as it was before.
     """
     check_writable(mesh, mesh.name)
     end_preview(mesh)
-    drop_stored(mesh)
-    write_note(mesh, {})
+    with all_or_nothing(mesh):
+        drop_stored(mesh)
+        write_note(mesh, {})

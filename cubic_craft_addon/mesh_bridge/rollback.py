@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import bpy
 
 from .attributes import add_attribute, our_attributes, read_attribute, remove_attribute
-from .cubic_key import remove_key
+from .cubic_key import remove_keys
 from .note import read_note, write_note
 from .shapes import read_shapes, write_shapes
 
@@ -45,9 +45,8 @@ class _State:
         """Undo all changes since the state was taken."""
         mesh = self.mesh
         if mesh.shape_keys is not None:
-            for key in reversed(mesh.shape_keys.key_blocks[:]):
-                if key.name not in self.shapes.keys:
-                    remove_key(mesh, key)
+            added = [k for k in mesh.shape_keys.key_blocks if k.name not in self.shapes.keys]
+            remove_keys(mesh, added[::-1])
         for name in our_attributes(mesh):
             remove_attribute(mesh, name)
         for name, values in self.ours.items():

@@ -10,7 +10,9 @@ import sys
 import tempfile
 from collections.abc import Iterator
 
-__all__ = ("captured", "mute_stdout")
+__all__ = ("captured", "mute_stdout", "terminal")
+
+_terminals = [2]
 
 
 def mute_stdout(verbose: bool) -> None:
@@ -24,6 +26,11 @@ def mute_stdout(verbose: bool) -> None:
     os.close(nowhere)
 
 
+def terminal() -> int:
+    """Return the file descriptor of standard error, also while that is `captured`."""
+    return _terminals[-1]
+
+
 @contextlib.contextmanager
 def captured(verbose: bool) -> Iterator[None]:
     """Swallow standard error during the block, or let it through if ``verbose``."""
@@ -31,12 +38,12 @@ def captured(verbose: bool) -> Iterator[None]:
         yield
         return
     sys.stderr.flush()
-    terminal = os.dup(2)
+    _terminals.append(os.dup(2))
     with tempfile.TemporaryFile() as sink:
         os.dup2(sink.fileno(), 2)
         try:
             yield
         finally:
             sys.stderr.flush()
-            os.dup2(terminal, 2)
-            os.close(terminal)
+            os.dup2(_terminals[-1], 2)
+            os.close(_terminals.pop())

@@ -2,7 +2,6 @@
 
 import contextlib
 import math
-import signal
 from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
@@ -87,10 +86,10 @@ def _set_up_cycles(scene: bpy.types.Scene, samples: int) -> None:
 
 
 def _render_still(scene: bpy.types.Scene, path: Path, engine: str) -> None:
-    scene.render.filepath = str(path)
     try:
-        with _interruptible():
-            bpy.ops.render.render(write_still=True, scene=scene.name)
+        bpy.ops.render.render(scene=scene.name)
+        # Not by `write_still`, which takes {braces} in a path for a template.
+        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
     except RuntimeError as error:
         raise InputError(f"--engine {engine}: {reason(error)}; {_cure(engine)}") from error
     if not path.is_file():
@@ -101,16 +100,3 @@ def _cure(engine: str) -> str:
     if engine == "workbench":
         return "it needs a display or a GPU with EGL; choose --engine cycles"
     return "see its own messages with --verbose"
-
-
-@contextlib.contextmanager
-def _interruptible() -> Iterator[None]:
-    """Let Ctrl-C end the process at once: while Blender renders, Python cannot be told.
-
-    Nothing is lost: Blender writes the picture at the end, and under a temporary name.
-    """
-    before = signal.signal(signal.SIGINT, signal.SIG_DFL)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

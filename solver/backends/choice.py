@@ -17,31 +17,46 @@ def local_step_class(device="auto", precision=None):
     Parameters
     ----------
     device : {"auto", "cpu", "gpu", "numpy"}
-        "cpu" and "gpu" are Taichi's; "auto" is "cpu" where Taichi can be imported, else "numpy".
+        "cpu" and "gpu" are Taichi's; "auto" is "cpu" where Taichi works, else "numpy", for good:
+        see `problem_with_taichi`.
     precision : {"f64", "f32"}, optional
         Of Taichi's kernels; by default the best that the device has. NumPy is always f64.
 
     Raises
     ------
     CubicCraftError
-        An unknown device, or Taichi is asked for and is not there.
+        An unknown device. The function raises it if Taichi is asked for and does not work.
     """
     if device not in DEVICES:
         raise CubicCraftError(f"the device {device!r} is none of {', '.join(DEVICES)}")
-    if device == "numpy":
+    if device == "numpy" or (device == "auto" and _problem):
         return NumpyLocalStep
-    try:
-        import_taichi()
-    except Exception as error:  # a broken installation can raise anything
-        if device == "auto":
-            return NumpyLocalStep
-        raise CubicCraftError(
-            f"the device {device!r} needs Taichi, which cannot be imported ({error});"
-            " choose the device auto or numpy"
-        ) from error
-    return partial(_taichi_local_step, "gpu" if device == "gpu" else "cpu", precision)
+    return partial(_taichi_local_step, device, precision)
+
+
+def problem_with_taichi():
+    """Return why the device "auto" has come to mean "numpy", "" while it has not."""
+    return _problem
+
+
+_problem = ""
 
 
 def _taichi_local_step(device, precision, rest, lam, Q, options):
-    with quick_compilation():
-        return TaichiLocalStep(rest, lam, Q, options, device, precision)
+    try:
+        import_taichi()
+        with quick_compilation():
+            wanted = "gpu" if device == "gpu" else "cpu"
+            return TaichiLocalStep(rest, lam, Q, options, wanted, precision)
+    except (CubicCraftError, MemoryError, KeyboardInterrupt):
+        raise
+    except BaseException as error:  # a broken installation can raise anything, or want to exit
+        reason = str(error).strip().partition("\n")[0] or type(error).__name__
+        if device != "auto":
+            raise CubicCraftError(
+                f"the device {device!r} needs Taichi, which cannot be used ({reason});"
+                " choose the device auto or numpy"
+            ) from error
+        global _problem
+        _problem = reason
+        return NumpyLocalStep(rest, lam, Q, options)

@@ -5,8 +5,10 @@ import contextlib
 import inspect
 import os
 import sys
+import tempfile
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from textwrap import TextWrapper
 from typing import Any
 
@@ -71,14 +73,32 @@ def start(device):
     if not is_foreign and (program is None or _our_device != device):
         ti.set_logging_level(ti.ERROR)
         arch = ti.cpu if device == "cpu" else gpu_arch(ti)
-        options = {"offline_cache_file_path": _cache_folder} if _cache_folder else {}
+        folder = _cache_folder or ti.lang.impl.default_cfg().offline_cache_file_path
+        is_cached = _is_writable(folder)
+        if not is_cached:
+            folder = tempfile.gettempdir()  # nothing is written to it, but it must be there
+        options = {"offline_cache": is_cached, "offline_cache_file_path": folder}
         # It would ask a server for its newest version, and it announces itself whatever the level.
         with _environment("TI_SKIP_VERSION_CHECK", "ON"), contextlib.redirect_stdout(None):
-            ti.init(arch=arch, log_level=ti.ERROR, offline_cache=True, **options)
+            ti.init(arch=arch, log_level=ti.ERROR, **options)
         _our_program, _our_device = ti.lang.impl.get_runtime().prog, device
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
     shown = "cpu" if name in ("x64", "arm64") else name
     return Runtime(f"taichi-{shown}", name in _ARCHES_WITH_F64)
+
+
+def _is_writable(folder):
+    """Tell whether files can be made in a folder, which is made if need be.
+
+    Taichi does not ask: when its program ends, as at the end of Blender, it makes the folder, and
+    crashes the process if it cannot.
+    """
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
 
 
 @contextlib.contextmanager

@@ -22,7 +22,8 @@ from scene import select  # noqa: E402
 pytest.register_assert_rewrite("live_steps")  # what fails there is then explained as in a test
 
 
-def _extension_zip():
+def extension_zip():
+    """Return the built extension: what CUBIC_CRAFT_ZIP says, or one built now."""
     given = os.environ.get("CUBIC_CRAFT_ZIP")
     if given:
         return Path(given).resolve()
@@ -38,7 +39,7 @@ def _extension_zip():
 def extension():
     """Install and enable the built extension; return its package."""
     done = bpy.ops.extensions.package_install_files(
-        filepath=str(_extension_zip()), repo="user_default", enable_on_install=True
+        filepath=str(extension_zip()), repo="user_default", enable_on_install=True
     )
     assert done == {"FINISHED"}
     module = importlib.import_module(NAME)

@@ -63,7 +63,7 @@ def differences(
 def snapshot_object(obj: Any) -> dict[str, Any]:
     """Take everything of an object and of its mesh, which lies under ``mesh/``."""
     mesh = _prefixed("mesh", snapshot_mesh(obj.data))
-    taken = _prefixed("rna", _rna(obj))
+    taken = _prefixed("rna", plain_properties(obj))
     taken["selected"] = obj.select_get()
     taken["collections"] = [collection.name for collection in obj.users_collection]
     taken["slots"] = [
@@ -73,7 +73,7 @@ def snapshot_object(obj: Any) -> dict[str, Any]:
     for kind, items in (("modifiers", obj.modifiers), ("constraints", obj.constraints)):
         taken[kind] = [item.name for item in items]
         for item in items:
-            taken |= _prefixed(f"{kind}/{item.name}", _rna(item) | _custom(item))
+            taken |= _prefixed(f"{kind}/{item.name}", plain_properties(item) | _custom(item))
     taken |= _prefixed("animation", _animation(obj)) | _prefixed("custom", _custom(obj))
     return taken | mesh
 
@@ -81,7 +81,7 @@ def snapshot_object(obj: Any) -> dict[str, Any]:
 def snapshot_mesh(mesh: Any) -> dict[str, Any]:
     """Take everything of a mesh."""
     bpy.context.view_layer.update()  # drivers, dimensions and texture space as they will be
-    taken = _prefixed("rna", _rna(mesh)) | _prefixed("custom", _custom(mesh))
+    taken = _prefixed("rna", plain_properties(mesh)) | _prefixed("custom", _custom(mesh))
     taken |= _prefixed("animation", _animation(mesh))
     taken |= _prefixed("attributes", _attributes(mesh))
     taken |= _prefixed("topology", _topology(mesh))
@@ -156,13 +156,13 @@ def _normals(mesh: Any) -> dict[str, Any]:
 
 
 def _shape_keys(keys: Any) -> dict[str, Any]:
-    taken = _prefixed("rna", _rna(keys)) | _prefixed("animation", _animation(keys))
+    taken = _prefixed("rna", plain_properties(keys)) | _prefixed("animation", _animation(keys))
     taken |= _prefixed("custom", _custom(keys))
     taken["order"] = [key.name for key in keys.key_blocks]
     taken["reference"] = keys.reference_key.name
     for key in keys.key_blocks:
         path = f"blocks/{key.name}"
-        taken |= _prefixed(path, _rna(key))
+        taken |= _prefixed(path, plain_properties(key))
         taken[f"{path}/points"] = _read(key.points, "co", 3, np.float32)
         taken[f"{path}/relative to"] = key.relative_key.name
     return taken
@@ -175,11 +175,11 @@ def _animation(block: Any) -> dict[str, Any]:
     taken = {"action": data.action and data.action.name}
     for curve in data.drivers:
         path = f"{curve.data_path}[{curve.array_index}]"
-        taken |= _prefixed(path, _rna(curve) | _rna(curve.driver))
+        taken |= _prefixed(path, plain_properties(curve) | plain_properties(curve.driver))
         for variable in curve.driver.variables:
-            taken |= _prefixed(f"{path}/{variable.name}", _rna(variable))
+            taken |= _prefixed(f"{path}/{variable.name}", plain_properties(variable))
             for number, target in enumerate(variable.targets):
-                taken |= _prefixed(f"{path}/{variable.name}/{number}", _rna(target))
+                taken |= _prefixed(f"{path}/{variable.name}/{number}", plain_properties(target))
     if data.action:
         for curve in action_curves(data):
             taken[f"curve {curve.data_path}[{curve.array_index}]"] = [
@@ -201,7 +201,7 @@ def action_curves(data: Any) -> Iterable[Any]:
     return data.action.fcurves
 
 
-def _rna(struct: Any) -> dict[str, Any]:
+def plain_properties(struct: Any) -> dict[str, Any]:
     """Take all simple properties, and the names of the data-blocks that pointers lead to."""
     taken = {}
     for prop in struct.bl_rna.properties:

@@ -1,13 +1,8 @@
-"""Pictures, and what is left when the artist presses Ctrl-C."""
-
-import signal
-import subprocess
-import sys
-import time
+"""Pictures."""
 
 import numpy as np
 import pytest
-from headless import SCRIPT, headless_ok, read_files
+from headless import headless_ok, read_files
 
 WIDTH, HEIGHT = 240, 80
 
@@ -49,50 +44,3 @@ def test_turntable_turns(pictures):
     folder, (_, first, second) = pictures
     assert not (folder / "turn.png").exists()
     assert np.abs(first - second).max() > 0.2
-
-
-def interrupt(arguments, line, delay, cwd):
-    """Start a run, send Ctrl-C some time after a line on standard error, and wait for the end."""
-    process = subprocess.Popen(
-        [sys.executable, str(SCRIPT), *map(str, arguments)],
-        cwd=cwd,
-        stderr=subprocess.PIPE,
-        text=True,
-        # A test run in the background may have SIGINT ignored, which children would inherit.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
-    assert process.stderr is not None
-    for text in process.stderr:
-        if line in text:
-            break
-    time.sleep(delay)
-    process.send_signal(signal.SIGINT)
-    _, rest = process.communicate(timeout=60)
-    return process.returncode, rest
-
-
-def test_interrupted_solve_writes_nothing(tmp_path):
-    endless = ("--tolerance", 1e-12, "--max-iterations", 1000000, "--device", "numpy")
-    code, rest = interrupt(
-        ["--cubeness", 0.0, 1.0, *endless, "--save-mesh", "a.obj", "--report", "a.json"],
-        line="cubeness 0.0",
-        delay=1.0,
-        cwd=tmp_path,
-    )
-    assert code == 130
-    assert rest == "headless_render.py: interrupted\n"
-    assert not list(tmp_path.iterdir())
-
-
-def test_interrupted_render_keeps_the_old_picture(tmp_path):
-    old = tmp_path / "a.png"
-    old.write_bytes(b"old")
-    code, _ = interrupt(
-        ["--max-iterations", 1, "--samples", 65536, "--resolution", 4000, 4000, "--output", old],
-        line="cubeness 0.4",
-        delay=3.0,
-        cwd=tmp_path,
-    )
-    assert code in (130, -signal.SIGINT)
-    assert list(tmp_path.iterdir()) == [old]
-    assert old.read_bytes() == b"old"

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Put the settings of objects back when the work that they belong to fails."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+from .object_properties import PROPERTY, has_properties, object_properties
+
+
+@contextmanager
+def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
+    """Undo what the block did to the settings of all objects that show the meshes if it raises.
+
+    Handles may change in it, but none may be added or removed.
+    """
+    users = bpy.data.user_map(subset=list(meshes)).values()
+    objects = {user for some in users for user in some if isinstance(user, bpy.types.Object)}
+    before = [
+        (obj, [_read(group) for group in _groups(obj)] if has_properties(obj) else None)
+        for obj in objects
+        if obj.is_editable
+    ]
+    try:
+        yield
+    except BaseException:
+        for obj, values in before:
+            if values is not None:
+                for group, taken in zip(_groups(obj), values, strict=True):
+                    _put_back(group, taken)
+            elif has_properties(obj):
+                obj.property_unset(PROPERTY)
+        raise
+
+
+def _groups(obj: bpy.types.Object) -> list[Any]:
+    properties = object_properties(obj)
+    return [properties, *properties.handles]
+
+
+def _read(group: Any) -> dict[str, Any]:
+    """Return the properties of a group, save collections, as what can be assigned again."""
+    taken = {}
+    for prop in group.bl_rna.properties:
+        if prop.type != "COLLECTION" and not prop.is_readonly:
+            value = getattr(group, prop.identifier)
+            taken[prop.identifier] = _plain(value), group.is_property_set(prop.identifier)
+    return taken
+
+
+def _put_back(group: Any, taken: dict[str, Any]) -> None:
+    for name, (value, is_set) in taken.items():
+        if not is_set:
+            if group.is_property_set(name):
+                group.property_unset(name)
+        elif _plain(getattr(group, name)) != value:
+            setattr(group, name, value)
+
+
+def _plain(value: Any) -> Any:
+    """Copy what would change under our hands: vectors and matrices are views of the property."""
+    if isinstance(value, str | int | float | bpy.types.ID | None):
+        return value
+    return value.copy() if hasattr(value, "copy") else tuple(value)

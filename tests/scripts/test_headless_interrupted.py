@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Killed at any moment, the script leaves whole files only; told to end, it does so with one line.
+
+``CUBIC_CRAFT_KILLS=100`` adds so many runs that are killed at moments spread over their length.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from headless import SCRIPT, headless_ok
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
+
+OLD = b"of an earlier run"
+CALM = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGKILL]
+# The script with its last step, the move of the finished file to its place, held up.
+HELD = f"""
+import pathlib, runpy, sys, time
+pathlib.Path.replace = lambda *_: time.sleep(600)
+sys.argv[0] = {str(SCRIPT)!r}
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+QUICK = ("--device", "numpy", "--max-iterations", "3")
+SMALL = ("--samples", "1", "--resolution", "64", "32")
+PATIENCE = 120
+
+
+def start(folder, *arguments, script=(str(SCRIPT),)):
+    return subprocess.Popen(
+        [sys.executable, *script, *QUICK, *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A test run in the background may have SIGINT ignored, which children would inherit.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
+def temporaries(folder):
+    return [path for path in folder.iterdir() if path.name.startswith(".")]
+
+
+def wait_until(process, is_reached):
+    """Wait without a pause, as moments are short; fail where the process ends before."""
+    end = time.monotonic() + PATIENCE
+    while not is_reached():
+        assert process.poll() is None, process.stderr.read()
+        assert time.monotonic() < end, "the moment does not come"
+
+
+def stop(process, number):
+    """Send a signal and check how the process ends, and what it says."""
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=PATIENCE)
+    if number == signal.SIGKILL:
+        assert process.returncode == -number
+        return
+    assert process.returncode == 128 + number, errors
+    assert "Traceback" not in errors
+    assert errors.splitlines()[-1] == f"headless_render.py: {CALM[number]}"
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_stopped_while_a_mesh_is_written(tmp_path, number):
+    check_stopped(tmp_path, number, "result.obj", (str(SCRIPT),))
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("suffix", ["obj", "ply", "blend", "usdc", "abc"])
+def test_stopped_before_a_mesh_is_in_its_place(tmp_path, number, suffix):
+    check_stopped(tmp_path, number, f"result.{suffix}", ("-c", HELD))
+
+
+def check_stopped(tmp_path, number, name, script):
+    """Stop a run while there is a temporary file, and run again."""
+    target = tmp_path / name
+    target.write_bytes(OLD)
+    process = start(tmp_path, "--no-render", "--save-mesh", target.name, script=script)
+    wait_until(process, lambda: temporaries(tmp_path))
+    stop(process, number)
+    left = temporaries(tmp_path)
+    assert number == signal.SIGKILL or not left
+    whole = target.read_bytes()
+    headless_ok(*QUICK, "--no-render", "--save-mesh", target.name, cwd=tmp_path)
+    assert whole == OLD or len(whole) == target.stat().st_size
+    assert sorted(tmp_path.iterdir()) == [target], "what the killed run has left is not cleaned up"
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_stopped_while_a_picture_is_rendered(tmp_path, number):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(OLD)
+    lasting = ("--samples", "65536", "--resolution", "1600", "540")
+    process = start(tmp_path, *lasting, "--output", picture.name, "--save-mesh", "mesh.obj")
+    wait_until(process, lambda: (tmp_path / "mesh.obj").exists())
+    time.sleep(3)  # it now renders, for minutes
+    assert process.poll() is None
+    begin = time.monotonic()
+    stop(process, number)
+    assert time.monotonic() - begin < 60, "it has gone on rendering"
+    assert picture.read_bytes() == OLD
+    assert not temporaries(tmp_path)
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_stopped_while_a_picture_is_written(tmp_path, number):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(OLD)
+    process = start(tmp_path, "--samples", "1", "--resolution", "1600", "900", "--output", picture)
+    wait_until(process, lambda: temporaries(tmp_path))
+    stop(process, number)
+    whole = picture.read_bytes()
+    assert whole == OLD or whole.endswith(b"IEND\xaeB`\x82")
+    headless_ok(*QUICK, *SMALL, "--output", picture, cwd=tmp_path)
+    assert sorted(tmp_path.iterdir()) == [picture]
+
+
+@pytest.mark.parametrize("number", CALM)
+def test_stopped_while_it_solves(tmp_path, number):
+    endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--save-mesh", "a.obj")
+    process = start(tmp_path, "--cubeness", "0", "1", *endless, *SMALL)
+    assert "cubeness 0.0" in process.stderr.readline()
+    time.sleep(1)  # it now solves the second
+    stop(process, number)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_temporary_file_of_a_running_process_is_left_alone(tmp_path):
+    target = tmp_path / "result.obj"
+    process = start(tmp_path, "--no-render", "--save-mesh", target.name)
+    wait_until(process, lambda: temporaries(tmp_path))
+    process.send_signal(signal.SIGSTOP)
+    left = temporaries(tmp_path)
+    try:
+        headless_ok(*QUICK, "--no-render", "--save-mesh", target.name, cwd=tmp_path)
+        assert temporaries(tmp_path) == left
+    finally:
+        process.send_signal(signal.SIGCONT)
+    process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0 and not temporaries(tmp_path)
+
+
+def test_killed_at_any_moment(tmp_path):
+    """Kill runs at moments spread evenly from the start to the end."""
+    count = int(os.environ.get("CUBIC_CRAFT_KILLS", "2"))
+    arguments = (*SMALL, "--save-mesh", "mesh.obj", "--report", "run.json")
+    begin = time.monotonic()
+    headless_ok(*QUICK, *arguments, cwd=tmp_path)
+    length = time.monotonic() - begin
+    outputs = sorted(tmp_path.iterdir())
+    for path in outputs:
+        path.write_bytes(OLD)
+    for number in range(count):
+        process = start(tmp_path, *arguments)
+        time.sleep(length * (number + 0.5) / count)
+        process.send_signal(SIGNALS[number % 3])
+        _, errors = process.communicate(timeout=PATIENCE)
+        assert "Traceback" not in errors
+        for path in outputs:
+            content = path.read_bytes()
+            end = {".png": b"IEND\xaeB`\x82", ".json": b"}\n", ".obj": b"\n"}[path.suffix]
+            assert content == OLD or content.endswith(end), path
+    headless_ok(*QUICK, *arguments, cwd=tmp_path)
+    assert sorted(tmp_path.iterdir()) == outputs

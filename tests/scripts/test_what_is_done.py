@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the code never does: go online, run data as code, or ask for rights that it does not use.
+
+All files of the extension and the scripts are read as syntax trees, whatever they are called.
+"""
+
+import ast
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXTENSION = [ROOT / "__init__.py"] + [
+    path
+    for room in ("solver", "cubic_craft_addon", "operators")
+    for path in (ROOT / room).rglob("*.py")
+]
+SCRIPTS = list((ROOT / "scripts").rglob("*.py"))
+
+NETWORK = {"socket", "ssl", "urllib", "http", "ftplib", "smtplib", "requests", "httpx", "aiohttp"}
+NETWORK |= {"xmlrpc", "socketserver", "telnetlib", "webbrowser", "urllib3", "asyncio"}
+UNPACKING = {"pickle", "marshal", "shelve", "dill", "code", "codeop", "runpy", "ctypes"}
+CODE = {"eval", "exec", "compile", "__import__"}
+DYNAMIC = {"import_module", "spec_from_file_location", "exec_module"}
+SHELL = {"system", "popen", "execv", "execve", "spawnl", "spawnv"}
+
+# Where something of this kind is done with names of our own, never with the artist's data.
+ALLOWED = {
+    ("solver/__init__.py", "import_module"),  # its own modules, at their first use
+    ("solver/optional_packages.py", "import_module"),  # packages named in our code
+    ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
+    ("scripts/headless/extension.py", "import_module"),  # the extension beside the script
+    ("scripts/headless/extension.py", "spec_from_file_location"),
+    ("scripts/headless/extension.py", "exec_module"),
+    ("scripts/build_extension.py", "subprocess"),  # Blender's own tool
+    ("scripts/benchmark_live.py", "subprocess"),
+}
+
+
+def found_in(path):
+    """Return what a file does of all that (set of str)."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            found.add(node.module.partition(".")[0])
+        elif isinstance(node, ast.Call):
+            function = node.func
+            if isinstance(function, ast.Name) and function.id in CODE | DYNAMIC:
+                found.add(function.id)
+            elif isinstance(function, ast.Attribute) and function.attr in DYNAMIC | SHELL:
+                found.add(function.attr)
+            if any(k.arg == "shell" and not _is_false(k.value) for k in node.keywords):
+                found.add("shell")
+    watched = NETWORK | UNPACKING | CODE | DYNAMIC | SHELL | {"subprocess", "shell"}
+    return found & watched
+
+
+def _is_false(node):
+    return isinstance(node, ast.Constant) and node.value is False
+
+
+@pytest.mark.parametrize("path", EXTENSION + SCRIPTS, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_nothing_of_that_kind(path):
+    name = path.relative_to(ROOT).as_posix()
+    if name.startswith("scripts/benchmark/"):
+        pytest.skip("starts other programs, for a developer")
+    assert found_in(path) - {what for where, what in ALLOWED if where == name} == set()
+
+
+def test_the_check_sees_what_it_looks_for(tmp_path):
+    source = "import os, urllib.request\nfrom http import client\nos.system('x')\neval('1')\n"
+    (tmp_path / "a.py").write_text(source + "f(shell=True)\nimportlib.import_module(name)\n")
+    assert found_in(tmp_path / "a.py") == {
+        *("urllib", "http", "system", "eval", "shell", "import_module")
+    }
+
+
+def test_every_exception_is_still_needed():
+    assert {where for where, what in ALLOWED if what not in found_in(ROOT / where)} == set()
+
+
+def test_the_manifest_asks_for_no_right():
+    """The extension reads and writes nothing but Blender's data, and Taichi's cache in its folder.
+
+    Of the rights that a manifest can ask for, "files" means the artist's files, "network" the
+    internet; what the tests above look for would need them.
+    """
+    manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
+    assert "permissions" not in manifest
+    for path in EXTENSION:
+        writers = {"write_text", "write_bytes", "open", "unlink", "rename"}
+        calls = [
+            n.func
+            for n in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+            if isinstance(n, ast.Call)
+        ]
+        names = {getattr(f, "attr", getattr(f, "id", "")) for f in calls}
+        assert not names & writers, path

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Taichi that is missing, broken or used by others, and a cache folder that cannot be used.
+
+Each test runs in a process of its own, as in `test_taichi_runtime`; that it ends well counts too,
+because Taichi writes its cache only then.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+from taichi_marks import needs_taichi
+from test_taichi_runtime import passes
+
+WITH_CACHE = """
+    from solver import set_cache_folder
+    set_cache_folder({folder!r})
+    result = stylize(V, F, max_iterations=2)
+    print(result.device, result.positions.tobytes().hex())
+"""
+BROKEN = {
+    "missing": None,
+    "empty": "",
+    "wants to exit": "raise SystemExit(3)",
+    "no library": "raise OSError('libtaichi.so: cannot open shared object file')",
+    "half installed": "from . import _lib_that_is_not_there",
+    "written badly": "def broken(:",
+    "odd": "class Odd(BaseException): pass\nraise Odd",
+    "never starts": "class lang: impl = None",
+}
+
+
+@pytest.mark.parametrize("how", BROKEN)
+def test_a_broken_taichi_means_numpy_for_good(tmp_path, how):
+    if BROKEN[how] is not None:
+        (tmp_path / "taichi").mkdir()
+        (tmp_path / "taichi" / "__init__.py").write_text(BROKEN[how])
+    output = passes(
+        f"""
+        if {BROKEN[how] is None}:
+            sys.modules["taichi"] = None
+        sys.path.insert(0, {str(tmp_path)!r})
+        from solver import CubicCraftError, problem_with_taichi
+        from solver.backends import choice
+        tries = []
+        real = choice.import_taichi
+        choice.import_taichi = lambda: tries.append(1) or real()
+        assert problem_with_taichi() == ""
+        for _ in range(3):
+            assert stylize(V, F, max_iterations=2).device == "numpy"
+        assert tries == [1], "it is tried in each run"
+        assert problem_with_taichi() and "\\n" not in problem_with_taichi()
+        try:
+            stylize(V, F, max_iterations=2, device="cpu")
+        except CubicCraftError as error:
+            assert "needs Taichi" in str(error) and "\\n" not in str(error)
+        else:
+            raise AssertionError("not refused")
+        """
+    )
+    assert output == ""
+
+
+@needs_taichi
+def test_too_little_memory_is_no_reason_to_do_without_taichi():
+    passes(
+        """
+        from solver import problem_with_taichi
+        from solver.backends import taichi_local_step
+        def fail(*_):
+            raise MemoryError
+        real, taichi_local_step._compile = taichi_local_step._compile, fail
+        try:
+            stylize(V, F, max_iterations=2)
+        except MemoryError:
+            pass
+        taichi_local_step._compile = real
+        assert problem_with_taichi() == ""
+        assert stylize(V, F, max_iterations=2).device == "taichi-cpu"
+        """
+    )
+
+
+@pytest.fixture(scope="module")
+def cached(tmp_path_factory):
+    """Return a folder that Taichi has filled, and what was computed meanwhile."""
+    folder = tmp_path_factory.mktemp("cache")
+    return folder, passes(WITH_CACHE.format(folder=str(folder)))
+
+
+def _cut(data):
+    return data[: len(data) // 2]
+
+
+SPOILED = {
+    "kernels garbage": ("*.tic", lambda data: bytes(range(256)) * 20),
+    "kernels cut off": ("*.tic", _cut),
+    "kernels empty": ("*.tic", lambda data: b""),
+    "index garbage": ("*.tcb", lambda data: bytes(range(256)) * 20),
+    "index cut off": ("*.tcb", _cut),
+    "all empty": ("*", lambda data: b""),
+}
+
+
+@needs_taichi
+@pytest.mark.parametrize("how", SPOILED)
+def test_a_corrupt_cache_does_not_matter(cached, tmp_path, how):
+    filled, expected = cached
+    folder = tmp_path / "cache"
+    shutil.copytree(filled, folder)
+    pattern, spoil = SPOILED[how]
+    files = list(folder.glob(pattern))
+    assert files
+    for file in files:
+        file.write_bytes(spoil(file.read_bytes()))
+    assert passes(WITH_CACHE.format(folder=str(folder))) == expected
+
+
+@needs_taichi
+@pytest.mark.parametrize("how", ["a file", "below a file", "read-only"])
+def test_a_cache_folder_that_cannot_be_used_does_not_matter(cached, tmp_path, how):
+    (tmp_path / "file").write_text("of the artist")
+    places = {"a file": tmp_path / "file", "below a file": tmp_path / "file" / "cache"}
+    folder = places.get(how, "/proc/taichi")
+    if how == "read-only" and sys.platform != "linux":
+        pytest.skip("no folder is known here in which not even root can write")
+    assert passes(WITH_CACHE.format(folder=str(folder))) == cached[1]
+    assert (tmp_path / "file").read_text() == "of the artist"
+
+
+@needs_taichi
+def test_a_default_cache_folder_that_cannot_be_used_does_not_matter(tmp_path):
+    (tmp_path / ".cache").write_text("in the way")
+    passes("stylize(V, F, device='cpu', max_iterations=2)", HOME=str(tmp_path))
+
+
+@needs_taichi
+def test_a_full_disk_does_not_matter(cached, tmp_path):
+    if sys.platform != "linux" or os.geteuid() != 0:
+        pytest.skip("only root can make a small disk")
+    mounting = ["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", tmp_path]
+    if subprocess.run(mounting, capture_output=True, check=False).returncode:
+        pytest.skip("no disk can be mounted here")
+    try:
+        assert passes(WITH_CACHE.format(folder=str(tmp_path))) == cached[1]
+        assert passes(WITH_CACHE.format(folder=str(tmp_path))) == cached[1]
+    finally:
+        subprocess.run(["umount", tmp_path], check=True)
+
+
+@needs_taichi
+@pytest.mark.parametrize(
+    "options",
+    [
+        "default_fp=ti.f64, default_ip=ti.i64",
+        "default_fp=ti.f16, fast_math=True",
+        "debug=True, offline_cache=False",
+        "advanced_optimization=False, cpu_max_num_threads=1",
+        "kernel_profiler=True",
+    ],
+)
+def test_the_options_of_others_do_not_matter(options):
+    """Each comes before, between and during our runs, with a field of the others that must stay."""
+    passes(
+        f"""
+        from solver.backends.taichi_runtime import import_taichi
+        ti = import_taichi()
+        expected = stylize(V, F, device="cpu", max_iterations=6).positions
+        def foreign():
+            ti.reset()
+            ti.init(arch=ti.cpu, log_level=ti.ERROR, {options})
+            field = ti.field(ti.i32, shape=4)
+            field.fill(7)
+            return field
+        fields = []
+        def disturb(stylization):
+            fields[:] = [foreign()]
+        fields.append(foreign())
+        for on_iteration in (None, disturb, None):
+            V2 = stylize(V, F, device="cpu", max_iterations=6, on_iteration=on_iteration).positions
+            np.testing.assert_allclose(V2, expected, rtol=0, atol=1e-9)
+            assert (fields[0].to_numpy() == 7).all()
+        """
+    )
