@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The global step: positions from rotations, by one factorisation per mesh and set of pins."""
 
+from functools import cached_property
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -32,8 +34,8 @@ class GlobalStep:
 
     Attributes
     ----------
-    multigrid : Multigrid or None
-        None where the matrix is factorised.
+    is_factorized : bool
+        Whether `positions` solves by the factorisation, not by multigrid.
     """
 
     def __init__(self, rest, pinned):
@@ -47,14 +49,23 @@ class GlobalStep:
             raise CubicCraftError("all vertices are pinned; leave some of them free")
         _, first_vertex = np.unique(rest.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
-        L = rest.matrices.matrix(rest.matrices.laplacian)
-        self.multigrid = None
-        if n > FACTORIZED_VERTICES and has_multigrid():
-            self.multigrid = Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
-            self._solve = self.multigrid.solve
+        self._is_held = is_held
+        self.is_factorized = n <= FACTORIZED_VERTICES or not has_multigrid()
+        if self.is_factorized:
+            self._solve = _solver(self._laplacian, is_held)
         else:
-            self._solve = _solver(L, is_held)
+            self._solve = self.multigrid.solve
         self._floating = None if has_pin.all() else self._centring_weights(has_pin)
+
+    @property
+    def _laplacian(self):
+        return self._rest.matrices.matrix(self._rest.matrices.laplacian)
+
+    @cached_property
+    def multigrid(self):
+        """The Multigrid, built when it is first asked for; a GPU uses it for meshes of any size."""
+        L, is_held = self._laplacian, self._is_held
+        return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
     def _centring_weights(self, has_pin):
         """Return the share of each vertex (n,) in its floating component's area, else 0."""

@@ -14,6 +14,8 @@ class TaichiCycle:
     Parameters
     ----------
     multigrid : Multigrid
+    arrays : HostArrays or DeviceArrays
+        Where the cycle runs.
 
     Attributes
     ----------
@@ -21,12 +23,15 @@ class TaichiCycle:
         The scaled residual, to be filled in, and the scaled correction that `run` makes of it.
     """
 
-    def __init__(self, multigrid):
+    def __init__(self, multigrid, arrays):
         self._kernels = _kernels()
-        self._levels = [_Level(level) for level in multigrid.levels]
-        self._inverse = np.linalg.inv(multigrid.coarsest.toarray()).astype(np.float32)
-        sizes = [level.A.shape[0] for level in multigrid.levels] + [len(self._inverse)]
-        self._vectors = [[np.zeros((n, 4), np.float32) for _ in range(2)] for n in sizes]
+        self._levels = [_Level(level, arrays) for level in multigrid.levels]
+        inverse = np.linalg.inv(multigrid.coarsest.toarray()).astype(np.float32)
+        self._inverse = arrays.keep(inverse, of_numbers=True)
+        sizes = [level.A.shape[0] for level in multigrid.levels] + [len(inverse)]
+        self._vectors = [
+            [arrays.keep(np.zeros((n, 4), np.float32)) for _ in range(2)] for n in sizes
+        ]
         self.B, self.X = self._vectors[0]
 
     def calls(self):
@@ -60,13 +65,13 @@ class TaichiCycle:
 
 
 class _Level:
-    def __init__(self, level):
+    def __init__(self, level, arrays):
         self.A, self.P, self.restrict = (
-            (matrix.indptr, matrix.indices, matrix.data)
+            tuple(map(arrays.keep, (matrix.indptr, matrix.indices, matrix.data)))
             for matrix in (level.A, level.P, level.restrict)
         )
         self.of_b, self.of_ab = float(level.of_b), float(level.of_ab)
-        self.rest = np.zeros((level.A.shape[0], 4), np.float32)
+        self.rest = arrays.keep(np.zeros((level.A.shape[0], 4), np.float32))
 
 
 @cache

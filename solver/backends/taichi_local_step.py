@@ -12,8 +12,10 @@ from ..errors import CubicCraftError
 from ..local_problem import LocalProblem
 from ..motion import Motion
 from . import taichi_runtime
+from .arrays import arrays_for, one_row
 from .numpy_local_step import area_scale, local_cubeness
 from .rehearsal import rehearse
+from .rows import HostRows
 
 
 class TaichiLocalStep:
@@ -35,6 +37,8 @@ class TaichiLocalStep:
         As in `NumpyLocalStep`.
     precision, real : str and dtype
         The precision, "f64" or "f32", and NumPy's type for it.
+    arrays : HostArrays or DeviceArrays
+        Where the arrays of the run lie. On a GPU they stay there.
     compile_seconds : float
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
@@ -50,57 +54,71 @@ class TaichiLocalStep:
         real = np.float64 if precision == "f64" else np.float32
         self._kernels = _kernels(precision)
         self.precision, self.real = precision, real
+        self.arrays = arrays_for(runtime.device)
         m = rest.matrices
         n = len(rest.V)
 
         def array(values):
-            return np.ascontiguousarray(values, dtype=real)
+            return self.arrays.keep(np.ascontiguousarray(values, dtype=real))
 
-        self._weights = array(-m.laplacian)
-        self._gather, self._scatter = array(m.gather), array(m.scatter)
-        self._normals = array(rest.normals)
+        indptr, indices = self.arrays.keep(m.indptr), self.arrays.keep(m.indices)
+        gather, self._scatter = array(m.gather), array(m.scatter)
         lam = local_cubeness(rest, lam)
-        self._lam, self._Q = array(lam), array(Q)
         self._options = options
-        self._area_scale = array(area_scale(rest.areas))
+        scale = area_scale(rest.areas)
         self._cubic_weight = lam * rest.areas
         self._rest_quadratic = 0.75 * rest.edge_sums
-        self.R = np.tile(np.eye(3, dtype=real), (n, 1, 1))
-        Q = np.broadcast_to(Q, (n, 3, 3))
+        identity = np.tile(np.eye(3), (n, 1, 1))
+        self._R = array(identity)
+        all_Q = np.broadcast_to(Q, (n, 3, 3))
         # for what the kernel does not certify; the covariances come with the positions
-        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
-        self._s = array(starting_signs(self._rest_problem.cube_normals(self.R)))
-        self._certified = np.empty(n, np.int32)
-        self._energies = np.empty((n, 3), real)
+        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam)
+        self._s = array(starting_signs(self._rest_problem.cube_normals(identity)))
+        self._certified = self.arrays.keep(np.zeros(n, np.int32))
+        self._energies = array(np.zeros((n, 3)))
         self._rhs = np.empty((n, 3), real)
         self._arguments = (
-            m.indptr,
-            m.indices,
-            self._gather,
-            self._weights,
-            self._normals,
-            self._area_scale,
-            self._lam,
-            self._Q,
-            int(len(self._Q) > 1),
-            self.R,
+            indptr,
+            indices,
+            gather,
+            array(-m.laplacian),
+            array(rest.normals),
+            array(scale),
+            array(lam),
+            array(Q),
+            int(len(Q) > 1),
+            self._R,
             self._s,
             self._energies,
             self._certified,
         )
+        outputs = self._R, self._s, self._energies
+        if self.arrays.is_resident:
+            from .taichi_rows import DeviceRows
+
+            of_kernel = indptr, indices, gather, self._arguments[5]
+            self._rows = DeviceRows(precision, *of_kernel, *outputs)
+        else:
+            self._rows = HostRows(m, scale, *outputs)
         self._sum_on_device = None
         self.compile_seconds = _compile(self._kernels, self._arguments, precision)
 
+    @property
+    def R(self):  # noqa: N802 - as in `NumpyLocalStep`
+        """(n,3,3) rotations, the identity at first."""
+        return self.arrays.fetch(self._R)
+
     def motion(self, setup, U):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
-        if setup.global_step.multigrid is None:
+        if setup.global_step.is_factorized and not self.arrays.is_resident:
             return Motion(setup, self, U)
         from .taichi_motion import TaichiMotion, motion_kernels
 
+        keep = self.arrays.keep
         bounds, self._chunk_component = setup.rest.chunks
-        self._sums = np.empty((len(self._chunk_component), 3), self.real)
-        weight = self._cubic_weight.astype(self.real)
-        arguments = (bounds, self._energies, weight, self._certified, self._sums)
+        self._sums = keep(np.zeros((len(self._chunk_component), 3), self.real))
+        weight = keep(self._cubic_weight.astype(self.real))
+        arguments = (keep(bounds), self._energies, weight, self._certified, self._sums)
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U)
@@ -109,61 +127,72 @@ class TaichiLocalStep:
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
-        self.R[:] = R
-        self._s[:] = starting_signs(self._rest_problem.cube_normals(R))
+        self.arrays.put(self._R, R)
+        self.arrays.put(self._s, starting_signs(self._rest_problem.cube_normals(R)))
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
-        taichi_runtime.start(self._wanted)  # another add-on may have reset it since
-        U = np.ascontiguousarray(U, dtype=self.real)
+        self.start_device()
+        if not self.arrays.is_resident:
+            U = np.ascontiguousarray(U, dtype=self.real)
         self._kernels.local_step(U, *self._arguments)
         if self._sum_on_device is not None:
             return self._summed(U, self._sum_on_device)
-        rows = np.flatnonzero(self._certified == 0)
+        rows = self._uncertified()
         if len(rows):
             self._solve_by_admm(U, rows)
-        quadratic, trace, l1 = self._energies.T.astype(np.float64)
+        quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64)
         arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
         return arap, self._rest.sum_parts(self._cubic_weight * l1)
 
     def _summed(self, U, sum_on_device):
-        """Return the energies of a large mesh."""
+        """Return the energies where kernels sum them up."""
         sum_on_device()
-        if self._sums[:, 2].any():
-            self._solve_by_admm(U, np.flatnonzero(self._certified == 0))
+        sums = self.arrays.fetch(self._sums)
+        if sums[:, 2].any():
+            self._solve_by_admm(U, self._uncertified())
             sum_on_device()
-        arap, cubic, _ = self._sums.T.astype(np.float64)
+            sums = self.arrays.fetch(self._sums)
+        arap, cubic, _ = sums.T.astype(np.float64)
         count = self._rest.component_count
         arap = self._rest_quadratic + np.bincount(self._chunk_component, arap, count)
         return arap, np.bincount(self._chunk_component, cubic, count)
 
+    def _uncertified(self):
+        return np.flatnonzero(self.arrays.fetch(self._certified) == 0)
+
     def _solve_by_admm(self, U, rows):
         """Find the rotations of some rows that the kernel has left as they were."""
-        areas = area_scale(self._rest.areas)[rows, None, None]
-        S = self._rest.matrices.covariances(U.astype(np.float64, copy=False), rows) / areas
+        S, last, last_s = self._rows.take(U, rows)
         problem = self._rest_problem.part(rows)._replace(S=S)
-        last = self.R[rows].astype(np.float64)
-        R, s = admm_rotations(problem, last, self._s[rows], self._options)
+        R, s = admm_rotations(problem, last, last_s, self._options)
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
-        self.R[rows] = R = np.where(is_worse[:, None, None], last, R)
-        self._s[rows] = np.where(is_worse[:, None], self._s[rows], s)
-        fit, self._energies[rows, 2] = problem.costs(R)
-        self._energies[rows, 1] = fit * areas[:, 0, 0]
+        R = np.where(is_worse[:, None, None], last, R)
+        s = np.where(is_worse[:, None], last_s, s)
+        fit, cost = problem.costs(R)
+        self._rows.put(rows, R, s, fit * area_scale(self._rest.areas[rows]), cost)
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
-        taichi_runtime.start(self._wanted)
-        self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self.R, self._rhs)
+        self.start_device()
+        self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self._R, self._rhs)
         return self._rhs.astype(np.float64, copy=False)
 
     def start_device(self):
-        """Make sure that kernels can run: another add-on may have reset Taichi."""
+        """Make sure that kernels can run: another add-on may have reset Taichi.
+
+        Raises
+        ------
+        CubicCraftError
+            It has, and the arrays were on the device.
+        """
+        self.arrays.check()
         taichi_runtime.start(self._wanted)
 
     def residual_arguments(self, point, scale, B):
         """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
         indptr, indices, _, weights = self._arguments[:4]
-        return indptr, indices, self._scatter, weights, self.R, point, scale, B
+        return indptr, indices, self._scatter, weights, self._R, point, scale, B
 
 
 @cache
@@ -182,7 +211,7 @@ def _compile(kernels, arguments, precision):
     if precision in _compiled:
         return 0.0
     begin = time.perf_counter()
-    first = [a[:1].copy() if isinstance(a, np.ndarray) else a for a in arguments]
+    first = [one_row(a) + 1 if hasattr(a, "shape") else a for a in arguments]
     no_entries = np.zeros(2, np.int32)
     point = np.zeros_like(first[4])
     kernels.local_step(point, no_entries, *first[1:])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The positions of a run on a large mesh, moved by kernels on all cores. See `Motion`."""
+"""The positions of a run on a large mesh or on a GPU, moved by kernels. See `Motion`."""
 
 from functools import cache
 
@@ -16,7 +16,7 @@ class TaichiMotion:
 
     One pass over the vertices finds how each component has moved as a whole, and another one takes
     that back, extrapolates and measures. Between them only the sums of `RestMesh.chunks` are looked
-    at in NumPy.
+    at in NumPy. The positions lie where the arrays of the local step do.
 
     Parameters
     ----------
@@ -31,24 +31,26 @@ class TaichiMotion:
 
     def __init__(self, setup, local, U):
         self._local, self._has_pin = local, setup.has_pin
-        rest, real = setup.rest, local.real
+        rest, real, arrays = setup.rest, local.real, local.arrays
+        keep = arrays.keep
         self._kernels = motion_kernels(local.precision)
         multigrid = setup.global_step.multigrid
-        self._cycle = TaichiCycle(multigrid)
-        self._scale = multigrid.scale
-        self._bounds, self._component = rest.chunks
+        self._cycle = TaichiCycle(multigrid, arrays)
+        self._scale = keep(multigrid.scale)
+        bounds, self._component = rest.chunks
+        self._chunks = keep(bounds), keep(self._component)
         weight = rest.areas + 1e-300
         total = np.bincount(rest.component, weight, rest.component_count)
         share = weight / total[rest.component]
         self._centre = np.stack(
             [np.bincount(rest.component, share * x, rest.component_count) for x in rest.V.T], axis=1
         )
-        self._rest_centre = self._centre.astype(real)
-        self._V, self._share = rest.V.astype(real), share.astype(real)
+        self._rest_centre = keep(self._centre.astype(real))
+        self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         count = len(self._component)
-        self._means, self._largest = (np.empty((count, 3), real) for _ in range(2))
-        self._covariances = np.empty((count, 3, 3), real)
-        self.put(U)
+        self._means, self._largest = (keep(np.zeros((count, 3), real)) for _ in range(2))
+        self._covariances = keep(np.zeros((count, 3, 3), real))
+        self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
         count = len(self._centre)
         nothing = np.zeros(count)
         still = (np.zeros((count, 3, 3)), self._centre, self._centre, nothing, nothing)
@@ -67,16 +69,16 @@ class TaichiMotion:
     @property
     def positions(self):
         """(n,3) float64 present positions in the unit box."""
-        return self._U.astype(np.float64)
+        return self._local.arrays.fetch(self._U).astype(np.float64)
 
     def put(self, U):
         """Go to other positions (n,3)."""
-        self._U = np.array(U, self._local.real)
-        self.point = self._U.copy()
+        self._local.arrays.put(self._U, U)
+        self._local.arrays.put(self.point, U)
 
     def look_at_positions(self):
         """Let the next local step look at the positions themselves."""
-        self.point[:] = self._U
+        self._local.arrays.copy(self._U, self.point)
 
     def relax(self, times):
         """Come nearer to what the rotations ask for, without momentum or turning."""
@@ -91,13 +93,12 @@ class TaichiMotion:
         self._cycle.run()
         whole = self._whole(keep_rotation)
         self._kernels.move(*self._move_arguments(*whole, momentum, further))
-        displacement, distance, _ = self._largest.max(axis=0)
+        displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
         return float(displacement), float(distance)
 
     def _moments_arguments(self):
         return (
-            self._bounds,
-            self._component,
+            *self._chunks,
             self._V,
             self._rest_centre,
             self._share,
@@ -111,8 +112,7 @@ class TaichiMotion:
     def _move_arguments(self, turn, centre, target, momentum, further):
         real = self._local.real
         return (
-            self._bounds,
-            self._component,
+            *self._chunks,
             self._V,
             self._scale,
             self._cycle.X,
@@ -142,6 +142,7 @@ class TaichiMotion:
 
     def _sums(self, parts):
         """Add up what there is of each chunk, to (component_count, ...)."""
+        parts = self._local.arrays.fetch(parts)
         count = len(self._centre)
         flat = parts.reshape(len(parts), -1).T.astype(np.float64)
         sums = [np.bincount(self._component, column, count) for column in flat]

@@ -29,13 +29,14 @@ def stylization(name="blob", pins=0, **options):
 @pytest.mark.parametrize("coarsest", [20, 10_000])
 @pytest.mark.parametrize("name", shapes.ALL)
 def test_the_cycle_is_that_of_scipy(name, coarsest, monkeypatch):
+    from solver.backends.arrays import HostArrays
     from solver.backends.taichi_cycle import TaichiCycle
 
     monkeypatch.setattr("solver.multigrid._COARSEST", coarsest)
     state = stylization(name)
     multigrid = state.setup.global_step.multigrid
     assert bool(multigrid.levels) == (coarsest == 20)
-    cycle = TaichiCycle(multigrid)
+    cycle = TaichiCycle(multigrid, HostArrays())
     B = np.random.default_rng(2).normal(size=(3, len(multigrid.scale))).astype(np.float32)
     B *= multigrid.scale > 0.0
     cycle.B[:, :3] = B.T
@@ -53,9 +54,11 @@ def test_a_step_is_that_of_numpy(name, pins, keep_rotation):
     fast, plain = state._motion, Motion(state.setup, state._local, state.positions)
     for size in (0.0, 0.3, 0.7):
         state._local.update(plain.point)
-        momentum = np.full(state.rest.component_count, size)
-        measured = fast.step(momentum, keep_rotation)
-        np.testing.assert_allclose(measured, plain.step(momentum, keep_rotation), rtol=1e-4)
+        momentum, further = (np.full(state.rest.component_count, x) for x in (size, size / 3))
+        measured = fast.step(momentum, further, keep_rotation)
+        np.testing.assert_allclose(
+            measured, plain.step(momentum, further, keep_rotation), rtol=1e-4
+        )
         np.testing.assert_allclose(fast.positions, plain.positions, atol=1e-6)
         np.testing.assert_allclose(fast.point, plain.point, atol=2e-6)
         plain.put(fast.positions)  # or their ways would part where rounding decides

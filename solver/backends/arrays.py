@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the arrays of a run lie: with NumPy, or on a GPU for as long as the run lasts."""
+
+import numpy as np
+
+from ..multigrid import has_multigrid
+
+
+class HostArrays:
+    """Arrays of NumPy; `DeviceArrays` has the same for those on a device.
+
+    Attributes
+    ----------
+    is_resident : bool
+        Whether they lie on a device and never come back as a whole in an iteration.
+    """
+
+    is_resident = False
+
+    def check(self):
+        """Make sure that the arrays still exist."""
+
+    def keep(self, values, of_numbers=False):
+        """Return an array with these values, to be given to kernels.
+
+        Parameters
+        ----------
+        values : array
+            Numbers, vectors (n,k) or matrices (n,k,l) of a type that the kernel takes.
+        of_numbers : bool
+            Of two dimensions without being vectors.
+        """
+        return values
+
+    def fetch(self, array):
+        """Return the values in NumPy, which may be the array itself."""
+        return array
+
+    def put(self, array, values):
+        """Set all values."""
+        array[:] = values
+
+    def copy(self, source, target):
+        """Set all values to those of another array."""
+        target[:] = source
+
+
+def arrays_for(device):
+    """Return the arrays for a device such as "taichi-cpu".
+
+    A factorisation needs the right-hand side in NumPy in each iteration; so without multigrid
+    nothing stays on a device.
+    """
+    if is_on_its_own_memory(device) and has_multigrid():
+        from .device_arrays import DeviceArrays
+
+        return DeviceArrays()
+    return HostArrays()
+
+
+def is_on_its_own_memory(device):
+    """Tell whether a device has to be sent what it is to read."""
+    return device != "taichi-cpu"
+
+
+def one_row(array):
+    """Return a row of zeros for NumPy or Taichi, with another one behind it."""
+    if isinstance(array, np.ndarray):
+        shape, dtype = array.shape, array.dtype
+    else:
+        from .device_arrays import numpy_form
+
+        shape, dtype = numpy_form(array)
+    return np.zeros((2, *shape[1:]), dtype)[:1]

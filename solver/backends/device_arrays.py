@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Arrays on a device, which live as long as the Taichi program that made them."""
+
+import weakref
+
+import numpy as np
+
+from ..errors import CubicCraftError
+from . import taichi_runtime
+
+
+class DeviceArrays:
+    """As `HostArrays`, with arrays of Taichi. They are freed when this object is.
+
+    All but `keep` raise a CubicCraftError once Taichi has been reset: then what lay on the device
+    is gone, and even to read it would crash the process.
+    """
+
+    is_resident = True
+
+    def __init__(self):
+        self._program = _present_program()
+        self._arrays = []
+        free = weakref.finalize(self, _free, self._arrays, self._program)
+        free.atexit = False  # Taichi ends its program itself
+
+    def check(self):
+        """Make sure that the arrays still exist."""
+        if _present_program() is not self._program:
+            raise CubicCraftError(
+                "what lay on the GPU is lost, because another add-on or another device has reset"
+                " Taichi meanwhile; run it again, or choose the device cpu"
+            )
+
+    def keep(self, values, of_numbers=False):
+        """Return an array with these values; see `HostArrays`."""
+        if not len(values):  # of which Taichi makes none, and which no kernel reads
+            values = np.zeros((1, *values.shape[1:]), values.dtype)
+        with taichi_runtime.quick_compilation():
+            array = _empty_like(values, of_numbers)
+            self._arrays.append(array)
+            array.from_numpy(values)
+        return array
+
+    def fetch(self, array):
+        """Return the values in NumPy."""
+        self.check()
+        return array.to_numpy()
+
+    def put(self, array, values):
+        """Set all values."""
+        self.check()
+        array.from_numpy(np.ascontiguousarray(values, numpy_form(array)[1]))
+
+    def copy(self, source, target):
+        """Set all values to those of another array."""
+        self.check()
+        target.copy_from(source)
+
+
+def numpy_form(array):
+    """Return the shape and the type that an array of Taichi has in NumPy."""
+    ti = taichi_runtime.import_taichi()
+    return (*array.shape, *array.element_shape), ti.lang.util.to_numpy_type(array.dtype)
+
+
+def _empty_like(values, of_numbers):
+    ti = taichi_runtime.import_taichi()
+    dtype = ti.lang.util.to_taichi_type(values.dtype)
+    element = () if of_numbers else values.shape[1:]
+    shape = values.shape[: values.ndim - len(element)]
+    if len(element) == 2:
+        return ti.Matrix.ndarray(*element, dtype, shape=shape)
+    if len(element) == 1:
+        return ti.Vector.ndarray(*element, dtype, shape=shape)
+    return ti.ndarray(dtype, shape=shape)
+
+
+def _present_program():
+    return taichi_runtime.import_taichi().lang.impl.get_runtime().prog
+
+
+def _free(arrays, program):
+    """Free arrays of a program that may have ended.
+
+    Taichi 1.7 frees arrays of numbers only, and those even where the program is another one by now,
+    which may have something else at the same address. So each is freed here, and then forgotten.
+    """
+    if _present_program() is program:
+        program.synchronize()  # what waits for a kernel would not be freed
+        for array in arrays:
+            program.delete_ndarray(array.arr)
+    for array in arrays:
+        array.arr = None

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rows of a local step whose arrays lie on a device; only these rows are sent. See `HostRows`.
+
+Import this only after `taichi_runtime.import_taichi`.
+"""
+
+# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
+# pyright: reportIndexIssue=false
+
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+import taichi as ti
+
+
+class DeviceRows:
+    """As `HostRows`.
+
+    Parameters
+    ----------
+    precision : {"f64", "f32"}
+    indptr, indices, gather, area_scale, R, s, energies : arrays of Taichi
+        As in `local_step` of `taichi_kernels.py`.
+    """
+
+    def __init__(self, precision, indptr, indices, gather, area_scale, R, s, energies):
+        self._kernels = _kernels(precision)
+        self._real = np.float64 if precision == "f64" else np.float32
+        self._edges = indptr, indices, gather, area_scale
+        self._R, self._s, self._energies = R, s, energies
+
+    def take(self, U, rows):
+        """Return divided covariances, rotations and subgradients of rows."""
+        S, R = (np.zeros((len(rows), 3, 3), self._real) for _ in range(2))
+        s = np.zeros((len(rows), 3), self._real)
+        self._kernels.take(rows.astype(np.int32), *self._edges, U, self._R, self._s, S, R, s)
+        return S.astype(np.float64), R.astype(np.float64), s
+
+    def put(self, rows, R, s, fit, cost):
+        """Set rotations and subgradients, and their fit and cost."""
+        few = (
+            np.ascontiguousarray(a, self._real) for a in (R, s, np.stack([0 * fit, fit, cost], 1))
+        )
+        self._kernels.put(rows.astype(np.int32), *few, self._R, self._s, self._energies)
+
+
+@cache
+def _kernels(precision):
+    real = ti.f64 if precision == "f64" else ti.f32
+    vec3 = ti.types.vector(3, real)
+    mat3 = ti.types.matrix(3, 3, real)
+    scalars = ti.types.ndarray(dtype=real, ndim=1)
+    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
+    vectors = ti.types.ndarray(dtype=vec3, ndim=1)
+    matrices = ti.types.ndarray(dtype=mat3, ndim=1)
+
+    @ti.kernel
+    def take(
+        rows: integers,
+        indptr: integers,
+        indices: integers,
+        gather: vectors,
+        area_scale: scalars,
+        U: vectors,
+        R: matrices,
+        subgradients: vectors,
+        S_few: matrices,
+        R_few: matrices,
+        s_few: vectors,
+    ):
+        for k in range(rows.shape[0]):
+            i = rows[k]
+            S = mat3(0.0)
+            for entry in range(indptr[i], indptr[i + 1]):
+                S += gather[entry].outer_product(U[indices[entry]] - U[i])
+            S_few[k] = S / area_scale[i]
+            R_few[k] = R[i]
+            s_few[k] = subgradients[i]
+
+    @ti.kernel
+    def put(
+        rows: integers,
+        R_few: matrices,
+        s_few: vectors,
+        energies_few: vectors,  # nothing, fit and cost
+        R: matrices,
+        subgradients: vectors,
+        energies: vectors,
+    ):
+        for k in range(rows.shape[0]):
+            i = rows[k]
+            R[i] = R_few[k]
+            subgradients[i] = s_few[k]
+            e = energies_few[k]
+            energies[i] = vec3(energies[i][0], e[1], e[2])
+
+    return SimpleNamespace(take=take, put=put)

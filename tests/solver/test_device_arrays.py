@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The iteration whose arrays stay on a device, as on a GPU, here with Taichi on the CPU.
+
+The kernels are those of large meshes on the CPU, and so is what they are compared with.
+"""
+
+import sys
+
+import numpy as np
+import pytest
+import shapes
+from optional_marks import needs
+from taichi_marks import needs_taichi
+from test_taichi_runtime import passes
+
+from solver import Run, Setup, Stylization, rest_mesh, stylize
+from solver.backends import arrays
+
+pytestmark = [needs("pyamg"), needs_taichi]
+
+ON_A_DEVICE = """
+        from solver.backends import arrays
+        from solver.backends.taichi_runtime import import_taichi
+        arrays.is_on_its_own_memory = lambda device: True
+        ti = import_taichi()
+"""
+
+
+@pytest.fixture(autouse=True)
+def some_levels(monkeypatch):
+    monkeypatch.setattr("solver.multigrid._COARSEST", 20)
+
+
+@pytest.fixture
+def on_a_device(monkeypatch):
+    """Return a function that lets the runs that are begun after it stay on a device."""
+    return lambda: monkeypatch.setattr(arrays, "is_on_its_own_memory", lambda device: True)
+
+
+def on_the_host(monkeypatch, make):
+    """Return what `make` makes with the same kernels and arrays of NumPy."""
+    with monkeypatch.context() as context:
+        context.setattr("solver.global_step.FACTORIZED_VERTICES", 0)
+        return make()
+
+
+def stylization(name="blob", pins=0, **options):
+    V, F = shapes.ALL[name]()
+    pinned = np.argsort(V[:, 2])[:pins]
+    options = {"targets": V + [0.0, 0.1, 0.2], "device": "cpu", **options}
+    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, **options)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+@pytest.mark.parametrize("pins", [0, 12])
+@pytest.mark.parametrize("name", shapes.ALL)
+def test_a_run_is_that_of_the_host(name, pins, precision, monkeypatch, on_a_device):
+    options = {"precision": precision, "keep_rotation": pins == 0}
+
+    def make():
+        state = stylization(name, pins, **options)
+        energies = []
+        for _ in range(6):
+            state.step()
+            energies.append(state.energy.total)
+        return state, [*energies, state.finish().total]
+
+    host, expected = on_the_host(monkeypatch, make)
+    on_a_device()
+    state, energies = make()
+    assert state._local.arrays.is_resident and not host._local.arrays.is_resident
+    tight = 1e-9 if precision == "f64" else 2e-5
+    np.testing.assert_allclose(energies, expected, rtol=tight)
+    np.testing.assert_allclose(state.positions, host.positions, atol=tight)
+    if name != "broken":  # where a vertex without area can be turned at will
+        np.testing.assert_allclose(state.rotations, host.rotations, atol=100 * tight)
+    np.testing.assert_array_equal(state.placed()[0], make()[0].placed()[0])
+    held = state.setup.pinned_input
+    np.testing.assert_array_equal(state.placed_positions()[held], state._targets[held])
+
+
+@pytest.mark.parametrize("coarsest", [20, 10_000])
+def test_it_ends_where_the_factorisation_does(coarsest, monkeypatch, on_a_device):
+    monkeypatch.setattr("solver.multigrid._COARSEST", coarsest)
+    V, F = shapes.two_blobs()
+    exact = stylize(V, F, 0.4, device="cpu", tolerance=1e-5)
+    on_a_device()
+    near = stylize(V, F, 0.4, device="cpu", tolerance=1e-5)
+    assert near.converged
+    assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
+
+
+def test_no_array_of_the_size_of_the_mesh_is_fetched_in_an_iteration(monkeypatch, on_a_device):
+    on_a_device()
+    state = stylization()
+    state.step()
+    sizes = []
+    kind = type(state._local.arrays)
+    fetch = kind.fetch
+    monkeypatch.setattr(kind, "fetch", lambda self, a: sizes.append(a.shape[0]) or fetch(self, a))
+    monkeypatch.setattr(kind, "put", None)
+    state.step()
+    assert sizes and max(sizes) == len(state.rest.chunks[1])
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_rotations_that_the_kernel_does_not_certify_are_found_too(
+    precision, monkeypatch, on_a_device
+):
+    def make():
+        state = stylization(precision=precision)
+        # nothing that starts there is certified
+        energy = state.energy_of(state.rest.box.from_unit(state.rest.V * [-1, -1, 1]), steps=1)
+        return energy.total, state.rotations
+
+    energy, R = on_the_host(monkeypatch, make)
+    on_a_device()
+    again, S = make()
+    assert np.abs(R - np.eye(3)).max() > 1.0
+    assert again == pytest.approx(energy, rel=1e-9 if precision == "f64" else 1e-4)
+    np.testing.assert_allclose(S, R, atol=1e-6 if precision == "f64" else 5e-2)
+
+
+def test_it_starts_from_a_coarser_mesh_and_can_be_looked_at(monkeypatch, on_a_device):
+    pytest.importorskip("fast_simplification")
+    monkeypatch.setattr("solver.coarse_start.LEAST_VERTICES", 600)
+    monkeypatch.setattr("solver.coarse_start.COARSEST_VERTICES", 300)
+
+    def make():
+        V, F = shapes.blob(4)
+        run = Run(Stylization(Setup(rest_mesh(V, F), [3, 4]), 0.4, device="cpu"))
+        assert run.is_on_coarser_mesh
+        looks = []
+        while run.reason is None:
+            run.advance()
+            looks.append(run.placed()[0] if len(looks) % 2 else run.positions())
+        return looks, run.result()
+
+    looks, expected = on_the_host(monkeypatch, make)
+    on_a_device()
+    again, result = make()
+    assert len(looks) == len(again)
+    np.testing.assert_allclose(again[5], looks[5], atol=1e-7)
+    assert result.energy.total == pytest.approx(expected.energy.total, rel=1e-6)
+
+
+def test_orientations_per_vertex_reach_the_device(monkeypatch, on_a_device):
+    V, F = shapes.blob(2)
+    Q = np.tile(shapes.rotation(30, 10, 0), (len(V), 1, 1))
+    Q[V[:, 0] > 0] = np.eye(3)
+
+    def make():
+        return stylize(V, F, 0.4, device="cpu", orientation=Q, max_iterations=5).energy.total
+
+    expected = on_the_host(monkeypatch, make)
+    on_a_device()
+    assert make() == pytest.approx(expected, rel=1e-9)
+
+
+def test_without_pyamg_only_the_local_step_is_on_the_device(monkeypatch, on_a_device):
+    expected = stylization().positions
+    on_a_device()
+    monkeypatch.setattr("solver.multigrid.optional_package", lambda name: None)
+    state = stylization()
+    assert not state._local.arrays.is_resident
+    np.testing.assert_array_equal(state.positions, expected)
+
+
+@pytest.mark.parametrize("how", ["ti.reset()", "ti.reset(); ti.init(arch=ti.cpu)"])
+@pytest.mark.parametrize("then", ["step", "finish", "rotations", "positions"])
+def test_a_reset_is_told_and_the_next_run_works(how, then):
+    passes(
+        ON_A_DEVICE
+        + f"""
+        import gc
+        from solver import CubicCraftError, Setup, Stylization, rest_mesh
+        expected = stylize(V, F, device="cpu", max_iterations=4)
+        state = Stylization(Setup(rest_mesh(V, F)), 0.4, device="cpu")
+        state.step()
+        {how}
+        program = ti.lang.impl.get_runtime().prog
+        foreign = [ti.ndarray(ti.i32, shape=8) for _ in range(300 if program else 0)]
+        try:
+            value = getattr(state, {then!r})
+            if callable(value):
+                value()
+        except CubicCraftError as error:
+            assert "reset Taichi" in str(error)
+        else:
+            raise AssertionError("not told")
+        del state
+        gc.collect()
+        for array in foreign:  # may lie where ours have been
+            array.fill(7)
+        again = stylize(V, F, device="cpu", max_iterations=4)
+        np.testing.assert_array_equal(again.positions, expected.positions)
+        assert all((array.to_numpy() == 7).all() for array in foreign)
+        """
+    )
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it does not tell the peak of its memory")
+def test_memory_on_the_device_is_given_back():
+    passes(
+        ON_A_DEVICE
+        + """
+        import resource
+        from solver.backends.taichi_runtime import start
+        start("cpu")
+        values = np.ones((300_000, 3))
+        def keep():
+            of_a_run = arrays.arrays_for("taichi-cpu")
+            of_a_run.keep(values)
+            np.testing.assert_array_equal(of_a_run.fetch(of_a_run.keep(values[:, 0])), 1.0)
+        keep()
+        unit = 1 if sys.platform == "darwin" else 1024
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+        for _ in range(40):
+            keep()
+        grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit - before
+        assert grown < 10 * values.nbytes, grown
+        """
+    )
