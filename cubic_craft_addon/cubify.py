@@ -208,11 +208,14 @@ def solve(
     Raises
     ------
     CubicCraftError
-        As `start`.
+        As `start`, and where what the run had on a GPU is lost.
     """
     run = start(prepared, settings)
-    run.complete(on_iteration)
-    return solution_of(prepared, run)
+    try:
+        run.complete(on_iteration)
+        return solution_of(prepared, run)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f'"{prepared.name}": {error}') from error
 
 
 def glance(prepared: Prepared, run: solver.Run, with_rotations: bool):

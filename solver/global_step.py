@@ -63,7 +63,7 @@ class GlobalStep:
 
     @cached_property
     def multigrid(self):
-        """The Multigrid, built when it is first asked for; a GPU uses it for meshes of any size."""
+        """The Multigrid, made when first asked for: where nothing is factorised, or for a GPU."""
         L, is_held = self._laplacian, self._is_held
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 

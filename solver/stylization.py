@@ -41,6 +41,8 @@ class Stylization:
         Positions of the pinned vertices in the user's unit; by default where they are at rest. The
         rows of all other vertices are ignored.
     device : {"auto", "cpu", "gpu", "numpy"}
+        On a GPU the arrays stay there. If Taichi is reset meanwhile, all that needs them raises a
+        CubicCraftError.
     precision : {"f64", "f32"}, optional
         Of the local step in Taichi; by default the best that the device has.
     admm : AdmmOptions, optional

@@ -100,12 +100,15 @@ class LiveMesh:
         return self._run is not None and self.solution is None
 
     def advance(self) -> None:
-        """Do one phase of the solver."""
+        """Do one phase of the solver. If it cannot go on, `problem` says why."""
         assert self._run is not None and self._prepared is not None
-        if self._run.reason is None:
-            self._run.advance()
-        else:
-            self.solution = cubify.solution_of(self._prepared, self._run)
+        try:
+            if self._run.reason is None:
+                self._run.advance()
+            else:
+                self.solution = cubify.solution_of(self._prepared, self._run)
+        except solver.CubicCraftError as error:
+            self._stop(f'"{self._prepared.name}": {error}')
 
     @property
     def is_seen(self):

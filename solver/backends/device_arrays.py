@@ -13,7 +13,7 @@ class DeviceArrays:
     """As `HostArrays`, with arrays of Taichi. They are freed when this object is.
 
     All but `keep` raise a CubicCraftError once Taichi has been reset: then what lay on the device
-    is gone, and even to read it would crash the process.
+    is gone, and even to read it would crash the process. `keep` raises one where it is full.
     """
 
     is_resident = True
@@ -37,9 +37,15 @@ class DeviceArrays:
         if not len(values):  # of which Taichi makes none, and which no kernel reads
             values = np.zeros((1, *values.shape[1:]), values.dtype)
         with taichi_runtime.quick_compilation():
-            array = _empty_like(values, of_numbers)
-            self._arrays.append(array)
-            array.from_numpy(values)
+            try:
+                array = _empty_like(values, of_numbers)
+                self._arrays.append(array)
+                array.from_numpy(values)
+            except RuntimeError as error:  # of which Taichi makes no kinds
+                raise CubicCraftError(
+                    f"the GPU takes no more arrays ({str(error).strip().partition(chr(10))[0]});"
+                    " choose the device cpu, or take a smaller mesh"
+                ) from error
         return array
 
     def fetch(self, array):

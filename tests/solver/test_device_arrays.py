@@ -13,7 +13,7 @@ from optional_marks import needs
 from taichi_marks import needs_taichi
 from test_taichi_runtime import passes
 
-from solver import Run, Setup, Stylization, rest_mesh, stylize
+from solver import CubicCraftError, Run, Setup, Stylization, rest_mesh, stylize
 from solver.backends import arrays
 
 pytestmark = [needs("pyamg"), needs_taichi]
@@ -164,6 +164,27 @@ def test_without_pyamg_only_the_local_step_is_on_the_device(monkeypatch, on_a_de
     state = stylization()
     assert not state._local.arrays.is_resident
     np.testing.assert_array_equal(state.positions, expected)
+
+
+def test_a_full_device_is_told(monkeypatch, on_a_device):
+    from solver.backends import device_arrays
+
+    def fail(*_):
+        raise RuntimeError("out of memory\nin a long story")
+
+    on_a_device()
+    monkeypatch.setattr(device_arrays, "_empty_like", fail)
+    with pytest.raises(CubicCraftError, match=r"takes no more arrays \(out of memory\);"):
+        stylization()
+
+
+def test_single_precision_has_no_arrays_of_double_precision(on_a_device):
+    # which Metal, and Vulkan on many cards, do not have
+    on_a_device()
+    state = stylization(precision="f32")
+    state.step()
+    kinds = {array.to_numpy().dtype for array in state._local.arrays._arrays}
+    assert kinds == {np.dtype(np.float32), np.dtype(np.int32)}
 
 
 @pytest.mark.parametrize("how", ["ti.reset()", "ti.reset(); ti.init(arch=ti.cpu)"])
