@@ -146,6 +146,24 @@ def test_an_exception_in_the_solver_loses_nothing(
     check_gone(live)
 
 
+def test_a_run_that_is_lost_on_the_gpu_can_be_started_again(live, begin, extension, monkeypatch):
+    obj = add_monkey()
+    session = begin(obj)
+    session.tick(bpy.context)
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+
+    def fail(*_args):
+        raise solver.CubicCraftError("lost")
+
+    with monkeypatch.context() as context:
+        context.setattr(solver.Stylization, "local_step", fail)
+        tick_to_rest(session)
+    assert not session.is_ended and not session.error
+    assert session.all_problems == [f'"{obj.name}": lost']
+    live.live_properties().cubeness = 0.9
+    confirm(live, session)
+
+
 def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkeypatch):
     obj = add_monkey()
     original = bits(obj)
