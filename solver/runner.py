@@ -213,8 +213,7 @@ class Run:
         state = self.stylization
         if self._coarse is None:
             return state.rotations, state.positions
-        R, U = self._coarse._glance()
-        return glance_up(self._coarse.stylization.rest, U, R, state.rest)
+        return glance_up(*self._coarse.placed(), state.rest)
 
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""

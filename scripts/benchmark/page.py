@@ -67,8 +67,9 @@ def _ten(results):
     return [
         "## Ten iterations",
         f"""\
-{ITERATIONS} outer iterations from the mesh file to the result at cubeness {CUBENESS}: reading the
-file and set-up are counted, the kernels are loaded already. The columns of the paper are the
+{ITERATIONS} outer iterations from the arrays of the mesh to the result at cubeness {CUBENESS}, with
+all set-up. Reading the file (by pymeshlab, mostly) has a column of its own: the paper does not say
+whether its figures hold that. The columns of the paper are the
 figures published in Table 1 of "CubicCraft: A Mesh Stylization Tool"; they were taken on other
 hardware (NVIDIA RTX 3050 Ti; AMD R9 5900HS with the program of Liu and Jacobson), not on this
 machine. The table says how fast set-up and iterations are, not how soon a shape is done: most

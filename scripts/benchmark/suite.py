@@ -146,8 +146,8 @@ def _head(mesh, cubeness):
 
 
 def _ten(mesh, runs):
-    seconds = call("ten_iterations", "ten_iterations", source=str(mesh.source), runs=runs)
-    return {"mesh": mesh.name, "vertices": mesh.vertices, "seconds": seconds}
+    figures = call("ten_iterations", "ten_iterations", source=str(mesh.source), runs=runs)
+    return {"mesh": mesh.name, "vertices": mesh.vertices, **figures}
 
 
 def _race(mesh, cubeness, plan, best):

@@ -2,12 +2,14 @@
 """How long the ticks of Live take while its slider is dragged; run by scripts/benchmark_live.py.
 
 For each mesh in /share it drags for ten seconds, and writes to /share/ticks.json what each tick
-took and how long each change took to be seen. Blender's own drawing is not part of either.
+took, how long each change took to be seen, and how many iterations were done. Blender's own drawing
+is not part of the ticks.
 """
 
 import json
 import os
 import pathlib
+import sys
 import time
 
 import bpy
@@ -54,6 +56,21 @@ class Stopwatch:
             self._changed_at = None
 
 
+class Counter:
+    """Counts the iterations of the extension's solver."""
+
+    def __init__(self):
+        [name] = [name for name in sys.modules if name.endswith("cubic_craft.solver.stylization")]
+        solver = sys.modules[name].Stylization
+        self.iterations = 0
+        self._global_step = solver.global_step
+        solver.global_step = lambda stylization: self.count(stylization)
+
+    def count(self, stylization):
+        self.iterations += 1
+        self._global_step(stylization)
+
+
 def load(path):
     """Make the scene hold nothing but the mesh of a file, or a monkey subdivided so many times."""
     if isinstance(path, int):
@@ -72,7 +89,7 @@ def load(path):
     return obj
 
 
-def measure(path):
+def measure(path, counter):
     obj = load(path)
     name, vertices = obj.name, len(obj.data.vertices)
     yield from gui.wait_redraw()
@@ -83,6 +100,7 @@ def measure(path):
     watch = Stopwatch(scene.live().current())
     properties = bpy.context.window_manager.cubic_craft_live
     last, begin = properties.cubeness, time.monotonic()
+    counter.iterations = 0
     ends = 0.2, 0.8
     while time.monotonic() - begin < SECONDS:
         drag = gui.drag(slider.at(ends[0]), slider.at(ends[1]), steps=24)
@@ -92,6 +110,8 @@ def measure(path):
                 last = properties.cubeness
                 watch.changed()
             yield turn
+    done = counter.iterations
+    rate = done / (time.monotonic() - begin)
     yield from gui.screenshot(f"{name}.png")
     yield from scene.press("ESC")
     yield from gui.wait_until(scene.is_over, what="the end")
@@ -99,6 +119,8 @@ def measure(path):
         "mesh": name,
         "vertices": vertices,
         "ticks": watch.ticks,
+        "iterations_per_second": rate,
+        "iterations_per_second_of_ticks": done / sum(watch.ticks),
         "delays": watch.delays,
         "delays_of_ticks": watch.delays_of_ticks,
     }
@@ -106,10 +128,10 @@ def measure(path):
 
 def test():
     gui.simplify_viewport()
-    rows = []
+    rows, counter = [], Counter()
     paths = sorted([*FOLDER.glob("*.obj"), *FOLDER.glob("*.ply")])
     for path in paths or (2, 3):
-        rows.append((yield from measure(path)))
+        rows.append((yield from measure(path, counter)))
     (FOLDER / "ticks.json").write_text(json.dumps(rows))
 
 

@@ -86,10 +86,11 @@ def test_cases_without_peer_have_no_row(case):
 
 def test_ten_iterations():
     results = [{"mesh": "bunny", "vertices": 6172, "seconds": [0.3, 0.1, 0.2]}]
-    results.append({"mesh": "blob", "vertices": 10242, "seconds": [1.0]})
+    results[0]["reading"] = [0.01, 0.02, 0.03]
+    results.append({"mesh": "blob", "vertices": 10242, "seconds": [1.0], "reading": [0.1]})
     bunny, blob = cells(tables.ten_iterations(results))[2:]
-    assert bunny == ["bunny", "6,172", "0.20 s", "3.55 s", "27.6 s", "18", "138"]
-    assert blob == ["blob", "10,242", "1.00 s", "-", "-", "-", "-"]
+    assert bunny == ["bunny", "6,172", "0.02 s", "0.20 s", "3.55 s", "27.6 s", "18", "138"]
+    assert blob == ["blob", "10,242", "0.10 s", "1.00 s", "-", "-", "-", "-"]
 
 
 def test_scaling_without_a_best_energy(case):

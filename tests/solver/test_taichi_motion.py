@@ -54,11 +54,11 @@ def test_a_step_is_that_of_numpy(name, pins, keep_rotation):
     fast, plain = state._motion, Motion(state.setup, state._local, state.positions)
     for size in (0.0, 0.3, 0.7):
         state._local.update(plain.point)
-        momentum, further = (np.full(state.rest.component_count, x) for x in (size, size / 3))
+        momentum = np.full(state.rest.component_count, size)
+        further = 0.7 - momentum
         measured = fast.step(momentum, further, keep_rotation)
-        np.testing.assert_allclose(
-            measured, plain.step(momentum, further, keep_rotation), rtol=1e-4
-        )
+        expected = plain.step(momentum, further, keep_rotation)
+        np.testing.assert_allclose(measured, expected, rtol=1e-4)
         np.testing.assert_allclose(fast.positions, plain.positions, atol=1e-6)
         np.testing.assert_allclose(fast.point, plain.point, atol=2e-6)
         plain.put(fast.positions)  # or their ways would part where rounding decides
