@@ -17,9 +17,9 @@ import numpy as np
 from .rotation_fit import orthonormalize
 
 LEAST_VERTICES = 60_000
-"""Smaller meshes are started from rest, which leads to the minimum next to it."""
+"""Meshes of smaller components are started from rest, which leads to the minimum next to it."""
 COARSEST_VERTICES = 10_000
-"""Meshes of up to so many are started from the rest shape."""
+"""So are coarser meshes below this."""
 TOLERANCE = 1e-2
 """of the stop rule on coarse meshes: a more exact start saves less than it costs"""
 MAX_ITERATIONS = 100
@@ -34,7 +34,7 @@ def coarse_stylization(fine):
 
     None for small meshes, for the plain iteration, and where there is no coarser mesh.
     """
-    count = len(fine.rest.V)
+    count = fine.rest.largest_component  # many small parts are no slower than one of them
     least = COARSEST_VERTICES if fine.is_coarse else LEAST_VERTICES
     if count < least or not fine.is_accelerated or fine.setup.coarse is None:
         return None

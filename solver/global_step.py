@@ -11,8 +11,8 @@ from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 
 FACTORIZED_VERTICES = 60_000
-"""Larger meshes get multigrid. At 98,722 vertices its set-up takes a tenth of the factorisation but
-a third more iterations are needed, so a run ends as soon; at 400 k it is four times faster."""
+"""Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
+but a third more iterations are needed, so a run ends as soon; of 400 k it is four times faster."""
 
 
 class GlobalStep:
@@ -51,7 +51,8 @@ class GlobalStep:
         _, first_vertex = np.unique(rest.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
         self._is_held = is_held
-        self.is_factorized = n <= FACTORIZED_VERTICES or not has_multigrid()
+        is_small = rest.largest_component <= FACTORIZED_VERTICES
+        self.is_factorized = is_small or not has_multigrid()
         if self.is_factorized:
             self._solve = _solver(self._laplacian, is_held)
         else:

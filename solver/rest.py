@@ -84,6 +84,11 @@ class RestMesh:
         bounds = np.append(start, len(self.V)).astype(np.int32)
         return bounds, self.component[start].astype(np.int32)
 
+    @cached_property
+    def largest_component(self):
+        """Number of vertices of the largest component, which says how hard the problem is."""
+        return int(np.bincount(self.component).max())
+
     def sum_parts(self, values):
         """Sum values (n,) over each component, to (component_count,)."""
         if self.component_count == 1:
