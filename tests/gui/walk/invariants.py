@@ -52,7 +52,7 @@ class Invariants:
         self._functions = set()
         self._before = meshes.read_all()
         self._shapes = {state.original for state in self._before.values()}
-        self._faces = {state.faces for state in self._before.values()} | {""}
+        self._faces = {state.faces for state in self._before.values()}
 
     def check(self, action):
         """Check everything after an action; AssertionError says what is wrong."""

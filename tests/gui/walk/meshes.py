@@ -72,6 +72,10 @@ def _hash_values(values):
     return _hash(values + np.float32(0))
 
 
+def _hash_faces(*arrays):
+    return hashlib.blake2b(b"|".join(array.tobytes() for array in arrays)).hexdigest()
+
+
 def _get(items, name, size, dtype=np.float32):
     values = np.empty(len(items) * size, dtype)
     items.foreach_get(name, values)
@@ -97,13 +101,12 @@ class _Plain:
 
     def faces(self):
         mesh = self._mesh
-        parts = [
+        return _hash_faces(
             _get(mesh.edges, "vertices", 2, np.int32),
             _get(mesh.loops, "vertex_index", 1, np.int32),
             _get(mesh.polygons, "loop_total", 1, np.int32),
             *(_get(layer.uv, "vector", 2) for layer in mesh.uv_layers),
-        ]
-        return hashlib.blake2b(b"|".join(p.tobytes() for p in parts)).hexdigest()
+        )
 
 
 class _Edited:
@@ -133,4 +136,13 @@ class _Edited:
         return None if layer is None else self._vectors(lambda vertex: vertex[layer])
 
     def faces(self):
-        return ""  # of the mesh outside; Edit Mode may number them anew
+        edges, faces = self._bm.edges, self._bm.faces
+        self._bm.verts.index_update()
+        corners = [corner for face in faces for corner in face.loops]
+        layers = self._bm.loops.layers.uv.values()
+        return _hash_faces(
+            np.array([[v.index for v in edge.verts] for edge in edges], np.int32),
+            np.array([corner.vert.index for corner in corners], np.int32),
+            np.array([len(face.verts) for face in faces], np.int32),
+            *(np.array([c[layer].uv[:] for c in corners], np.float32) for layer in layers),
+        )
