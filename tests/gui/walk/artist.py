@@ -84,7 +84,7 @@ def change_mode(rng):
     yield
 
 
-@action(3, reshapes=True)
+@action(7, reshapes=True)
 def edit_mesh(rng):
     if bpy.context.mode != "EDIT_MESH":
         return None
@@ -133,7 +133,7 @@ def join(_rng):
     yield
 
 
-@action(2, reshapes=True)
+@action(4, reshapes=True)
 def shape_keys(rng):
     obj = active_mesh()
     if obj is None:
@@ -162,7 +162,7 @@ def shape_keys(rng):
     yield
 
 
-@action(2)
+@action(3)
 def vertex_groups(rng):
     obj = active_mesh()
     if obj is None:
@@ -223,7 +223,7 @@ def rename(rng):
     yield
 
 
-@action(2)
+@action(5)
 def move_target(rng):
     """Move what a handle follows, or a frame."""
     others = [o for o in bpy.data.objects if o.type == "EMPTY"]

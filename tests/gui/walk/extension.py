@@ -63,12 +63,15 @@ def cancel_live(_rng):
     yield
 
 
-@action(4)
+@action(9)
 def handles(rng):
     if not is_on():
         return None
     name = rng.choice(["add", "remove", "move", "pin_selection", "follow", "follow", "reset_pose"])
     options = {"direction": rng.choice(["UP", "DOWN"])} if name == "move" else {}
+    if name == "pin_selection" and (obj := active_mesh()) and obj.mode == "OBJECT":
+        vertices = obj.data.vertices
+        vertices.foreach_set("select", [rng.random() < 0.2 for _ in vertices])
     return call(f"cubic_craft.handle_{name}", "INVOKE_DEFAULT", **options)
     yield
 
@@ -85,8 +88,8 @@ def change_setting(rng):
             ("cubeness", rng.choice([0.0, 0.1, 0.5, 1.0, 5.0])),
             ("cubeness", rng.random()),
             ("orientation", tuple(rng.uniform(-1, 1) for _ in range(3))),
-            ("space", rng.choice(["OBJECT", "WORLD", "FRAME"])),
-            ("map_group", rng.choice(["", "Handle", "Group", "missing"])),
+            ("space", rng.choice(["OBJECT", "OBJECT", "WORLD", "WORLD", "FRAME"])),
+            ("map_group", rng.choice(["", "", "Handle", "Group", "missing"])),
             ("map_invert", rng.random() < 0.5),
             ("use_handles", rng.random() < 0.5),
             ("result", rng.choice(["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"])),

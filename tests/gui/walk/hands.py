@@ -5,10 +5,11 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 
-from .actions import action, is_live, is_on
+from .actions import action, call, is_live, is_on
 
 _TAB = "Cubic Craft"
 _MARGIN = 12  # pixels from the edge of a region, which would be dragged itself
+_CLOSED_PANEL = 60  # pixels; the panel of the last operator is lower while only its header shows
 
 
 def close_popups():
@@ -160,16 +161,20 @@ def scroll_panel(rng):
 
 @action(4, goes_back=True)
 def redo_panel(rng):
-    """Click or drag in the panel of the last operator, where that is Cubify."""
-    operators = bpy.context.window_manager.operators
-    if not operators or operators[-1].bl_idname != "CUBIC_CRAFT_OT_cubify":
+    """Cubify, then click or drag somewhere in the panel of the last operator."""
+    if not is_on() or (done := call("cubic_craft.cubify", "INVOKE_DEFAULT")) is None:
         return None
+    yield from gui.wait_redraw()
     place = gui.region("HUD")
-    if place.width <= 1 + 2 * _MARGIN or place.height <= 1 + 2 * _MARGIN:
-        return None
-    start = _point_in(place, rng)
-    if rng.random() < 0.5:
-        yield from gui.click(start)
-    else:
-        yield from gui.drag(start, (_point_in(place, rng)[0], start[1]), 4)
-    return str(start)
+    if not done.endswith("FINISHED") or place.width <= 1:
+        return f"{done}, no panel"
+    if place.height < _CLOSED_PANEL:
+        header = (place.x + place.width // 2, place.y + place.height - _MARGIN)
+        yield from gui.click(header)
+        yield from gui.wait_redraw()
+        place = gui.region("HUD")
+    for _ in range(2):
+        start = _point_in(place, rng)
+        yield from gui.drag(start, (_point_in(place, rng)[0], start[1]), rng.choice([1, 4]))
+        yield from close_popups()
+    return f"{start} of {place.width} x {place.height}"
