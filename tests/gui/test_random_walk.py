@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A random walk: anything, at any moment. WALK_SEED and WALK_ACTIONS choose another one."""
 
+import faulthandler
 import os
 
 import guidrive as gui
@@ -12,6 +13,7 @@ ACTIONS = int(os.environ.get("WALK_ACTIONS", "120"))
 
 
 def test():
+    faulthandler.enable()  # a crash of Blender names the line of the step that it crashed in
     gui.simplify_viewport()
     scene.add_monkey()
     yield from gui.open_sidebar("Cubic Craft")
