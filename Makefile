@@ -16,7 +16,7 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui lint typecheck build bench bench-quick bench-live docs-images clean \
+	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
 	has-py313
 
 help: ## Show this list
@@ -80,6 +80,9 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 
 test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path for your own
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
+
+test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
+	SEEDS="$(SEEDS)" ACTIONS="$(ACTIONS)" tests/gui/walks.sh $(ZIP)
 
 lint: setup ## Style and formatting
 	$(VENV)/bin/ruff check .

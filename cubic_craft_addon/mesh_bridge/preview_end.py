@@ -2,12 +2,14 @@
 """Take a preview back from what lies on the mesh alone, wherever that mesh has come from."""
 
 from collections.abc import Collection
+from typing import Any
 
 import bpy
 
 from ...solver.errors import CubicCraftError
-from .attributes import read_attribute
+from .attributes import LIVE, our_attributes, read_attribute
 from .checks import is_linked
+from .fingerprint import fingerprint_of_values
 from .note import read_note
 from .preview_edit_mode import EditedMesh
 from .preview_store import (
@@ -18,6 +20,14 @@ from .preview_store import (
     write_live_part,
 )
 from .shapes import read_shapes, write_shapes
+
+_ended_in_edit_mode: dict[str, dict[str, Any]] = {}
+"""parts "live" of the note by the fingerprint of what was shown
+
+The undo steps of Edit Mode hold positions and attributes, but not the note. Entering Edit Mode
+pushes one with the preview still on; an undo to that brings all of the preview back but its part
+of the note. Like the undo steps, this lasts until Blender ends.
+"""
 
 
 def has_preview(mesh: bpy.types.Mesh | None) -> bool:
@@ -35,10 +45,14 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     -------
     Whether there was a preview to end. Linked meshes stay as they are.
     """
-    if not has_preview(mesh) or is_linked(mesh):
+    if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
         return False
-    part = read_note(mesh)["live"]
     edited = EditedMesh(mesh) if mesh.is_editmode else None
+    part = read_note(mesh).get("live") or (edited and _part_of_undone(edited))
+    if not part:
+        return False
+    if edited and part["fingerprint"]:
+        _ended_in_edit_mode[part["fingerprint"]] = part
     try:
         present = edited.read_shapes() if edited else read_shapes(mesh)
     except CubicCraftError:  # a script has left shape keys that do not fit: not what we showed
@@ -67,3 +81,17 @@ def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str
     """
     meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
     return [mesh.name for mesh in meshes if end_preview(mesh)]
+
+
+def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether an undo in Edit Mode may have brought back a preview without its note."""
+    return mesh.is_editmode and bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
+
+
+def _part_of_undone(edited: EditedMesh) -> dict[str, Any] | None:
+    """Find the part of the note by the shape that is there; None where we have not shown it."""
+    try:
+        base = edited.read_shapes().base
+    except CubicCraftError:
+        return None
+    return _ended_in_edit_mode.get(fingerprint_of_values(base))

@@ -46,6 +46,25 @@ def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
     check_gone(live)
 
 
+def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    original = bits(obj)
+    session = begin(obj)
+    session.tick(bpy.context)
+    bpy.ops.object.mode_set(mode="EDIT")
+    # It holds the preview, and the attributes, but not the note: that is Edit Mode's way.
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    session.tick(bpy.context)
+    assert session.is_ended
+    bpy.ops.mesh.select_all(action="INVERT")
+    bpy.ops.ed.undo_push(message="Select")
+    bpy.ops.ed.undo()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert bits(bpy.data.objects["Suzanne"]) == original
+    check_gone(live)
+
+
 def test_undo_of_the_object_ends_it(live, begin):
     bpy.ops.ed.undo_push(message="Empty")
     obj = add_monkey()

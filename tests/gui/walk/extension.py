@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the extension offers, called as its buttons do."""
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+
+from . import meshes
+from .actions import action, active_mesh, call, is_live, is_on, turns
+
+invariants = None  # set by the walk
+
+
+@action(7)
+def cubify(_rng):
+    return call("cubic_craft.cubify", "INVOKE_DEFAULT") if is_on() else None
+    yield
+
+
+@action(4)
+def restore(_rng):
+    """Restore, and see that the shape is what it has to be."""
+    if not is_on():
+        return None
+    done = call("cubic_craft.restore", "INVOKE_DEFAULT")
+    if done is None or not done.endswith("FINISHED"):
+        return done
+    now = meshes.read_all()
+    restored = 0
+    for uid, before in invariants.states.items():
+        if before.has_traces and not now[uid].has_traces:
+            assert now[uid].shape == before.original, f"Restore: {before.name} has another shape"
+            restored += 1
+    return f"{done}, {restored} meshes"
+    yield
+
+
+@action(1)
+def apply(_rng):
+    return call("cubic_craft.apply", "INVOKE_DEFAULT") if is_on() else None
+    yield
+
+
+@action(1)
+def auto_orient(_rng):
+    return call("cubic_craft.auto_orient", "INVOKE_DEFAULT") if is_on() else None
+    yield
+
+
+@action(8)
+def start_or_confirm_live(rng):
+    if not is_on():
+        return None
+    done = call("cubic_craft.live", "INVOKE_DEFAULT")
+    if done is not None:
+        yield from turns(rng.choice([2, 10, 40]))
+    return done
+
+
+@action(1)
+def cancel_live(_rng):
+    return call("cubic_craft.live_cancel", "INVOKE_DEFAULT") if is_live() else None
+    yield
+
+
+@action(9)
+def handles(rng):
+    if not is_on():
+        return None
+    name = rng.choice(["add", "remove", "move", "pin_selection", "follow", "follow", "reset_pose"])
+    options = {"direction": rng.choice(["UP", "DOWN"])} if name == "move" else {}
+    if name == "pin_selection" and (obj := active_mesh()) and obj.mode == "OBJECT":
+        vertices = obj.data.vertices
+        vertices.foreach_set("select", [rng.random() < 0.2 for _ in vertices])
+    return call(f"cubic_craft.handle_{name}", "INVOKE_DEFAULT", **options)
+    yield
+
+
+@action(7)
+def change_setting(rng):
+    """Change a setting where the panel would: on the object, or in Live on the session."""
+    obj = active_mesh()
+    if not is_on() or obj is None:
+        return None
+    target = scene.live().shared_properties(obj)
+    name, value = rng.choice(
+        [
+            ("cubeness", rng.choice([0.0, 0.1, 0.5, 1.0, 5.0])),
+            ("cubeness", rng.random()),
+            ("orientation", tuple(rng.uniform(-1, 1) for _ in range(3))),
+            ("space", rng.choice(["OBJECT", "OBJECT", "WORLD", "WORLD", "FRAME"])),
+            ("map_group", rng.choice(["", "", "Handle", "Group", "missing"])),
+            ("map_invert", rng.random() < 0.5),
+            ("use_handles", rng.random() < 0.5),
+            ("result", rng.choice(["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"])),
+            ("rotation", rng.choice(["AUTO", "KEEP", "FREE"])),
+            ("device", rng.choice(["AUTO", "NUMPY"])),
+            ("max_iterations", rng.choice([1, 5, 40])),
+            ("tolerance", rng.choice([1e-5, 1e-3, 1.0])),
+            ("frame", rng.choice(list(bpy.data.objects))),
+        ]
+    )
+    if name == "frame" and is_live():
+        value = value.name
+    setattr(target, name, value)
+    if not is_live():
+        bpy.ops.ed.undo_push(message="Change a setting")
+    return f"{name} = {value!r}"
+    yield
+
+
+@action(1)
+def key_setting(_rng):
+    """Animate a setting."""
+    obj = active_mesh()
+    if not is_on() or obj is None:
+        return None
+    obj.keyframe_insert("cubic_craft.cubeness")
+    bpy.ops.ed.undo_push(message="Insert a key")
+    return obj.name
+    yield
+
+
+@action(1)
+def change_preference(rng):
+    if not is_on():
+        return None
+    if rng.random() < 0.5:
+        manager = bpy.context.window_manager
+        manager.cubic_craft_overlay = not manager.cubic_craft_overlay
+        return "overlay"
+    preferences = bpy.context.preferences.addons[scene.EXTENSION].preferences
+    preferences.tab = "Other"
+    yield from turns(3)
+    preferences.tab = "Cubic Craft"
+    yield from gui.wait_redraw()
+    return "tab"
+
+
+@action(1.5)
+def switch_off(_rng):
+    if not is_on():
+        return None
+    bpy.ops.preferences.addon_disable(module=scene.EXTENSION)
+    yield from turns(3)
+    return "off"
+
+
+@action(30)
+def switch_on(rng):
+    if is_on() or rng.random() < 0.5:
+        return None
+    bpy.ops.preferences.addon_enable(module=scene.EXTENSION)
+    yield from turns(5)
+    return "on"

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What must hold after each step, whatever it was."""
+
+import collections
+import logging
+import sys
+import types
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+
+from . import meshes
+from .actions import is_live, is_on
+
+_ALWAYS = (
+    ("undo_post", "_heal"),
+    ("redo_post", "_heal"),
+    ("load_post", "_heal"),
+    ("load_post", "_start_anew"),
+    ("depsgraph_update_post", "_follow_updates"),
+)
+_IN_LIVE = (
+    ("undo_post", "_on_undo"),
+    ("redo_post", "_on_undo"),
+    ("load_pre", "_on_load"),
+    ("save_pre", "_on_save"),
+    ("save_post", "_on_saved"),
+    ("save_post_fail", "_on_saved"),
+    ("frame_change_post", "_on_frame"),
+    ("depsgraph_update_post", "_on_update"),
+)
+
+
+class _Errors(logging.Handler):
+    """Keeps what the extension logs as an error: exceptions that it has caught."""
+
+    def __init__(self):
+        super().__init__(logging.ERROR)
+        self.texts = []
+
+    def emit(self, record):
+        self.texts.append(self.format(record))
+
+
+class Invariants:
+    """Compares the file and Blender after each step with what was there before it."""
+
+    def __init__(self):
+        self._errors = _Errors()
+        logging.getLogger(scene.EXTENSION).addHandler(self._errors)
+        self._functions = set()
+        self._before = meshes.read_all()
+        self._shapes = {state.original for state in self._before.values()}
+        self._faces = {state.faces for state in self._before.values()}
+
+    def check(self, action):
+        """Check everything after an action; AssertionError says what is wrong."""
+        assert not gui.python_errors, gui.python_errors[-1]
+        assert not self._errors.texts, self._errors.texts[-1]
+        self._check_handlers()
+        self._check_timers()
+        self._check_live()
+        now = meshes.read_all()
+        for uid, state in now.items():
+            self._check_mesh(state, self._before.get(uid), action)
+        self._before = now
+
+    @property
+    def states(self):
+        """The meshes as of the last check, by `session_uid`."""
+        return self._before
+
+    def _check_mesh(self, state, before, action):
+        what = f"mesh {state.name!r} after {action.name}"
+        assert state.is_finite, f"{what}: positions that are not finite"
+        assert not (state.has_preview and is_on() and not is_live()), f"{what}: a preview is left"
+        if action.reshapes:
+            self._shapes.add(state.original)
+            self._faces.add(state.faces)
+            return
+        assert state.faces in self._faces, f"{what}: other edges, faces or UVs"
+        is_applied = before and state.original == before.shape and not state.has_traces
+        if is_applied:
+            self._shapes.add(state.original)
+        assert state.original in self._shapes, f"{what}: the original is lost"
+        if before and not action.goes_back:
+            assert is_applied or state.original == before.original, f"{what}: another original"
+
+    def _check_handlers(self):
+        found = collections.Counter()
+        for name in dir(bpy.app.handlers):
+            handlers = getattr(bpy.app.handlers, name)
+            if isinstance(handlers, list):
+                ours = [h for h in handlers if h.__module__.startswith(scene.EXTENSION)]
+                found.update((name, handler.__name__) for handler in ours)
+        expected = collections.Counter(_ALWAYS if is_on() else ())
+        expected.update(_IN_LIVE if is_live() else ())
+        assert found == expected, f"handlers: {found - expected} more, {expected - found} missing"
+
+    def _check_timers(self):
+        for name, module in list(sys.modules.items()):
+            if name.startswith(scene.EXTENSION):
+                values = vars(module).values()
+                self._functions.update(v for v in values if isinstance(v, types.FunctionType))
+        left = [f for f in self._functions if bpy.app.timers.is_registered(f)]
+        assert not left, f"timers: {left}"
+
+    def _check_live(self):
+        is_modal = "CUBIC_CRAFT_OT_live" in gui.running_operators()
+        assert is_modal == is_live(), f"Live runs: {is_live()}, its operator: {is_modal}"
+        header = bpy.types.STATUSBAR_HT_header
+        has_text = header.draw is not getattr(header, "_draw_orig", header.draw)
+        assert has_text == is_live(), f"Live runs: {is_live()}, its status text: {has_text}"
+        session = scene.live()._session if is_on() else None
+        if session is not None and (session.is_ended or scene.is_idle()):
+            assert session._timer is None, "Live is at rest with a timer"
