@@ -22,8 +22,9 @@ from scene import select  # noqa: E402
 pytest.register_assert_rewrite("live_steps")  # what fails there is then explained as in a test
 
 
-def extension_zip():
-    """Return the built extension: what CUBIC_CRAFT_ZIP says, or one built now."""
+@pytest.fixture(scope="session")
+def archive():
+    """Return the path of the built extension: what CUBIC_CRAFT_ZIP says, or one built now."""
     given = os.environ.get("CUBIC_CRAFT_ZIP")
     if given:
         return Path(given).resolve()
@@ -36,10 +37,10 @@ def extension_zip():
 
 
 @pytest.fixture(scope="session", autouse=True)
-def extension():
+def extension(archive):
     """Install and enable the built extension; return its package."""
     done = bpy.ops.extensions.package_install_files(
-        filepath=str(extension_zip()), repo="user_default", enable_on_install=True
+        filepath=str(archive), repo="user_default", enable_on_install=True
     )
     assert done == {"FINISHED"}
     module = importlib.import_module(NAME)

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import bpy
 import pytest
+from live_steps import confirm, tick_to_rest
 from scene import add_monkey, cubify, select
-from test_live import begin, confirm, live, tick_to_rest  # noqa: F401 (fixtures)
 from world import block_names
 
 ROUNDS = int(os.environ.get("CUBIC_CRAFT_ROUNDS", "50"))
@@ -79,7 +79,7 @@ def test_cubify_and_restore(result, device):
 
 @needs_proc
 @pytest.mark.parametrize("end", ["CONFIRM", "CANCEL"])
-def test_live_sessions(live, begin, end):  # noqa: F811
+def test_live_sessions(live, begin, end):
     obj = add_monkey()
     obj.cubic_craft.max_iterations = 3
 

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import bpy
 import pytest
-from conftest import extension_zip
 
 VISIT = Path(__file__).with_name("visit.py")
 OLDER = os.environ.get("CUBIC_CRAFT_OLDER_PYTHON")
@@ -31,20 +30,20 @@ def visit(python, what, file, *archive):
     return done.stdout.split("done in ")[1].strip()
 
 
-def test_without_the_extension_and_back(tmp_path):
+def test_without_the_extension_and_back(tmp_path, archive):
     file = tmp_path / "file.blend"
-    visit(sys.executable, "make", file, extension_zip())
+    visit(sys.executable, "make", file, archive)
     visit(sys.executable, "save", file)
-    visit(sys.executable, "restore", file, extension_zip())
+    visit(sys.executable, "restore", file, archive)
 
 
 @pytest.mark.skipif(not OLDER, reason="no older bpy is named")
 @pytest.mark.parametrize("without", [False, True], ids=["with", "without"])
-def test_a_file_of_an_older_blender(tmp_path, without):
+def test_a_file_of_an_older_blender(tmp_path, archive, without):
     """Made there and restored here, perhaps saved here without the extension in between."""
     file = tmp_path / "file.blend"
-    made = visit(OLDER, "make", file, extension_zip())
+    made = visit(OLDER, "make", file, archive)
     if without:
         visit(sys.executable, "save", file)
-    restored = visit(sys.executable, "restore", file, extension_zip())
+    restored = visit(sys.executable, "restore", file, archive)
     assert made != restored and bpy.app.version_string == restored
