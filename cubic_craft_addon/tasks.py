@@ -84,7 +84,7 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     solutions = [task.solution for task in tasks if task.solution is not None]
     statuses = [_status(solution) for solution in solutions]
     ends = list(accumulate(solution.total_seconds for solution in solutions))
-    written, problems = 0, taichi_news()
+    written, problems = 0, taichi_news() if tasks else []
     try:
         for task, status in zip(tasks, statuses, strict=True):
             _write(choice, task, status)
