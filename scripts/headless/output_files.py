@@ -3,8 +3,10 @@
 import contextlib
 import os
 import platform
+import re
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,7 +15,8 @@ from .errors import InputError
 __all__ = ("check_writable", "numbered", "per_cubeness", "remove_temporaries", "replacing")
 
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
-_temporaries: list[Path] = []
+_begins: list[Path] = []  # of the temporary files of this process, without suffix
+_removing = threading.Lock()
 
 
 def per_cubeness(path: Path, cubeness: list[float]) -> list[Path]:
@@ -63,8 +66,9 @@ def replacing(path: Path) -> Iterator[Path]:
     have left of the same file is removed as well.
     """
     _remove_left_behind(path)
-    temporary = path.with_name(f"{_prefix(path)}{os.getpid()}{path.suffix}")
-    _temporaries.append(temporary)
+    begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
+    temporary = begin.with_name(f"{begin.name}{path.suffix}")
+    _begins.append(begin)
     try:
         yield temporary
         if not temporary.is_file() or not temporary.stat().st_size:
@@ -74,14 +78,19 @@ def replacing(path: Path) -> Iterator[Path]:
         message = f"{path}: cannot be written ({error.strerror or error}); choose another path"
         raise InputError(message) from error
     finally:
-        _remove(temporary)
-        _temporaries.remove(temporary)
+        with _removing:
+            _remove(begin)
+            _begins.remove(begin)
 
 
 def remove_temporaries() -> None:
-    """Remove what is being written, because the process ends now."""
-    for temporary in _temporaries:
-        _remove(temporary)
+    """Remove what is being written, because the process ends now.
+
+    From now on no `replacing` ends: its writer must not report as an error what is done here.
+    """
+    _removing.acquire()
+    for begin in _begins:
+        _remove(begin)
 
 
 def _prefix(path: Path) -> str:
@@ -90,21 +99,42 @@ def _prefix(path: Path) -> str:
     return f".{stem}.cubic_craft-{platform.node()}-"
 
 
-def _remove(temporary: Path) -> None:
-    """Remove a temporary file; Blender writes a .blend under its name with an @ first."""
-    for path in (temporary, temporary.with_name(f"{temporary.name}@")):
-        with contextlib.suppress(OSError):
-            path.unlink(missing_ok=True)
+def _remove(begin: Path) -> None:
+    """Remove a temporary file, and what writers make beside it on the way, by how they begin.
+
+    Blender writes ``name.blend@`` first, USD ``name.XXXXXX`` with six random characters.
+    """
+    while found := [path for path in _listed(begin.parent) if _process(path, begin) == ""]:
+        for path in found:
+            try:
+                path.unlink(missing_ok=True)
+            except OSError:
+                return
 
 
 def _remove_left_behind(path: Path) -> None:
     """Remove temporary files for a path whose process is no longer there."""
-    prefix = _prefix(path)
-    with contextlib.suppress(OSError):
-        for other in path.parent.iterdir():
-            process = other.name.removeprefix(prefix).removesuffix("@").removesuffix(path.suffix)
-            if other.name.startswith(prefix) and process.isdecimal() and _has_ended(int(process)):
-                _remove(other)
+    begin = path.with_name(_prefix(path))
+    for other in _listed(path.parent):
+        process = _process(other, begin)
+        if process and process.isdecimal() and _has_ended(int(process)):
+            with contextlib.suppress(OSError):
+                other.unlink(missing_ok=True)
+
+
+def _process(path: Path, begin: Path) -> str | None:
+    """Return what stands between a begin of a file name and the next dot or @; None without it."""
+    if not path.name.startswith(begin.name):
+        return None
+    return re.split("[.@]", path.name.removeprefix(begin.name), maxsplit=1)[0]
+
+
+def _listed(folder: Path) -> list[Path]:
+    """Return what lies in a folder, nothing where it cannot be read."""
+    try:
+        return list(folder.iterdir())
+    except OSError:
+        return []
 
 
 def _has_ended(process: int) -> bool:
