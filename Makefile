@@ -15,7 +15,7 @@ SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
+.PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
 	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
 	has-py313
 
@@ -39,8 +39,8 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 
 test: test-solver test-blender ## All tests that need no window
 
-test-solver: setup ## The solver, and what decides in Live, without Blender
-	$(PY) $(PYTEST) tests/solver tests/live tests/hostile
+test-solver: setup ## The solver, what decides in Live, and the documentation, without Blender
+	$(PY) $(PYTEST) tests/solver tests/live tests/hostile tests/docs
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
@@ -107,8 +107,19 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)
 
+docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; checks its links
+	NO_MKDOCS_2_WARNING=1 $(VENV)-docs/bin/python -m mkdocs build
+
+$(VENV)-docs/.done: requirements/docs.txt
+	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
+	$(PYTHON) -m venv $(VENV)-docs
+	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
+	@touch $@
+
 docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
+	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
+	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png
 
 clean: ## Remove what has been built, not the virtual environments
 	rm -rf build dist

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the documentation tells to type is there, and each figure names what makes it."""
+
+import json
+import re
+import subprocess
+import sys
+from functools import cache
+
+import pytest
+from documents import PAGES, ROOT, sections
+
+HEADLESS = "headless_render.py"
+PAGES_OF_HEADLESS = ("README.md", "batch.md", "handles.md", "scripting.md", "user_guide.md")
+MAKES_FIGURES = re.compile(r"^(make |pytest |python |\.venv/|scripts/|tests/|[A-Z_]+=)")
+MEASURED = re.compile(r"\d ?(ms|s|seconds|minutes|MB|GB|MiB|GiB|times) ")
+
+by_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+
+
+def commands(page):
+    return [command for section in sections(page) for command in section.commands]
+
+
+@by_page
+def test_make_targets_are_there(page):
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z0-9-]+):", makefile, re.MULTILINE))
+    for command in commands(page):
+        words = re.sub(r'"[^"]*"', "", command).split()
+        if words and words[0] == "make":
+            named = {word for word in words[1:] if "=" not in word and not word.startswith("-")}
+            assert named <= targets, f"{command}: there is no {named - targets} in the Makefile"
+
+
+@by_page
+def test_options_of_the_headless_script_are_there(page):
+    for command in commands(page):
+        is_alone = command.startswith("--") and page.name in PAGES_OF_HEADLESS
+        if HEADLESS in command or is_alone:
+            given = set(re.findall(r"(?<=\s)--[a-z-]+", f" {command}".replace(" -- ", " ")))
+            unknown = given - options_of_headless() - {"--help"}
+            assert not unknown, f"{command}: there is no {unknown}"
+
+
+@cache
+def options_of_headless():
+    script = ROOT / "scripts" / HEADLESS
+    text = subprocess.run(
+        [sys.executable, script, "--help"], capture_output=True, text=True, check=True
+    ).stdout
+    return set(re.findall(r"--[a-z-]+", text))
+
+
+@by_page
+def test_files_in_commands_are_there(page):
+    for command in commands(page):
+        for path in re.findall(r"\b(?:tests|scripts|examples|requirements)/[\w/.]+\.\w+", command):
+            assert (ROOT / path).exists(), f"{command}: there is no {path}"
+
+
+@by_page
+def test_figures_name_the_command_that_makes_them(page):
+    """In their section, or in the introduction of the page."""
+    introduction = sections(page)[0]
+    for section in sections(page):
+        has_figure = section.images or MEASURED.search(section.text)
+        named = [c for c in section.commands + introduction.commands if MAKES_FIGURES.match(c)]
+        assert named or not has_figure, f'"{section.title}" has figures, but no command beside them'
+
+
+def test_json_of_handles_can_be_read(tmp_path):
+    sys.path.insert(0, str(ROOT / "scripts"))
+    from headless.handles_file import read_handles
+
+    blocks = [
+        content
+        for section in sections(ROOT / "docs" / "handles.md")
+        for language, content, _ in section.fences
+        if language == "json"
+    ]
+    path = tmp_path / "handles.json"
+    path.write_text(blocks[0], encoding="utf-8")
+    assert len(read_handles(path)) == len(json.loads(blocks[0]))
