@@ -49,11 +49,12 @@ expected_device() {
 }
 
 run_test() {
-    local suite=$1 test=$2 folder=$3
+    local suite=$1 test=$2 folder=$3 size
+    size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
     if [ "$suite" = blender ]; then
-        "$HERE/kit/run_with_blender.sh" -e "$ZIP" -d "$folder" "$test"
+        "$HERE/kit/run_with_blender.sh" ${size:+-g "$size"} -e "$ZIP" -d "$folder" "$test"
     else
-        "$HERE/kit/run_in_gui.sh" -s "$suite" -p -e "$ZIP" -d "$folder" \
+        "$HERE/kit/run_in_gui.sh" -s "$suite" ${size:+-g "$size"} -p -e "$ZIP" -d "$folder" \
             -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$test"
     fi
 }

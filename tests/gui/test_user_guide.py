@@ -1,55 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of docs/user_guide.md: each section of the panel as the artist sees it.
 
-All sections but one are closed by their headers, and the picture is cut out around that one. The
-texts that the guide quotes are checked here, too.
+The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
+# Window: 1000x1900
 
+import os
 import pathlib
 import subprocess
+import sys
 
+import addon_utils
 import bpy
 import guidrive as gui
 import live_scene as scene
 import numpy as np
+from guidrive.pictures import save_screen
 from mathutils import Euler
 
 SCALE = 1.5  # of Blender's interface: sharper pictures
-HEADER = 20 * SCALE  # pixels from the first row of a section to the middle of its header
-PITCH = 25 * SCALE  # pixels between the headers of two closed sections
-MARGIN = 8 * SCALE
-SECTIONS = {  # in their order: first and last button of each
+HEADER = 20 * SCALE  # pixels from a section's first row to the middle of its header, and from
+MARGIN = 13 * SCALE  # the middle of a header to the edge of the picture
+TABS = 24 * SCALE  # pixels at the right of the sidebar
+SECTIONS = {  # first and last button of each
     "orientation": ("cubic_craft_overlay", "cubic_craft.rotation"),
     "handles": ("cubic_craft.handle_add", "cubic_craft.handle_reset_pose"),
     "map": ("cubic_craft.map_group", "cubic_craft.map_invert"),
     "result": ("cubic_craft.result", "cubic_craft.result"),
     "solver": ("cubic_craft.device", "cubic_craft.tolerance"),
 }
-CLOSED_AT_FIRST = "solver"
+
+
+def share(name):
+    return pathlib.Path(os.environ["GUIDRIVE_SHARE"]) / name
 
 
 def cut(picture, name, left, bottom, right, top):
     """Save a part of a screenshot; window pixels from the bottom left."""
     width, height = round(right - left), round(top - bottom)
     corner = f"+{round(left)}+{round(gui.window().height - top)}"
-    target = pathlib.Path(picture).with_name(name)
-    subprocess.run(
-        ["convert", picture, "-crop", f"{width}x{height}{corner}", "+repage", str(target)],
-        check=True,
-    )
+    part = ["-crop", f"{width}x{height}{corner}", "+repage"]
+    subprocess.run(["convert", picture, *part, str(share(f"user_guide_{name}.png"))], check=True)
 
 
 def add_monkey():
-    """Leave a monkey with two parts to hold and a painted map, all selected and in view."""
+    """Leave a monkey with two parts to hold and a painted map."""
     scene.add_monkey(levels=2)
     obj = bpy.data.objects[scene.NAME]
     places = np.frombuffer(scene.positions(), dtype=np.float32).reshape(-1, 3)
     for group, held in (("Chin", places[:, 2] < -0.75), ("Ear", places[:, 0] > 1.05)):
         obj.vertex_groups.new(name=group).add(np.flatnonzero(held).tolist(), 1.0, "REPLACE")
-    weights = np.clip((places[:, 2] + 0.6) / 1.2, 0.0, 1.0)
     upper = obj.vertex_groups.new(name="Upper Half")
-    for number, weight in enumerate(weights.tolist()):
-        upper.add([number], weight, "REPLACE")
+    for number, height in enumerate(places[:, 2].tolist()):
+        upper.add([number], min(max(height + 0.5, 0.0), 1.0), "REPLACE")
     with gui.in_region():
         bpy.ops.object.shade_smooth()
         bpy.ops.ed.undo_push(message="Paint")
@@ -61,71 +64,141 @@ def set_the_stage():
     preferences.view.ui_scale = SCALE
     with gui.in_region():
         bpy.ops.screen.screen_full_area()
-    yield
+    yield from gui.wait_redraw()
     add_monkey()
     view = gui.area().spaces.active
     view.shading.light = "MATCAP"
+    yield from gui.open_sidebar("Cubic Craft")
     view.region_3d.view_rotation = Euler((1.25, 0.0, 0.45)).to_quaternion()
     with gui.in_region():
         bpy.ops.view3d.view_selected()
-    yield from gui.open_sidebar("Cubic Craft")
     yield from gui.wait_redraw()
 
 
-def header_of(first):
-    """Return the middle of the header above a section's first button."""
-    return gui.region("UI").x + round(0.6 * gui.region("UI").width), round(first.top + HEADER)
-
-
-def close_sections():
-    """Close all, from the last on; return where the first header is."""
-    point = None
-    for name in reversed(SECTIONS):
-        if name != CLOSED_AT_FIRST:
-            point = header_of((yield from gui.find_button(SECTIONS[name][0])))
-            yield from gui.click(point)
-            yield from gui.wait_redraw("UI")
-    return point
-
-
-def picture_of(name, first_header):
-    """Open a section, take its picture, and close it."""
-    x, y = first_header
-    header = (x, round(y - list(SECTIONS).index(name) * PITCH))
-    yield from gui.click(header)
+def open_solver():
+    """Click on the header below the last section that is open."""
+    above = yield from gui.find_button("cubic_craft.result")
+    yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
     yield from gui.wait_redraw("UI")
+    yield from gui.find_button("cubic_craft.device")
+
+
+def whole(name):
+    """Take a picture of the window, with nothing lit up under the mouse."""
+    yield from gui.move_mouse(gui.viewport_point(0.1, 0.02))
+    return (yield from gui.screenshot(f"{name}_window.png"))
+
+
+def panels():
+    """Return the left and the right end of the panels in the sidebar."""
+    place = gui.region("UI")
+    return place.x, place.x + place.width - TABS
+
+
+def picture_of(name):
+    """Take a picture of a section with its header."""
     first, last = SECTIONS[name]
     top = (yield from gui.find_button(first)).top + HEADER + MARGIN
     bottom = (yield from gui.find_button(last)).bottom - MARGIN
-    yield from gui.move_mouse(gui.viewport_point())  # nothing is lit up under it
-    picture = yield from gui.screenshot(f"{name}_window.png")
-    panel = gui.region("UI")
-    cut(picture, f"user_guide_{name}.png", panel.x, bottom, tabs(), top)
-    yield from gui.click(header)
+    left, right = panels()
+    cut((yield from whole(name)), name, left, bottom, right, top)
+
+
+def picture_of_top(name, next_button="cubic_craft_overlay"):
+    """Take a picture of what is above the section Orientation."""
+    bottom = (yield from gui.find_button(next_button)).top + HEADER + MARGIN
+    left, right = panels()
+    place = gui.region("UI")
+    cut((yield from whole(name)), name, left, bottom, right, place.y + place.height)
+
+
+def picture_of_redo():
+    """Cubify, and open the panel of the last operator by its header."""
+    before = scene.positions()
+    yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
+    yield from gui.wait_until(lambda: scene.positions() != before, timeout=120.0, what="Cubify")
+    panel = gui.region("HUD")
+    yield from gui.click((panel.x + panel.width // 2, round(panel.y + panel.height - 14 * SCALE)))
+    yield from gui.wait_until(lambda: gui.region("HUD").height > 200, what="the open panel")
+    picture = yield from whole("redo")
+    panel = gui.region("HUD")
+    right, top = panel.x + panel.width, panel.y + panel.height
+    cut(picture, "redo", panel.x, panel.y, right, top)
+
+
+def picture_of_live():
+    """Take pictures of Live at rest: the section, and its keys in the status bar."""
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    yield from picture_of_top("live")
+    cut(share("live_window.png"), "live_keys", 0, 0, 460 * SCALE, 24 * SCALE)
+    yield from scene.end_by("ESC")
+
+
+def picture_of_map():
+    """Cubify with the map, and show its weights."""
+    obj = bpy.data.objects[scene.NAME]
+    scene.settings().map_group = "Upper Half"
+    obj.vertex_groups.active = obj.vertex_groups["Upper Half"]
+    with gui.in_region():
+        bpy.ops.cubic_craft.cubify(cubeness=0.8)
+        bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    picture = yield from whole("map_view")
+    view = gui.region()
+    middle, half = view.y + view.height / 2, 0.4 * view.width
+    cut(picture, "map_view", view.x, middle - half, view.x + view.width, middle + half)
+    with gui.in_region():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.cubic_craft.restore()
+
+
+def add_handles():
+    """Pin the chin, let the ear follow an empty, and go back to the monkey."""
+    monkey = bpy.data.objects[scene.NAME]
+    with gui.in_region():
+        bpy.ops.cubic_craft.handle_add(group="Chin")
+        bpy.ops.cubic_craft.handle_add(group="Ear")
+        bpy.ops.cubic_craft.handle_follow()
+        bpy.ops.object.select_all(action="DESELECT")
+        monkey.select_set(True)
+        bpy.context.view_layer.objects.active = monkey
+        bpy.ops.ed.undo_push(message="Handles")
     yield from gui.wait_redraw("UI")
 
 
-def tabs():
-    """Return where the tabs begin, to the right of the panels."""
-    panel = gui.region("UI")
-    return panel.x + panel.width - 21 * SCALE
+def picture_of_message():
+    """Make an object active that has no faces."""
+    with gui.in_region():
+        bpy.ops.object.select_all(action="DESELECT")
+        bpy.ops.mesh.primitive_circle_add()
+    yield from gui.wait_redraw("UI")
+    yield from picture_of_top("message")
 
 
-def picture_of_top(name, first_header):
-    """Take a picture of what is above the first header: the section Cubify."""
-    yield from gui.move_mouse(gui.viewport_point())
-    picture = yield from gui.screenshot(f"{name}_window.png")
-    panel = gui.region("UI")
-    bottom, top = first_header[1] + PITCH / 2, panel.y + panel.height
-    cut(picture, f"user_guide_{name}.png", panel.x, bottom, tabs(), top)
+def picture_of_preferences():
+    """Show the add-ons in the place of the viewport, with ours unfolded."""
+    place = gui.area()
+    place.ui_type = "PREFERENCES"
+    bpy.context.preferences.active_section = "ADDONS"
+    bpy.context.window_manager.addon_search = "CubicCraft"
+    addon_utils.module_bl_info(sys.modules[scene.EXTENSION])["show_expanded"] = True
+    place.tag_redraw()
+    yield 2.0
+    save_screen("preferences_window.png")
 
 
 def test():
     yield from set_the_stage()
-    header = yield from close_sections()
-    yield from picture_of_top("cubify_before", header)
+    yield from open_solver()
+    yield from picture_of_redo()
+    yield from picture_of_top("cubify")
+    yield from picture_of_live()
+    yield from picture_of_map()
+    yield from add_handles()
     for name in SECTIONS:
-        yield from picture_of(name, header)
+        yield from picture_of(name)
+    yield from picture_of_message()
+    yield from picture_of_preferences()
 
 
 gui.run(test)
