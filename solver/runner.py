@@ -60,8 +60,10 @@ def stylize(
         0 keeps the shape; 0.1 to 1 are common.
     pinned : (k,) array_like of int
         Vertices held exactly in place.
-    max_iterations, tolerance, on_iteration
-        See `run`.
+    max_iterations : int
+        See `run`, also for the next two.
+    tolerance : float
+    on_iteration : callable, optional
     **options
         See `Stylization`: orientation, targets, device, precision, keep_rotation and more.
 
@@ -120,8 +122,10 @@ class Run:
 
     Parameters
     ----------
-    stylization, max_iterations, tolerance
-        As in `run`.
+    stylization : Stylization
+        As in `run`, and so are the next two.
+    max_iterations : int
+    tolerance : float
 
     Attributes
     ----------

@@ -3,14 +3,13 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1000x1900
+# Window: 1000x1450
 
+import math
 import os
 import pathlib
 import subprocess
-import sys
 
-import addon_utils
 import bpy
 import guidrive as gui
 import live_scene as scene
@@ -19,16 +18,17 @@ from guidrive.pictures import save_screen
 from mathutils import Euler
 
 SCALE = 1.5  # of Blender's interface: sharper pictures
-HEADER = 20 * SCALE  # pixels from a section's first row to the middle of its header, and from
-MARGIN = 13 * SCALE  # the middle of a header to the edge of the picture
+MARGIN = 12 * SCALE
+PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
-SECTIONS = {  # first and last button of each
-    "orientation": ("cubic_craft_overlay", "cubic_craft.rotation"),
-    "handles": ("cubic_craft.handle_add", "cubic_craft.handle_reset_pose"),
-    "map": ("cubic_craft.map_group", "cubic_craft.map_invert"),
-    "result": ("cubic_craft.result", "cubic_craft.result"),
-    "solver": ("cubic_craft.device", "cubic_craft.tolerance"),
+SECTIONS = {  # first button of each, and pixels from there to the upper edge of the header
+    "orientation": ("cubic_craft_overlay", 33 * SCALE),
+    "handles": ("cubic_craft.handle_add", 33 * SCALE),
+    "map": ("cubic_craft.map_group", 38 * SCALE),
+    "result": ("cubic_craft.result", 33 * SCALE),
+    "solver": ("cubic_craft.device", 33 * SCALE),
 }
+LAST = "cubic_craft.tolerance"
 
 
 def share(name):
@@ -78,9 +78,8 @@ def set_the_stage():
 def open_solver():
     """Click on the header below the last section that is open."""
     above = yield from gui.find_button("cubic_craft.result")
-    yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
+    yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))
     yield from gui.wait_redraw("UI")
-    yield from gui.find_button("cubic_craft.device")
 
 
 def whole(name):
@@ -95,21 +94,53 @@ def panels():
     return place.x, place.x + place.width - TABS
 
 
-def picture_of(name):
-    """Take a picture of a section with its header."""
-    first, last = SECTIONS[name]
-    top = (yield from gui.find_button(first)).top + HEADER + MARGIN
-    bottom = (yield from gui.find_button(last)).bottom - MARGIN
+def edge_of(section):
+    """Return where the header of a section begins."""
+    first, distance = SECTIONS[section]
+    return (yield from gui.find_button(first)).top + distance
+
+
+def pictures_of_sections():
+    """Cut each section with its header out of one picture."""
+    turn_cube()
+    edges = []
+    for section in SECTIONS:
+        edges.append((yield from edge_of(section)))
+    edges.append((yield from gui.find_button(LAST)).bottom - MARGIN)
     left, right = panels()
-    cut((yield from whole(name)), name, left, bottom, right, top)
+    picture = yield from whole("sections")
+    for name, top, bottom in zip(SECTIONS, edges, edges[1:], strict=False):
+        cut(picture, name, left, bottom - PADDING, right, top)
 
 
-def picture_of_top(name, next_button="cubic_craft_overlay"):
+def turn_cube():
+    setattr(bpy.context.window_manager, "cubic_craft_overlay", True)  # noqa: B010
+    scene.settings().orientation[2] = math.radians(30)
+
+
+def picture_of_top(name):
     """Take a picture of what is above the section Orientation."""
-    bottom = (yield from gui.find_button(next_button)).top + HEADER + MARGIN
+    bottom = (yield from edge_of("orientation")) - PADDING
     left, right = panels()
     place = gui.region("UI")
     cut((yield from whole(name)), name, left, bottom, right, place.y + place.height)
+
+
+def picture_of_presets():
+    """Keep two presets, and open their list in the header of the panel."""
+    with gui.in_region():
+        for name, cubeness in (("Gentle", 0.2), ("Strong", 0.8)):
+            scene.settings().cubeness = cubeness
+            bpy.ops.cubic_craft.preset_add(name=name)
+    scene.settings().cubeness = 0.4
+    left, right = panels()
+    place = gui.region("UI")
+    top = place.y + place.height
+    yield from gui.click((round(right - 37 * SCALE), round(top - 14 * SCALE)))
+    yield 1.0
+    save_screen("presets_window.png")
+    cut(share("presets_window.png"), "presets", left, top - 130 * SCALE, gui.window().width, top)
+    yield from gui.keys("ESC")
 
 
 def picture_of_redo():
@@ -177,14 +208,16 @@ def picture_of_message():
 
 def picture_of_preferences():
     """Show the add-ons in the place of the viewport, with ours unfolded."""
-    place = gui.area()
-    place.ui_type = "PREFERENCES"
+    gui.area().ui_type = "PREFERENCES"
     bpy.context.preferences.active_section = "ADDONS"
     bpy.context.window_manager.addon_search = "CubicCraft"
-    addon_utils.module_bl_info(sys.modules[scene.EXTENSION])["show_expanded"] = True
-    place.tag_redraw()
+    bpy.ops.preferences.addon_expand(module=scene.EXTENSION)
     yield 2.0
     save_screen("preferences_window.png")
+    place = gui.region("WINDOW", "PREFERENCES")
+    top = place.y + place.height
+    picture = share("preferences_window.png")
+    cut(picture, "preferences", place.x, top - 240 * SCALE, place.x + place.width, top)
 
 
 def test():
@@ -192,11 +225,11 @@ def test():
     yield from open_solver()
     yield from picture_of_redo()
     yield from picture_of_top("cubify")
+    yield from picture_of_presets()
     yield from picture_of_live()
     yield from picture_of_map()
     yield from add_handles()
-    for name in SECTIONS:
-        yield from picture_of(name)
+    yield from pictures_of_sections()
     yield from picture_of_message()
     yield from picture_of_preferences()
 
