@@ -16,5 +16,7 @@ class CUBIC_CRAFT_OT_preset_add(AddPresetBase, bpy.types.Operator):
     bl_description = "Add or remove a preset of these settings; vertex groups are not part of it"
     preset_menu = CUBIC_PT_presets.__name__
     preset_subdir = SUBFOLDER
-    preset_defines = ("properties = bpy.context.object.cubic_craft",)
-    preset_values = tuple(f"properties.{name}" for name in ALL if name not in OF_EACH_OBJECT)
+    # In full: Blender 4 forgets `preset_defines` on Python 3.13, which distributions give it.
+    preset_values = tuple(
+        f"bpy.context.object.cubic_craft.{name}" for name in ALL if name not in OF_EACH_OBJECT
+    )
