@@ -139,7 +139,7 @@ def picture_of_presets():
     yield from gui.click((round(right - 37 * SCALE), round(top - 14 * SCALE)))
     yield 1.0
     save_screen("presets_window.png")
-    cut(share("presets_window.png"), "presets", left, top - 130 * SCALE, gui.window().width, top)
+    cut(share("presets_window.png"), "presets", left, top - 127 * SCALE, gui.window().width, top)
     yield from gui.keys("ESC")
 
 
@@ -217,7 +217,7 @@ def picture_of_preferences():
     place = gui.region("WINDOW", "PREFERENCES")
     top = place.y + place.height
     picture = share("preferences_window.png")
-    cut(picture, "preferences", place.x, top - 240 * SCALE, place.x + place.width, top)
+    cut(picture, "preferences", place.x, top - 300 * SCALE, place.x + place.width, top)
 
 
 def test():
