@@ -8,7 +8,6 @@ The window is so high that all sections are open at once; each is cut out of a p
 import math
 import os
 import pathlib
-import subprocess
 
 import bpy
 import guidrive as gui
@@ -37,10 +36,17 @@ def share(name):
 
 def cut(picture, name, left, bottom, right, top):
     """Save a part of a screenshot; window pixels from the bottom left."""
-    width, height = round(right - left), round(top - bottom)
-    corner = f"+{round(left)}+{round(gui.window().height - top)}"
-    part = ["-crop", f"{width}x{height}{corner}", "+repage"]
-    subprocess.run(["convert", picture, *part, str(share(f"user_guide_{name}.png"))], check=True)
+    whole = bpy.data.images.load(str(picture))
+    width, height = whole.size
+    pixels = np.empty((height, width, 4), dtype=np.float32)  # from the bottom row up
+    whole.pixels.foreach_get(pixels.ravel())
+    kept = pixels[max(round(bottom), 0) : round(top), max(round(left), 0) : round(right)]
+    part = bpy.data.images.new(name, kept.shape[1], kept.shape[0])
+    part.pixels.foreach_set(kept.ravel())
+    part.file_format, part.filepath_raw = "PNG", str(share(f"user_guide_{name}.png"))
+    part.save()
+    for image in (whole, part):
+        bpy.data.images.remove(image)
 
 
 def add_monkey():
