@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Who appears in the figures: files of a folder of meshes, and Blender's own shapes.
+
+`homer.obj`, which the paper shows too, is left out: it is a trademarked character.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import bpy
+from headless.gallery import YAW
+
+from . import shapes
+
+__all__ = ("FILES", "OWN_SHAPES", "Role")
+
+
+@dataclass(frozen=True)
+class Role:
+    """How a mesh comes onto the stage."""
+
+    file: str = ""
+    """in the folder of meshes"""
+    make: Callable[[], bpy.types.Object] | None = None
+    """makes one of Blender's own shapes"""
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """degrees that stand it upright as it is imported"""
+    yaw: float = YAW
+    """radians toward the camera"""
+
+
+FILES = {
+    "bunny": Role("bunny.obj", turn=(-90.0, 0.0, 0.0)),
+    "spot": Role("spot.obj", turn=(0.0, 0.0, 180.0)),
+    "owl": Role("owl.obj", turn=(-90.0, 0.0, 0.0)),
+    "horse": Role("horse.ply"),
+    "armadillo": Role("armadillo.obj", turn=(0.0, 0.0, 180.0)),
+}
+OWN_SHAPES = {
+    "monkey": Role(make=shapes.monkey),
+    "bear": Role(make=shapes.bear),
+    "ring": Role(make=shapes.ring),
+    "letter": Role(make=shapes.letter, yaw=math.radians(20.0)),
+}
