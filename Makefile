@@ -16,7 +16,8 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
+	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live figures \
+	docs-images clean \
 	has-py313
 
 help: ## Show this list
@@ -106,6 +107,9 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)
+
+figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else Blender's own shapes
+	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
 docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/

@@ -21,9 +21,8 @@ from figures import interface, table  # noqa: E402
 
 PROGRAM = "figures"
 RENDERED = ("1", "2", "3", "5", "6")
-"""figures of the paper that Blender renders"""
-TAKEN = {"4": interface.take, "table": table.write}
-"""what other commands have measured or photographed"""
+"""figures of the paper that Blender renders; what is left, other commands have made"""
+BUILD = ROOT / "build"
 
 
 def arguments() -> argparse.Namespace:
@@ -41,15 +40,29 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--only",
         nargs="+",
-        choices=(*RENDERED, *TAKEN),
-        default=(*RENDERED, *TAKEN),
+        choices=(*RENDERED, "4", "table"),
+        default=(*RENDERED, "4", "table"),
         help="numbers of figures, or table (default: all)",
     )
     parser.add_argument("--width", type=int, default=1600, metavar="PIXELS", help="(default: 1600)")
     parser.add_argument(
-        "--samples", type=int, default=64, metavar="N", help="of Cycles (default: 64)"
+        "--samples", type=int, default=64, metavar="N", help="of Cycles, denoised (default: 64)"
     )
     parser.add_argument("--engine", choices=("cycles", "workbench"), default="cycles")
+    parser.add_argument(
+        "--screenshots",
+        type=Path,
+        default=BUILD / "gui",
+        metavar="FOLDER",
+        help="what the window tests wrote, for figure 4 (default: build/gui)",
+    )
+    parser.add_argument(
+        "--bench",
+        type=Path,
+        default=BUILD / "bench" / "results.json",
+        metavar="FILE",
+        help="what the benchmark wrote, for the table (default: build/bench/results.json)",
+    )
     parser.add_argument(
         "--save-blend",
         type=Path,
@@ -71,9 +84,10 @@ def main() -> int:
         for folder in (options.output, options.save_blend):
             if folder is not None:
                 folder.mkdir(parents=True, exist_ok=True)
-        for name, take in TAKEN.items():
-            if name in options.only:
-                print(take(ROOT, options.output), file=sys.stderr)
+        if "4" in options.only:
+            print(interface.take(options.screenshots, options.output), file=sys.stderr)
+        if "table" in options.only:
+            print(table.write(options.bench, options.output), file=sys.stderr)
         wanted = [name for name in RENDERED if name in options.only]
         if wanted:
             from figures.rendered import render_figures  # late: it takes Blender a second to start

@@ -12,10 +12,10 @@ __all__ = ("painted_hide",)
 PIXELS = 1024
 MARGIN = 16
 """pixels that the paint reaches beyond the islands of the UV map, against seams"""
-WHITE = (0.86, 0.80, 0.70, 1.0)
-BROWN = (0.20, 0.075, 0.03, 1.0)
+WHITE = (0.66, 0.60, 0.51, 1.0)
+BROWN = (0.12, 0.045, 0.02, 1.0)
 """linear RGBA"""
-PATCHES = 1.9
+PATCHES = 3.2
 """of the noise, along the largest side of the mesh"""
 EDGE = 0.53
 """level of the noise at which a patch ends"""

@@ -10,23 +10,24 @@ SCREENSHOT = "test_first_sculpture/first_3_live.png"
 NAME = "figure_4_interface.png"
 
 
-def take(root: Path, output: Path) -> str:
+def take(screenshots: Path, output: Path) -> str:
     """Copy the last screenshot of the window tests, or keep the figure that is there.
 
     Parameters
     ----------
-    root, output : the repository, and the folder of the figures
+    screenshots : folder that the window tests write to, with a folder for each Blender
+    output : folder of the figures
 
     Returns
     -------
     str
         What has been done.
     """
-    shots = [path for path in (root / "build" / "gui").glob(f"*/{SCREENSHOT}") if path.is_file()]
     target = output / NAME
+    shots = list(screenshots.glob(f"*/{SCREENSHOT}"))
     if not shots:
         kept = f"{target} stays as it is" if target.exists() else "there is none"
         return f"figure 4: no window test has run here (make test-gui), {kept}"
     newest = max(shots, key=lambda path: path.stat().st_mtime)
     shutil.copyfile(newest, target)
-    return f"figure 4: {target} is the screenshot {newest.relative_to(root)}"
+    return f"figure 4: {target} is the screenshot {newest}"

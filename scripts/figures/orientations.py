@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figure 6: one mesh, cubified toward cubes of different orientation, each drawn around it."""
+"""Figure 6: one mesh, cubified toward cubes of different orientation, with each cube beside it."""
 
 import math
 
 import bpy
 import numpy as np
 from headless.gallery import Group
-from headless.studio import surface
+from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
 
 from .picture import Picture, side_by_side
@@ -14,69 +14,69 @@ from .workshop import Model, Workshop, moved
 
 __all__ = ("compose",)
 
-CUBENESS = 0.4
-ORIENTATIONS = (
-    # Euler angles in degrees, relative to the mesh stood upright
-    (0.0, 0.0, 0.0),
-    (0.0, 0.0, 45.0),
-    (45.0, 0.0, 0.0),
-    (0.0, 45.0, 0.0),
-)
-HEIGHT = 640
+CUBENESS = 0.6
+ORIENTATIONS = {
+    "not turned": (0.0, 0.0, 0.0),
+    "45\N{DEGREE SIGN} about Z": (0.0, 0.0, 45.0),
+    "45\N{DEGREE SIGN} about X": (45.0, 0.0, 0.0),
+    "on a corner": (45.0, math.degrees(math.atan(math.sqrt(0.5))), 0.0),
+}
+"""label: Euler angles in degrees, relative to the mesh"""
+HEIGHT = 520
 """pixels"""
-MARGIN = 1.08
-"""how much larger the cube is than the shape"""
-THICKNESS = 0.012
-"""of the cube's edges, relative to the edge"""
-EDGES = (0.05, 0.06, 0.07)
-"""linear RGB"""
+EDGE = 0.2
+"""of the cube, relative to the largest side of the mesh"""
+BEVEL = 0.06
+"""relative to the edge"""
+AWAY = (-0.62, -0.30)
+"""middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
 
 
 def compose(workshop: Workshop) -> Picture:
-    """Stand the cubic versions in a row, each in the frame that it is turned toward."""
+    """Stand the cubic versions in a row, each with the cube that it is turned toward."""
     (model,) = workshop.there(["bunny"], instead=["monkey"])
-    edges = surface("Frame", EDGES, roughness=0.6)
+    clay = surface("Cube", *FINISHES["clay"])
     groups = []
-    for angles in ORIENTATIONS:
-        shape = workshop.cubified(model, CUBENESS, angles)
-        label = " ".join(f"{angle:g}\N{DEGREE SIGN}" for angle in angles)
+    for label, angles in ORIENTATIONS.items():
+        # Left free, the whole mesh would turn toward the cube.
+        shape = workshop.cubified(model, CUBENESS, angles, rotation="KEEP")
         group = workshop.group(model, shape, label, "green")
-        _add_frame(group, model, shape, angles, edges)
+        _add_cube(group, model, angles, clay)
         groups.append(group)
     return side_by_side(groups, HEIGHT)
 
 
-def _add_frame(
-    group: Group,
-    model: Model,
-    shape: np.ndarray,
-    angles: tuple[float, float, float],
-    edges: bpy.types.Material,
+def _add_cube(
+    group: Group, model: Model, angles: tuple[float, float, float], clay: bpy.types.Material
 ) -> None:
-    """Draw the cube as a frame around the shape (n,3), in object space."""
+    """Put a cube of the orientation on the floor, before the mesh and to its left."""
     axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
-    along = shape @ np.array(axes)
-    low, high = along.min(axis=0), along.max(axis=0)
-    half = float((high - low).max()) / 2 * MARGIN
-    centre = axes @ Vector((low + high) / 2)
-    frame = _cube(half)
-    frame.data.materials.append(edges)
-    place = model.place @ Matrix.Translation(centre) @ axes.to_4x4()
-    group.copies.append(frame)
+    upright = model.place.to_3x3().normalized() @ axes
+    corners = _corners(EDGE * group.extent / 2)
+    low, high = group.points.min(axis=0), group.points.max(axis=0)
+    away = Vector((*AWAY, 0.0)) * group.extent
+    away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
+    middle = Vector((low + high) / 2) + away
+    middle.z = low[2] - moved(corners, upright.to_4x4())[:, 2].min()
+    place = Matrix.Translation(middle) @ upright.to_4x4()
+    group.copies.append(_cube(corners, clay))
     group.places.append(place)
-    corners = np.array([vertex.co for vertex in frame.data.vertices])
     group.points = np.concatenate([group.points, moved(corners, place)])
 
 
-def _cube(half: float) -> bpy.types.Object:
-    """Return a cube's edges as bars, in no scene."""
+def _corners(half: float) -> np.ndarray:
     signs = (-half, half)
-    corners = [(x, y, z) for x in signs for y in signs for z in signs]
+    return np.array([(x, y, z) for x in signs for y in signs for z in signs])
+
+
+def _cube(corners: np.ndarray, clay: bpy.types.Material) -> bpy.types.Object:
+    """Return a cube, slightly rounded, in no scene."""
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    mesh = bpy.data.meshes.new("Frame")
-    mesh.from_pydata(corners, [], faces)
-    frame = bpy.data.objects.new("Frame", mesh)
-    bars = frame.modifiers.new("Bars", "WIREFRAME")
-    bars.thickness = 2.0 * half * THICKNESS
-    bars.offset = 0.0
-    return frame
+    mesh = bpy.data.meshes.new("Cube")
+    mesh.from_pydata(corners.tolist(), [], faces)
+    mesh.materials.append(clay)
+    cube = bpy.data.objects.new("Cube", mesh)
+    bevel = cube.modifiers.new("Bevel", "BEVEL")
+    bevel.width = BEVEL * float(np.ptp(corners[:, 0]))
+    bevel.segments = 3
+    return cube

@@ -84,18 +84,27 @@ class Workshop:
         model: Model,
         cubeness: float,
         orientation: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        handles: tuple[Any, ...] = (),
+        **others: Any,
     ) -> np.ndarray:
         """Return the cubic positions (n,3) float32 in object space.
 
         Parameters
         ----------
         orientation : Euler angles of the cube in degrees
-        handles : from `handles`
+        others : of `cubic_craft_addon.settings.Settings`
+
+        Raises
+        ------
+        InputError
+            The mesh cannot be cubified.
         """
-        key = (model.name, cubeness, orientation, handles)
+        radians = tuple(math.radians(angle) for angle in orientation)
+        settings = self.extension.settings.Settings(
+            cubeness=cubeness, orientation=radians, **others
+        )
+        key = (model.name, settings)
         if key not in self._solved:
-            self._solved[key] = self._solve(model, cubeness, orientation, handles)
+            self._solved[key] = self._solve(model, settings)
         return self._solved[key]
 
     def group(self, model: Model, positions: np.ndarray, label: str, finish: str) -> Group:
@@ -115,26 +124,18 @@ class Workshop:
             scene = bpy.data.scenes.new(name)
             bpy.context.window.scene = scene
             path = self._path(role)
-            loaded = load(path, None, self._verbose) if path else Loaded([role.make()])
+            if role.make is not None:
+                loaded = Loaded([role.make()])
+            else:
+                loaded = load(path, None, self._verbose)
             bpy.context.view_layer.update()
             original = self.extension.mesh_bridge.original_positions(loaded.objects[0].data)
             self._models[name] = Model(name, role, scene, loaded, path, original)
         return self._models[name]
 
-    def _solve(
-        self,
-        model: Model,
-        cubeness: float,
-        orientation: tuple[float, float, float],
-        handles: tuple[Any, ...],
-    ) -> np.ndarray:
+    def _solve(self, model: Model, settings: Any) -> np.ndarray:
         bpy.context.window.scene = model.scene
-        settings = self.extension.settings.Settings(
-            cubeness=cubeness,
-            orientation=tuple(math.radians(angle) for angle in orientation),
-            handles=handles,
-        )
-        with self._bar.task(f"{model.name}, cubeness {cubeness:g}") as task:
+        with self._bar.task(f"{model.name}, cubeness {settings.cubeness:g}") as task:
             try:
                 prepared = self.extension.cubify.prepare(model.object, settings)
                 solution = self.extension.cubify.solve(prepared, settings)

@@ -13,8 +13,8 @@ __all__ = ("FINISHES", "furnish", "surface")
 FINISHES = {
     "clay": ((0.56, 0.20, 0.09), 0.55),
     "teal": ((0.012, 0.27, 0.235), 0.42),
-    "grey": ((0.40, 0.395, 0.38), 0.55),
-    "green": ((0.13, 0.36, 0.055), 0.42),
+    "grey": ((0.25, 0.25, 0.245), 0.55),
+    "green": ((0.075, 0.23, 0.05), 0.42),
 }
 """name: linear RGB, roughness; headless pictures show clay and teal, the paper's grey and green"""
 INK = (0.05, 0.045, 0.04)
