@@ -34,12 +34,12 @@ FILES = {
     "bunny": Role("bunny.obj", turn=(-90.0, 0.0, 0.0)),
     "spot": Role("spot.obj", turn=(0.0, 0.0, 180.0)),
     "owl": Role("owl.obj", turn=(-90.0, 0.0, 0.0)),
-    "horse": Role("horse.ply"),
+    "horse": Role("horse.ply", turn=(0.0, 0.0, 180.0), yaw=math.radians(-55.0)),
     "armadillo": Role("armadillo.obj", turn=(0.0, 0.0, 180.0)),
 }
 OWN_SHAPES = {
     "monkey": Role(make=shapes.monkey),
     "bear": Role(make=shapes.bear),
-    "ring": Role(make=shapes.ring),
+    "duck": Role(make=shapes.duck, yaw=math.radians(60.0)),
     "letter": Role(make=shapes.letter, yaw=math.radians(20.0)),
 }

@@ -2,12 +2,11 @@
 """Shapes that every Blender can make: what the figures show where no meshes are given."""
 
 import math
-from collections.abc import Callable
 
 import bpy
 from headless.load_meshes import load
 
-__all__ = ("bear", "letter", "monkey", "ring")
+__all__ = ("bear", "duck", "letter", "monkey")
 
 VOXELS = 70
 """along the largest side of a shape that is remeshed"""
@@ -24,6 +23,14 @@ BEAR = (
     ((0.48, -0.50, 0.20), (0.34, 0.62, 0.30)),
 )
 """ellipsoids that are melted into one"""
+DUCK = (
+    ((0.0, 0.10, 0.66), (0.68, 1.00, 0.66)),
+    ((0.0, 1.05, 1.12), (0.34, 0.42, 0.22)),
+    ((0.0, -0.52, 1.68), (0.52, 0.52, 0.50)),
+    ((0.0, -1.10, 1.60), (0.26, 0.36, 0.12)),
+    ((-0.64, 0.16, 0.80), (0.18, 0.56, 0.34)),
+    ((0.64, 0.16, 0.80), (0.18, 0.56, 0.34)),
+)
 
 
 def monkey() -> bpy.types.Object:
@@ -31,52 +38,43 @@ def monkey() -> bpy.types.Object:
     return load(None, None, verbose=False).objects[0]
 
 
-def ring() -> bpy.types.Object:
-    """Return a torus that stands on its rim."""
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=96, minor_segments=48, major_radius=1.0, minor_radius=0.38
-    )
-    torus = bpy.context.object
-    torus.rotation_euler.x = math.pi / 2
-    bpy.ops.object.transform_apply(location=False, rotation=True, scale=False)
-    return torus
-
-
 def bear() -> bpy.types.Object:
     """Return a teddy bear."""
+    return _melted([_ball(*ellipsoid) for ellipsoid in BEAR])
 
-    def ball(place: tuple[float, float, float], radii: tuple[float, float, float]) -> None:
-        bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24, location=place)
-        bpy.context.object.scale = radii
 
-    return _melted([lambda place=place, radii=radii: ball(place, radii) for place, radii in BEAR])
+def duck() -> bpy.types.Object:
+    """Return a rubber duck."""
+    return _melted([_ball(*ellipsoid) for ellipsoid in DUCK])
 
 
 def letter() -> bpy.types.Object:
     """Return an ampersand with round edges."""
-
-    def text() -> None:
-        bpy.ops.object.text_add(rotation=(math.pi / 2, 0.0, 0.0))
-        curve = bpy.context.object.data
-        curve.body = "&"
-        curve.size = 3.0
-        curve.extrude = 0.25
-        curve.bevel_depth = 0.12
-        curve.bevel_resolution = 4
-        bpy.ops.object.convert(target="MESH")
-
-    return _melted([text])
+    bpy.ops.object.text_add(rotation=(math.pi / 2, 0.0, 0.0))
+    curve = bpy.context.object.data
+    curve.body = "&"
+    curve.size = 3.0
+    curve.extrude = 0.25
+    curve.bevel_depth = 0.12
+    curve.bevel_resolution = 4
+    bpy.ops.object.convert(target="MESH")
+    return _melted([bpy.context.object])
 
 
-def _melted(makers: list[Callable[[], None]]) -> bpy.types.Object:
-    """Join what the makers make, each the active object, into one smooth closed surface."""
-    made = []
-    for make in makers:
-        make()
-        made.append(bpy.context.object)
-    if len(made) > 1:
-        for part in made:
-            part.select_set(True)
+Triple = tuple[float, float, float]
+
+
+def _ball(place: Triple, radii: Triple) -> bpy.types.Object:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24, location=place)
+    bpy.context.object.scale = radii
+    return bpy.context.object
+
+
+def _melted(parts: list[bpy.types.Object]) -> bpy.types.Object:
+    """Join parts, the last of which is active, into one smooth closed surface."""
+    for part in parts:
+        part.select_set(True)
+    if len(parts) > 1:
         bpy.ops.object.join()
     joined = bpy.context.object
     bpy.ops.object.transform_apply()

@@ -13,7 +13,7 @@ from .workshop import Workshop
 __all__ = ("compose",)
 
 CAST = ("owl", "bunny", "armadillo", "spot", "horse")
-OWN_CAST = ("ring", "bear", "monkey", "letter")
+OWN_CAST = ("bear", "duck", "monkey", "letter")
 CUBENESS = 0.4
 HEIGHT = 900
 """pixels"""
