@@ -46,7 +46,7 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--width", type=int, default=1600, metavar="PIXELS", help="(default: 1600)")
     parser.add_argument(
-        "--samples", type=int, default=64, metavar="N", help="of Cycles, denoised (default: 64)"
+        "--samples", type=int, default=24, metavar="N", help="of Cycles, denoised (default: 24)"
     )
     parser.add_argument("--engine", choices=("cycles", "workbench"), default="cycles")
     parser.add_argument(

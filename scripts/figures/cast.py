@@ -28,14 +28,16 @@ class Role:
     """degrees that stand it upright as it is imported"""
     yaw: float = YAW
     """radians toward the camera"""
+    size: float = 1.0
+    """in the gallery; by the largest extent alone, long legs would make a mesh look small"""
 
 
 FILES = {
-    "bunny": Role("bunny.obj", turn=(-90.0, 0.0, 0.0)),
+    "bunny": Role("bunny.obj", turn=(-90.0, 0.0, 0.0), size=0.95),
     "spot": Role("spot.obj", turn=(0.0, 0.0, 180.0)),
-    "owl": Role("owl.obj", turn=(-90.0, 0.0, 0.0)),
-    "horse": Role("horse.ply", turn=(0.0, 0.0, 180.0), yaw=math.radians(-55.0)),
-    "armadillo": Role("armadillo.obj", turn=(0.0, 0.0, 180.0)),
+    "owl": Role("owl.obj", turn=(-90.0, 0.0, 0.0), size=1.15),
+    "horse": Role("horse.ply", turn=(0.0, 0.0, 180.0), yaw=math.radians(-55.0), size=1.3),
+    "armadillo": Role("armadillo.obj", turn=(0.0, 0.0, 180.0), size=1.15),
 }
 OWN_SHAPES = {
     "monkey": Role(make=shapes.monkey),

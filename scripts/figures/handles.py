@@ -12,38 +12,37 @@ from .workshop import Workshop
 
 __all__ = ("compose",)
 
-POSES = {"bunny": ("bunny_ears", 0.2), "armadillo": ("armadillo_dance", 0.2)}
-"""name: file of `examples`, cubeness"""
-OWN_POSES = {"monkey": ("monkey_ears", 0.4)}
+POSES = {
+    "bunny": ("examples/bunny_ears.json", 0.2),
+    "armadillo": ("examples/armadillo_dance.json", 0.2),
+}
+OWN_POSES = {
+    "monkey": ("examples/monkey_ears.json", 0.4),
+    "bear": ("scripts/figures/bear_wave.json", 0.4),
+}
+"""name: file of handles, cubeness"""
 HELD = (0.03, 0.06, 0.22)
 MOVED = (0.85, 0.19, 0.02)
 """linear RGB of the vertices of handles that stay and that are moved"""
-HEIGHT = 1000
-HEIGHT_OF_ONE = 560
+HEIGHT = 560
 """pixels"""
 
 
 def compose(workshop: Workshop) -> Picture:
-    """Show each mesh at rest, posed, and posed and cubic, with its handles coloured."""
-    models = workshop.there(list(POSES), instead=list(OWN_POSES))
+    """Show each mesh at rest, and posed and cubic, with its handles coloured."""
     groups = []
-    for model in models:
+    for model in workshop.there(list(POSES), instead=list(OWN_POSES)):
         name, cubeness = (POSES | OWN_POSES)[model.name]
-        handles = workshop.handles(model, workshop.root / "examples" / f"{name}.json")
-        shown = [
-            ("original and its handles", model.original, "grey"),
-            ("posed", workshop.cubified(model, 0.0, handles=handles), "green"),
-            (
-                f"posed, cubeness {cubeness:g}",
-                workshop.cubified(model, cubeness, handles=handles),
-                "green",
-            ),
-        ]
-        for label, shape, finish in shown:
-            group = workshop.group(model, shape, label, finish)
-            _colour(group.copies[0].data, finish, handles)
+        handles = workshop.handles(model, workshop.root / name)
+        posed = workshop.cubified(model, cubeness, handles=handles)
+        label = f"posed, cubeness {cubeness:g}"
+        for group in (
+            workshop.group(model, model.original, "original, its handles", "grey"),
+            workshop.group(model, posed, label, "green"),
+        ):
+            _colour(group.copies[0].data, group.finish, handles)
             groups.append(group)
-    return side_by_side(groups, HEIGHT if len(models) > 1 else HEIGHT_OF_ONE)
+    return side_by_side(groups, HEIGHT)
 
 
 def _colour(mesh: bpy.types.Mesh, finish: str, handles: tuple[Any, ...]) -> None:

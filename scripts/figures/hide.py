@@ -9,8 +9,8 @@ from .workshop import Model
 
 __all__ = ("painted_hide",)
 
-PIXELS = 1024
-MARGIN = 16
+PIXELS = 2048
+MARGIN = 32
 """pixels that the paint reaches beyond the islands of the UV map, against seams"""
 WHITE = (0.66, 0.60, 0.51, 1.0)
 BROWN = (0.12, 0.045, 0.02, 1.0)

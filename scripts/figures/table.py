@@ -48,7 +48,7 @@ def _page(results: dict) -> str:
     return f"""\
 # Table 1: running time
 
-{ITERATIONS} iterations at cubeness {CUBENESS:g}, set-up included; medians of {results["runs"]}.
+{ITERATIONS} iterations at cubeness {CUBENESS:g}, set-up included, medians of {results["runs"]}:
 {results["machine"]}
 The columns of the paper are its Table 1, from another machine: an NVIDIA RTX 3050 Ti, and for the
 CPU the program of Liu and Jacobson on an AMD R9 5900HS. Its sixth mesh, a dragon, is not at hand.

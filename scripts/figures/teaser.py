@@ -12,10 +12,10 @@ from .workshop import Workshop
 
 __all__ = ("compose",)
 
-CAST = ("owl", "bunny", "armadillo", "spot", "horse")
-OWN_CAST = ("bear", "duck", "monkey", "letter")
-CUBENESS = 0.4
-HEIGHT = 900
+CAST = {"owl": 0.4, "bunny": 0.4, "armadillo": 0.3, "spot": 0.4, "horse": 0.15}
+OWN_CAST = {"bear": 0.4, "duck": 0.4, "monkey": 0.4, "letter": 0.4}
+"""name: cubeness"""
+HEIGHT = 860
 """pixels"""
 GAP = 0.35
 """between neighbours, in the units of the gallery"""
@@ -25,8 +25,9 @@ ROWS_APART = 0.25
 
 def compose(workshop: Workshop) -> Picture:
     """Stand the originals in a row, and the cubic versions in one before it."""
-    models = workshop.there(CAST, instead=OWN_CAST)
-    shapes = [workshop.cubified(model, CUBENESS) for model in models]
+    models = workshop.there(list(CAST), instead=list(OWN_CAST))
+    cubeness = CAST | OWN_CAST
+    shapes = [workshop.cubified(model, cubeness[model.name]) for model in models]
     scene = scene_for_gallery()
     gallery = Gallery(scene, [], Vector(), 0.0, 0.0, [])
     pairs = []

@@ -15,7 +15,7 @@ from .workshop import Model, Workshop
 __all__ = ("compose",)
 
 CUBENESS = 0.4
-GRID_PIXELS = 1024
+GRID_PIXELS = 2048
 ROUGHNESS = 0.5
 HEIGHT = 560
 """pixels"""

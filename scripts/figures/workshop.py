@@ -111,7 +111,7 @@ class Workshop:
         """Return a copy of the model with other positions, for a gallery."""
         copy = detached_copy(model.object, positions, self.extension, keep_modifiers=True)
         points = moved(positions, model.place)
-        extent = extent_of(moved(model.original, model.place))
+        extent = extent_of(moved(model.original, model.place)) / model.role.size
         return Group(label, [copy], [model.place], points, extent, finish, model.role.yaw)
 
     def _path(self, role: Role) -> Path | None:

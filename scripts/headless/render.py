@@ -46,6 +46,7 @@ def _set_up(scene: bpy.types.Scene, options: Namespace) -> None:
     settings.resolution_percentage = 100
     settings.image_settings.file_format = "PNG"
     settings.image_settings.color_mode = "RGB"
+    settings.image_settings.compression = 90  # a second more, a fifth smaller
     settings.use_persistent_data = options.turntable > 1
     settings.use_file_extension = False
     if options.engine == "cycles":

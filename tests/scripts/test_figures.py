@@ -14,7 +14,7 @@ from headless import read_files
 ROOT = Path(__file__).resolve().parents[2]
 WIDTH = 120
 HEIGHTS = {
-    "figure_1_teaser": 900,
+    "figure_1_teaser": 860,
     "figure_2_uv_texture": 560,
     "figure_3_handles": 560,
     "figure_5_cubeness": 480,
