@@ -6,8 +6,8 @@ from .workshop import Workshop
 
 __all__ = ("compose",)
 
-CUBENESS = (0.1, 0.2, 0.4, 1.0)
-HEIGHT = 480
+CUBENESS = (0.03, 0.1, 0.4, 1.5)
+HEIGHT = 460
 """pixels"""
 
 

@@ -18,7 +18,7 @@ POSES = {
 }
 OWN_POSES = {
     "monkey": ("examples/monkey_ears.json", 0.4),
-    "bear": ("scripts/figures/bear_wave.json", 0.4),
+    "bear": ("scripts/figures/bear_nod.json", 0.4),
 }
 """name: file of handles, cubeness"""
 HELD = (0.03, 0.06, 0.22)

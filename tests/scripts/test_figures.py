@@ -17,7 +17,7 @@ HEIGHTS = {
     "figure_1_teaser": 860,
     "figure_2_uv_texture": 560,
     "figure_3_handles": 560,
-    "figure_5_cubeness": 480,
+    "figure_5_cubeness": 460,
     "figure_6_orientations": 520,
 }
 """of a picture of 1600 pixels"""
