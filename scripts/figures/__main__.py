@@ -70,7 +70,10 @@ def arguments() -> argparse.Namespace:
         help="save the scene of each rendered figure there, to look at it in Blender",
     )
     parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.width < 16 or options.samples < 1:
+        parser.error("--width must be 16 at least, and --samples 1")
+    return options
 
 
 def main() -> int:
