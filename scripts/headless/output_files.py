@@ -12,7 +12,14 @@ from pathlib import Path
 
 from .errors import InputError
 
-__all__ = ("check_writable", "numbered", "per_cubeness", "remove_temporaries", "replacing")
+__all__ = (
+    "check_writable",
+    "numbered",
+    "per_cubeness",
+    "remove_left_behind",
+    "remove_temporaries",
+    "replacing",
+)
 
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
 _begins: list[Path] = []  # of the temporary files of this process, without suffix
@@ -65,7 +72,7 @@ def replacing(path: Path) -> Iterator[Path]:
     relative paths stay right, and it is removed however the block ends. What runs that were killed
     have left of the same file is removed as well.
     """
-    _remove_left_behind(path)
+    remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
     temporary = begin.with_name(f"{begin.name}{path.suffix}")
     _begins.append(begin)
@@ -112,7 +119,7 @@ def _remove(begin: Path) -> None:
                 return
 
 
-def _remove_left_behind(path: Path) -> None:
+def remove_left_behind(path: Path) -> None:
     """Remove temporary files for a path whose process is no longer there."""
     begin = path.with_name(_prefix(path))
     for other in _listed(path.parent):

@@ -23,6 +23,11 @@ class Task:
         if self._bar is not None:
             self._bar.update(self._number, completed=fraction)
 
+    def describe(self, title: str) -> None:
+        """Show another title from now on."""
+        if self._bar is not None:
+            self._bar.update(self._number, description=title)
+
     def finish(self, summary: str) -> None:
         """Set what the line says that remains of the step."""
         self.summary = summary
