@@ -76,7 +76,7 @@ def cubify_all(
             solutions.append(solution)
         sculptures.append(Sculpture(users, prepared, solutions))
     if problem := extension.solver.problem_with_taichi():
-        bar.say(f"Taichi does not work here ({problem}): NumPy has computed, which is slower")
+        bar.warn(f"Taichi does not work here ({problem}): NumPy has computed, which is slower")
     return sculptures
 
 

@@ -102,7 +102,7 @@ def remove_temporaries() -> None:
 
 def _prefix(path: Path) -> str:
     """Begin of the names of temporary files for a path, on this machine."""
-    stem = path.stem.encode()[:_LONGEST_STEM].decode(errors="ignore")
+    stem = os.fsencode(path.stem)[:_LONGEST_STEM].decode(errors="ignore")
     return f".{stem}.cubic_craft-{platform.node()}-"
 
 

@@ -43,7 +43,7 @@ def run(options: Namespace, root: Path, begin: float) -> None:
 
 
 def _run(options: Namespace, extension: Extension, begin: float) -> None:
-    bar = ProgressBar()
+    bar = ProgressBar(is_silent=options.worker)
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         loaded = load(options.input, options.object, options.verbose)

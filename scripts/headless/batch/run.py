@@ -1,7 +1,7 @@
 """Run a batch: as many files at a time as there are jobs, until all are done or have failed."""
 
 import os
-import threading
+import textwrap
 import time
 from argparse import Namespace
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..interruption import before_ending
 from ..output_files import check_writable, remove_left_behind
-from ..progress import ProgressBar
+from ..progress import ProgressBar, Task
 from .batch_report import write_batch_report
 from .outcome import DONE, FAILED, KEPT, Outcome, counts
 from .plan import FORWARDED, Job, plan
@@ -24,6 +24,8 @@ __all__ = ("SOME_FAILED", "run_batch")
 
 SOME_FAILED = 3
 """exit code"""
+WIDEST = 40
+"""letters in front of the progress bar, so that it stays in its line"""
 
 
 def run_batch(
@@ -85,8 +87,9 @@ class _Batch:
         self._version = version
         self._error_begin = f"{program}: error: "
         self._bar = ProgressBar()
-        self._running: list[str] = []
-        self._lock = threading.Lock()
+        self._task = Task()
+        self._labels: list[str] = []
+        """of the files that are being worked on"""
 
     def run(self, jobs: list[Job]) -> list[Outcome]:
         """Do the jobs; return how each went, in their order."""
@@ -94,17 +97,17 @@ class _Batch:
         total = len(jobs)
         with (
             ThreadPoolExecutor(self._options.jobs or 1) as pool,
-            self._bar.task(f"{total} files") as task,
+            self._bar.task(f"{total} files") as self._task,
         ):
             futures = [pool.submit(self._do, job) for job in jobs]
             for number, future in enumerate(as_completed(futures), start=1):
                 outcome = future.result()
                 label = one_line(outcome.job.source.label)
                 self._bar.say(f"{number} of {total}, {label}: {summary(outcome)}")
-                task.advance_to(number / total)
+                self._task.advance_to(number / total)
             outcomes = [future.result() for future in futures]
             how_many = counts(outcomes).items()
-            task.finish(", ".join(f"{count} {status}" for status, count in how_many if count))
+            self._task.finish(", ".join(f"{count} {status}" for status, count in how_many if count))
         return outcomes
 
     def _do(self, job: Job) -> Outcome:
@@ -122,11 +125,17 @@ class _Batch:
     def _work(self, job: Job, key: str) -> Outcome:
         # First, as from now on the outputs may be others than it says.
         job.record.unlink(missing_ok=True)
+        label = one_line(job.source.label)
+        self._labels.append(label)
+        self._describe()
         begin = time.perf_counter()
         code, words = self._workers.run([*job.arguments, *self._threads])
         seconds = time.perf_counter() - begin
-        if self._options.verbose:
-            self._bar.say(words.rstrip())
+        self._labels.remove(label)
+        self._describe()
+        if self._options.verbose or not code:
+            for line in words.splitlines():
+                self._bar.warn(f"{label}: {line}")
         if code:
             for path in (*job.outputs, job.record):
                 remove_left_behind(path)
@@ -134,6 +143,9 @@ class _Batch:
             return Outcome(job, FAILED, error=error.removeprefix(f"{job.source.path}: "))
         record = write_record(job.record, key, job.outputs, seconds)
         return Outcome(job, DONE, seconds, record["report"])
+
+    def _describe(self) -> None:
+        self._task.describe(textwrap.shorten(", ".join(self._labels), WIDEST, placeholder=" ..."))
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:

@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from typing import Any
 
@@ -39,6 +40,7 @@ class Workers:
         self._environment = os.environ | (thread_variables(threads) if threads else {})
         self._input, self._lifeline = os.pipe()
         self._running: set[subprocess.Popen[str]] = set()
+        self._is_ending = False
 
     def run(self, arguments: list[str]) -> tuple[int, str]:
         """Run one worker to its end; return its exit code and what it wrote to standard error."""
@@ -57,10 +59,13 @@ class Workers:
             _, words = process.communicate()
         finally:
             self._running.discard(process)
+        if self._is_ending:
+            threading.Event().wait()  # nothing more is said of what does not fail by itself
         return process.returncode, words
 
     def end(self) -> None:
         """End all that run, and those that may be started after it."""
+        self._is_ending = True
         os.close(self._lifeline)
         running = list(self._running)
         deadline = time.monotonic() + PATIENCE
