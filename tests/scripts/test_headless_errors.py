@@ -41,7 +41,7 @@ OPTIONS = {
     "device": (["ok.obj", "--device", "tpu"], ["--device", "tpu", "numpy"]),
     "unknown option": (["ok.obj", "--cubenes", "1"], ["--cubenes"]),
     "missing file": (["none.obj"], ["none.obj", "no such file"]),
-    "a folder": (["folder.obj"], ["folder.obj", "cannot be read"]),
+    "a folder": (["folder.obj"], ["folder.obj", "--output-folder"]),
     "unknown format": (["ok.xyz"], ["ok.xyz", ".xyz", ".obj"]),
     "no suffix": (["ok"], ["ok", "suffix"]),
     "empty file": (["empty.obj"], ["empty.obj", "empty"]),
