@@ -10,6 +10,7 @@ Runs under the ``bpy`` module and in Blender alike::
 import os
 import sys
 import time
+from argparse import Namespace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -18,6 +19,8 @@ if str(ROOT / "scripts") not in sys.path:  # Blender does not put a script's fol
 
 from headless.arguments import parse  # noqa: E402
 from headless.batch.run import run_batch  # noqa: E402
+from headless.checks import refuse_empty  # noqa: E402
+from headless.error_file import errors_written  # noqa: E402
 from headless.errors import InputError  # noqa: E402
 from headless.extension import read_version  # noqa: E402
 from headless.interruption import end_on_signals, end_with_input  # noqa: E402
@@ -62,26 +65,34 @@ def leave(code: int) -> None:
 
 
 def main() -> int:
-    """Run once and return the exit code."""
+    """Do what the command line says, and return the exit code."""
     end_on_signals(PROGRAM)
+    begin = time.perf_counter()
     try:
-        begin = time.perf_counter()
         options = parse(arguments_of_script())
         if options.worker:
             end_with_input()
         mute_stdout(options.verbose)
         if options.output_folder:
             return run_batch(options, command_of_worker, read_version(ROOT), PROGRAM, begin)
-        if options.threads:
-            limit_threads(options.threads)
-        # Late, because it takes Blender a second to start: --help and mistyped options need none.
-        from headless.pipeline import run
-
-        run(options, ROOT, begin)
+        with errors_written(options.error_file, PROGRAM):
+            run_one(options, begin)
     except InputError as error:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
     return 0
+
+
+def run_one(options: Namespace, begin: float) -> None:
+    """Run with one file, or the monkey."""
+    if options.input is not None:
+        refuse_empty(options.input)
+    if options.threads:
+        limit_threads(options.threads)
+    # Late, because it takes Blender a second to start: --help and mistyped options need none.
+    from headless.pipeline import run
+
+    run(options, ROOT, begin)
 
 
 if __name__ == "__main__":

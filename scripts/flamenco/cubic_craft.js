@@ -86,7 +86,8 @@ function scriptArguments(settings, name, result) {
     if (settings.mesh_format !== "none") {
         args.push("--save-mesh", output + settings.mesh_format);
     }
-    args.push("--report", output + ".json");
+    // A mesh that cannot be used must not fail its task: after three, Flamenco blames the worker.
+    args.push("--report", output + ".json", "--error-file", output + ".error.txt");
     return args.concat(words(settings.options || ""));
 }
 

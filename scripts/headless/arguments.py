@@ -191,6 +191,13 @@ def _add_outputs(parser: argparse.ArgumentParser) -> None:
         ".obj or _cubic.obj",
     )
     group.add_argument("--report", type=Path, metavar="FILE.json", help="numbers of the run")
+    group.add_argument(
+        "--error-file",
+        type=Path,
+        metavar="FILE",
+        help="if the input cannot be used, write why to this file and end with exit code 0: for "
+        "render farms, which would blame the machine",
+    )
 
 
 def _add_batch(parser: argparse.ArgumentParser) -> None:

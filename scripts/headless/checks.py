@@ -7,7 +7,13 @@ from .errors import InputError
 from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
 from .output_files import check_writable, numbered, per_cubeness
 
-__all__ = ("check_is_something_to_do", "check_mesh_suffix", "check_single", "check_suffix")
+__all__ = (
+    "check_is_something_to_do",
+    "check_mesh_suffix",
+    "check_single",
+    "check_suffix",
+    "refuse_empty",
+)
 
 
 def check_single(options: Namespace) -> None:
@@ -28,6 +34,12 @@ def check_single(options: Namespace) -> None:
         _check_input(options.input)
     options.save_mesh = Path(options.save_mesh) if options.save_mesh is not None else None
     _check_outputs(options)
+
+
+def refuse_empty(path: Path) -> None:
+    """Refuse a file without content, before Blender starts for it."""
+    if not path.stat().st_size:
+        raise InputError(f"{path}: the file is empty; export it again")
 
 
 def check_is_something_to_do(options: Namespace) -> None:
@@ -59,14 +71,12 @@ def _check_input(path: Path) -> None:
         kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
         raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
     try:
-        with path.open("rb") as file:
-            is_empty = not file.read(1)
+        with path.open("rb"):
+            pass
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file; check the path") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if is_empty:
-        raise InputError(f"{path}: the file is empty; export it again")
 
 
 def _check_outputs(options: Namespace) -> None:
@@ -81,6 +91,8 @@ def _check_outputs(options: Namespace) -> None:
     if options.report:
         check_suffix("--report", options.report, (".json",))
         outputs["--report"] = [options.report]
+    if options.error_file:
+        outputs["--error-file"] = [options.error_file]
     for option, paths in outputs.items():
         check_writable(option, paths)
         for source in (options.input, options.handles_file):

@@ -15,7 +15,7 @@ from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.workers import Workers, why_failed
 
 NOT_FORWARDED = {
-    *("inputs", "input", "handles", "output", "save_mesh", "report"),
+    *("inputs", "input", "handles", "output", "save_mesh", "report", "error_file"),
     *("output_folder", "recursive", "jobs", "force", "threads", "worker"),
 }
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m

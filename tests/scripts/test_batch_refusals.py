@@ -22,6 +22,7 @@ REFUSALS = {
     "not writable": (["a.obj", "--output-folder", "/proc/x"], ["--output-folder", "/proc"]),
     "nothing to do": (["meshes", *TO, "--no-render"], ["--no-render", "--save-mesh"]),
     "one picture": (["meshes", *TO, "--output", "a.png"], ["--output", "one file"]),
+    "error file": (["meshes", *TO, "--error-file", "e.txt"], ["--error-file", "--report"]),
     "a name, no ending": (["meshes", *TO, "--save-mesh", "a.obj"], ["--save-mesh", "_cubic.obj"]),
     "a path, no ending": (["meshes", *TO, "--save-mesh", "./_a.obj"], ["--save-mesh", "_cubic"]),
     "no format": (["meshes", *TO, "--save-mesh", "_cubic"], ["--save-mesh", ".ply"]),

@@ -108,9 +108,9 @@ def test_each_file_is_a_task_whose_command_line_the_script_accepts(settings, tmp
         options = parse(arguments)
         assert options.input == tmp_path / "in" / name
         assert options.cubeness == [0.4]
-        written += [options.output, options.save_mesh, options.report]
+        written += [options.output, options.save_mesh, options.report, options.error_file]
         assert {path.parent for path in written} == {tmp_path / "out"}
-    assert len({str(path).casefold() for path in written}) == 3 * len(NAMES)
+    assert len({str(path).casefold() for path in written}) == 4 * len(NAMES)
     assert parse(lines["a.ply"]).output.name == "a_ply.png"
     assert parse(lines["two.dots.obj"]).save_mesh.name == "two.dots.obj"
 
@@ -129,11 +129,12 @@ def test_settings_reach_the_script(settings):
 
 def test_what_the_tasks_write(settings, tmp_path):
     settings |= {"pictures": False, "options": "--device numpy --max-iterations 2"}
-    settings |= {"files": json.dumps(["it's $HOME.obj", "-lead.obj"])}
+    settings |= {"files": json.dumps(["it's $HOME.obj", "-lead.obj", "a.ply"])}
     for arguments in command_lines(settings).values():
         headless_ok(*arguments, cwd=tmp_path)
-    expected = {"it's $HOME.json", "it's $HOME.obj", "-lead.json", "-lead.obj"}
-    assert {path.name for path in (tmp_path / "out").iterdir()} == expected
+    done = {"it's $HOME.json", "it's $HOME.obj", "-lead.json", "-lead.obj"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {*done, "a.error.txt"}
+    assert "a.ply: cannot be read" in (tmp_path / "out" / "a.error.txt").read_text()
 
 
 @pytest.mark.parametrize(

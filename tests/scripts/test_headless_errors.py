@@ -125,3 +125,18 @@ def test_refusal_keeps_the_old_file(folder):
     )
     assert process.returncode == 2
     assert old.read_text() == TRIANGLE
+
+
+def test_the_error_file_has_the_reason_until_the_input_can_be_used(folder):
+    arguments = ("--no-render", "--save-mesh", "result.obj", "--error-file", "error.txt")
+    for name, word in (("empty.obj", "empty"), ("prose.obj", "no mesh")):
+        process = headless(name, *arguments, cwd=folder)
+        assert process.returncode == 0, process.stderr
+        assert word in (folder / "error.txt").read_text()
+        assert process.stderr == f"headless_render.py: {(folder / 'error.txt').read_text()}"
+        assert not (folder / "result.obj").exists()
+    process = headless("none.obj", *arguments, cwd=folder)
+    assert process.returncode == 2, "a file that is not there is not the fault of the file"
+    process = headless("ok.obj", *arguments, cwd=folder)
+    assert process.returncode == 0, process.stderr
+    assert (folder / "result.obj").exists() and not (folder / "error.txt").exists()

@@ -28,6 +28,8 @@ def check_batch(options: Namespace) -> None:
         raise InputError(
             "--output: is for one file; in --output-folder pictures are named as their inputs"
         )
+    if options.error_file is not None:
+        raise InputError("--error-file: is for one file; here --report has all that failed")
     if not options.inputs:
         raise InputError("--output-folder: give the files, or a folder that holds them, first")
     check_is_something_to_do(options)
