@@ -39,8 +39,15 @@ class ProgressBar:
     A silent one says only what must be read.
     """
 
-    def __init__(self, is_silent: bool = False) -> None:
+    def __init__(self, is_silent: bool = False, memory: float = 30.0) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        memory : seconds of the past from which the time that remains is estimated
+        """
         self._is_silent = is_silent
+        self._memory = memory
         self._rich = None
         if sys.stderr.isatty():
             with contextlib.suppress(ImportError):
@@ -59,7 +66,9 @@ class ProgressBar:
         else:
             console = self._rich.console.Console(stderr=True)
             escape = self._rich.markup.escape  # names may hold [brackets]
-            with self._rich.progress.Progress(console=console, transient=True) as bar:
+            with self._rich.progress.Progress(
+                console=console, transient=True, speed_estimate_period=self._memory
+            ) as bar:
                 task = Task(bar, bar.add_task(escape(title), total=1.0), escape)
                 yield task
         self.say(f"{title}: {task.summary}")

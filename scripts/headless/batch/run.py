@@ -1,5 +1,6 @@
 """Run a batch: as many files at a time as there are jobs, until all are done or have failed."""
 
+import math
 import os
 import textwrap
 import time
@@ -59,15 +60,19 @@ def run_batch(
     bar = ProgressBar()
     for line in table(outcomes, options.output_folder):
         bar.say(line)
+    is_complete = True
     if options.report:
         seconds = time.perf_counter() - begin
-        write_batch_report(options.report, outcomes, options.output_folder, seconds)
-        bar.say(f"wrote {options.report}")
-    failed = counts(outcomes)[FAILED]
-    if not failed:
-        return 0
-    bar.say(f"{program}: {failed} of {len(outcomes)} files failed")
-    return SOME_FAILED
+        try:
+            write_batch_report(options.report, outcomes, options.output_folder, seconds)
+            bar.say(f"wrote {options.report}")
+        except InputError as error:  # which says elsewhere that nothing was begun
+            is_complete = False
+            bar.warn(f"{program}: error: {error}")
+    if failed := counts(outcomes)[FAILED]:
+        is_complete = False
+        bar.warn(f"{program}: {failed} of {len(outcomes)} files failed")
+    return 0 if is_complete else SOME_FAILED
 
 
 class _Batch:
@@ -86,7 +91,7 @@ class _Batch:
         self._threads = [f"--threads={threads}"] if threads else []
         self._version = version
         self._error_begin = f"{program}: error: "
-        self._bar = ProgressBar()
+        self._bar = ProgressBar(memory=math.inf)
         self._task = Task()
         self._labels: list[str] = []
         """of the files that are being worked on"""
@@ -94,7 +99,7 @@ class _Batch:
     def run(self, jobs: list[Job]) -> list[Outcome]:
         """Do the jobs; return how each went, in their order."""
         before_ending(self._workers.end)
-        total = len(jobs)
+        total, kept = len(jobs), 0
         with (
             ThreadPoolExecutor(self._options.jobs or 1) as pool,
             self._bar.task(f"{total} files") as self._task,
@@ -104,7 +109,8 @@ class _Batch:
                 outcome = future.result()
                 label = one_line(outcome.job.source.label)
                 self._bar.say(f"{number} of {total}, {label}: {summary(outcome)}")
-                self._task.advance_to(number / total)
+                kept += outcome.status == KEPT  # at once, which says nothing of the others
+                self._task.advance_to((number - kept) / max(1, total - kept))
             outcomes = [future.result() for future in futures]
             how_many = counts(outcomes).items()
             self._task.finish(", ".join(f"{count} {status}" for status, count in how_many if count))
@@ -118,7 +124,7 @@ class _Batch:
                 return Outcome(job, KEPT, record["seconds"], record["report"])
             return self._work(job, key)
         except OSError as error:
-            return Outcome(job, FAILED, error=f"{error.filename}: {error.strerror}")
+            return Outcome(job, FAILED, error=f"{error.strerror or error}: {error.filename}")
         except ValueError as error:
             return Outcome(job, FAILED, error=str(error))
 
