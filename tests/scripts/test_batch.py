@@ -99,7 +99,15 @@ def test_files_of_the_same_name_do_not_overwrite_each_other(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
 def test_files_may_have_any_name(tmp_path):
-    names = ["two words", 'it\'s "$HOME" `ls`;#', "line\nbreak", "Größe 立方体 🧊", "-lead", "[/b]"]
+    names = [
+        "two words",
+        'it\'s "$HOME" `ls`;#',
+        "line\nbreak",
+        "Größe 立方体 🧊",
+        "-lead",
+        "[b]",
+        "[red]a",
+    ]
     folder = tmp_path / "-odd [red] folder"
     folder.mkdir()
     for name in names:
