@@ -124,7 +124,7 @@ def test_a_handles_file_and_options_reach_every_file(tmp_path):
         (tmp_path / name).write_text(CUBE)
     handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5, 6, 7], "translate": [0, 0.5, 0]}]
     (tmp_path / "h.json").write_text(json.dumps(handles))
-    options = ("--handles", "h.json", "--cubeness", 0, "--orientation", "-1e-5", "-90.5", "0")
+    options = ("--handles", "h.json", "--cubeness", 0, "--orientation", "-0.00001", "-90.5", "0")
     process = batch("one.obj", "two.obj", *options, cwd=tmp_path)
     assert process.returncode == 0, process.stderr
     for name in ("one", "two"):
