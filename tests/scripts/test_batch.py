@@ -122,7 +122,7 @@ def test_files_may_have_any_name(tmp_path):
 def test_a_handles_file_and_options_reach_every_file(tmp_path):
     for name in ("one.obj", "two.obj"):
         (tmp_path / name).write_text(CUBE)
-    handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5, 6, 7], "translate": [0, 0.5, 0]}]
+    handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5], "translate": [0, 0.5, 0]}]
     (tmp_path / "h.json").write_text(json.dumps(handles))
     options = ("--handles", "h.json", "--cubeness", 0, "--orientation", "-0.00001", "-90.5", "0")
     process = batch("one.obj", "two.obj", *options, cwd=tmp_path)
@@ -133,4 +133,4 @@ def test_a_handles_file_and_options_reach_every_file(tmp_path):
         original = [line.split()[1:4] for line in CUBE.splitlines() if line[:2] == "v "]
         moved = V - np.array(original, float)
         np.testing.assert_allclose(moved[:4], 0.0, atol=1e-6)
-        np.testing.assert_allclose(moved[4:], [[0, 0.5, 0]] * 4, atol=1e-6)
+        np.testing.assert_allclose(moved[4:6], [[0, 0.5, 0]] * 2, atol=1e-6)

@@ -95,6 +95,7 @@ class _Batch:
         self._task = Task()
         self._labels: list[str] = []
         """of the files that are being worked on"""
+        self._said: set[str] = set()
 
     def run(self, jobs: list[Job]) -> list[Outcome]:
         """Do the jobs; return how each went, in their order."""
@@ -140,8 +141,7 @@ class _Batch:
         self._labels.remove(label)
         self._describe()
         if self._options.verbose or not code:
-            for line in words.splitlines():
-                self._bar.warn(f"{label}: {line}")
+            self._pass_on(words, label)
         if code:
             for path in (*job.outputs, job.record):
                 remove_left_behind(path)
@@ -149,6 +149,13 @@ class _Batch:
             return Outcome(job, FAILED, error=error.removeprefix(f"{job.source.path}: "))
         record = write_record(job.record, key, job.outputs, seconds)
         return Outcome(job, DONE, seconds, record["report"])
+
+    def _pass_on(self, words: str, label: str) -> None:
+        """Print what a worker has said; what they all say the first time only."""
+        for line in words.splitlines():
+            if line not in self._said:
+                self._said.add(line)
+                self._bar.warn(f"{label}: {line}")
 
     def _describe(self) -> None:
         self._task.describe(textwrap.shorten(", ".join(self._labels), WIDEST, placeholder=" ..."))
