@@ -84,7 +84,7 @@ def as_arguments(options: argparse.Namespace, names: Collection[str]) -> list[st
     arguments = []
     for name in names:
         value = getattr(options, name)
-        flag = "--" + name.removesuffix("_file").replace("_", "-")
+        flag = "--handles" if name == "handles_file" else f"--{name.replace('_', '-')}"
         if isinstance(value, list) and len(value) > 1:
             arguments += [flag, *map(_as_text, value)]
         elif value is True:

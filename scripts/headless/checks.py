@@ -8,6 +8,7 @@ from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
 from .output_files import check_writable, numbered, per_cubeness
 
 __all__ = (
+    "check_format",
     "check_is_something_to_do",
     "check_mesh_suffix",
     "check_single",
@@ -66,10 +67,15 @@ def check_mesh_suffix(option: str, path: Path) -> None:
     check_suffix(option, path, KEEP_VERTICES)
 
 
-def _check_input(path: Path) -> None:
+def check_format(path: Path) -> None:
+    """Refuse an input in a format that cannot be read."""
     if path.suffix.lower() not in READABLE:
         kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
         raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
+
+
+def _check_input(path: Path) -> None:
+    check_format(path)
     try:
         with path.open("rb"):
             pass

@@ -27,6 +27,12 @@ class Extension:
         self.solver = _room("solver")
         self.version = read_version(root)
 
+    def notices(self) -> list[str]:
+        """Return what there is to say about this machine after a run, one line each."""
+        if problem := self.solver.problem_with_taichi():
+            return [f"Taichi does not work here ({problem}): NumPy has computed, which is slower"]
+        return []
+
 
 @contextlib.contextmanager
 def registered(root: Path) -> Iterator[Extension]:

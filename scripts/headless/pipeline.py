@@ -51,6 +51,8 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:
         raise InputError(f"{options.input or 'monkey'}: {error}") from error
+    for notice in extension.notices():
+        bar.say(notice)
     with _timed("write", seconds):
         if options.save_mesh:
             paths = per_cubeness(options.save_mesh, options.cubeness)

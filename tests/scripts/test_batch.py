@@ -97,6 +97,15 @@ def test_files_of_the_same_name_do_not_overwrite_each_other(tmp_path):
     assert files_in(tmp_path / "out") == ["a_obj.obj", "a_ply.obj", "sub/a.obj"]
 
 
+def test_what_is_left_out_of_a_file_is_said(tmp_path):
+    for name in ("one.obj", "two.obj"):
+        (tmp_path / name).write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")
+    process = batch("one.obj", "two.obj", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    for name in ("one.obj", "two.obj"):
+        assert f"{name}: 'dust' is left out" in process.stderr
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
 def test_files_may_have_any_name(tmp_path):
     names = [

@@ -3,9 +3,8 @@
 from argparse import Namespace
 from pathlib import Path
 
-from ..checks import check_is_something_to_do, check_mesh_suffix, check_suffix
+from ..checks import check_format, check_is_something_to_do, check_mesh_suffix, check_suffix
 from ..errors import InputError
-from ..formats import READABLE, listing
 from ..output_files import check_writable
 
 __all__ = ("check_batch",)
@@ -52,9 +51,7 @@ def _check_input(path: Path) -> None:
         return
     if not path.exists():
         raise InputError(f"{path}: there is no such file or folder; check the path")
-    if path.suffix.lower() not in READABLE:
-        kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
-        raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
+    check_format(path)
 
 
 def _check_ending(ending: str) -> None:

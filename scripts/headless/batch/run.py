@@ -8,6 +8,7 @@ from argparse import Namespace
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
+from typing import Any
 
 from ..errors import InputError
 from ..interruption import before_ending
@@ -141,21 +142,23 @@ class _Batch:
         self._labels.remove(label)
         self._describe()
         if self._options.verbose or not code:
-            self._pass_on(words, label)
+            for line in words.splitlines():
+                self._bar.warn(f"{label}: {line}")
         if code:
             for path in (*job.outputs, job.record):
                 remove_left_behind(path)
             error = why_failed(code, words, self._error_begin)
             return Outcome(job, FAILED, error=error.removeprefix(f"{job.source.path}: "))
         record = write_record(job.record, key, job.outputs, seconds)
+        self._notice(record["report"])
         return Outcome(job, DONE, seconds, record["report"])
 
-    def _pass_on(self, words: str, label: str) -> None:
-        """Print what a worker has said; what they all say the first time only."""
-        for line in words.splitlines():
-            if line not in self._said:
-                self._said.add(line)
-                self._bar.warn(f"{label}: {line}")
+    def _notice(self, report: dict[str, Any]) -> None:
+        """Print what a run has to say about the machine, the first time that one does."""
+        for notice in report["notices"]:
+            if notice not in self._said:
+                self._said.add(notice)
+                self._bar.warn(notice)
 
     def _describe(self) -> None:
         self._task.describe(textwrap.shorten(", ".join(self._labels), WIDEST, placeholder=" ..."))
