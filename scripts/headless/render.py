@@ -48,6 +48,9 @@ def _set_up(scene: bpy.types.Scene, options: Namespace) -> None:
     settings.image_settings.color_mode = "RGB"
     settings.use_persistent_data = options.turntable > 1
     settings.use_file_extension = False
+    if options.threads:
+        settings.threads_mode = "FIXED"
+        settings.threads = options.threads
     if options.engine == "cycles":
         _set_up_cycles(scene, options.samples)
     else:
