@@ -84,9 +84,9 @@ From 40,000 vertices on, about half of the time is one sparse Cholesky factorisa
 time goes", below). One cycle of multigrid in place of the exact solve would be set up in 0.1 s, but
 ten such iterations come only as far as four to seven exact ones, and a run to the end needs 1.4 to
 2.4 times as many of them (horse, owl, armadillo): the table would look better, and the artist would
-wait longer. With multigrid in the first eight to twelve iterations only, and the factorisation after
-them, a gap of 5 % comes four to nine iterations later, and both have to be set up. So meshes of up
-to 60,000 vertices are factorised at once.""",
+wait longer. With multigrid in the first eight to twelve iterations only, and the factorisation
+after them, a gap of 5 % comes four to nine iterations later, and both have to be set up. So
+meshes of up to 60,000 vertices are factorised at once.""",
     ]
 
 
