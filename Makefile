@@ -9,7 +9,8 @@ PYTHON313 ?= $(call find_python,3.13)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
-PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
+# Whole files go to as many processes as there are cores, but not to so many that Blenders fill the memory.
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile
 ZIP := dist/cubic_craft.zip
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')

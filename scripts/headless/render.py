@@ -51,6 +51,9 @@ def _set_up(scene: bpy.types.Scene, options: Namespace) -> None:
     settings.image_settings.compression = 90
     settings.use_persistent_data = options.turntable > 1
     settings.use_file_extension = False
+    if options.threads:
+        settings.threads_mode = "FIXED"
+        settings.threads = options.threads
     if options.engine == "cycles":
         _set_up_cycles(scene, options.samples)
     else:
