@@ -60,6 +60,7 @@ def _render(picture: Picture, path: Path, options: Namespace) -> None:
         samples=options.samples,
         resolution=picture.resolution(options.width),
         turntable=0,
+        threads=None,  # all
         verbose=options.verbose,
     )
     for _ in render(picture.gallery, [path], settings):
