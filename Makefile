@@ -17,8 +17,7 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live figures \
-	docs-images clean \
+	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
 	has-py313
 
 help: ## Show this list
@@ -109,6 +108,7 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)
 
+.PHONY: figures
 figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else Blender's own shapes
 	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
