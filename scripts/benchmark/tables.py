@@ -201,3 +201,12 @@ def _memory_cells(case):
 
 def _unless_own_stop(case, program):
     return "" if summary.ends_by_itself(case, program) else ", cut off"
+
+
+def targets(reached):
+    """Return the table of a list of Target."""
+    rows = [
+        [target.text, target.shown_value, target.shown_bound, "yes" if target.is_met else "**no**"]
+        for target in reached
+    ]
+    return table(["target", "measured", "bound", "met"], rows)

@@ -30,11 +30,20 @@ class Target:
             return False
         return self.value >= self.bound if self.is_least else self.value <= self.bound
 
+    @property
+    def shown_value(self):
+        """The value as it is printed."""
+        return "never" if self.value is None else f"{self.value:.2f}"
+
+    @property
+    def shown_bound(self):
+        """The bound as it is printed."""
+        return f"at {'least' if self.is_least else 'most'} {self.bound:g}"
+
     def line(self):
         """Return what is printed."""
-        value = "never" if self.value is None else f"{self.value:.2f}"
-        side = "at least" if self.is_least else "at most"
-        return f"{'pass' if self.is_met else 'FAIL'}  {self.text}: {value} ({side} {self.bound:g})"
+        verdict = "pass" if self.is_met else "FAIL"
+        return f"{verdict}  {self.text}: {self.shown_value} ({self.shown_bound})"
 
 
 def targets(results):

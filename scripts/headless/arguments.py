@@ -2,22 +2,30 @@
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from decimal import Decimal
 from pathlib import Path
 from typing import NoReturn
 
+from .batch.checks import check_batch
+from .checks import check_single
 from .errors import InputError
-from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
+from .formats import KEEP_VERTICES, READABLE, listing
 from .handles_file import read_handles
-from .output_files import check_writable, numbered, per_cubeness
 
-__all__ = ("parse",)
+__all__ = ("as_arguments", "parse")
 
 EPILOG = """\
 The picture shows the original beside one result per cubeness. With --turntable it becomes a
 sequence name_0001.png ... in which every object turns once about its vertical axis.
 Orientation 0 0 0 means the axes of the object, which for an .obj are those of the file.
 In Blender: blender -b -P scripts/headless_render.py -- [options]
+
+Several files, or folders of them, go to a folder: --output-folder DIR. A file that cannot be used
+does not stop the others. What is there already, made of the same file with the same options, is
+kept: start a batch again to go on where it was stopped.
+Exit codes: 0 all is done, 2 nothing was begun because of what was given, 3 some files failed,
+130 interrupted.
 
 --handles FILE.json poses the mesh: a list of parts to hold, and where; the rest follows.
   [{"box": [[-1, -1, -1], [1, 1, -0.8]]},
@@ -49,8 +57,10 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     Returns
     -------
     argparse.Namespace
-        One attribute per option; ``output``, ``save_mesh`` and ``report`` are paths or None,
-        ``input`` is a path or None for the monkey; ``handles`` is a list of `GivenHandle`.
+        One attribute per option; ``handles`` is a list of `GivenHandle`. For one file
+        ``output_folder`` is None; ``output``, ``save_mesh`` and ``report`` are paths or None,
+        and ``input`` is a path or None for the monkey. Else it is the folder of a batch;
+        ``inputs`` are files and folders, and ``save_mesh`` is None or how the names shall end.
 
     Raises
     ------
@@ -59,17 +69,35 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(arguments)
     options.cubeness = list(dict.fromkeys(options.cubeness))
-    if options.no_render and (options.output or options.turntable):
-        raise InputError("--no-render: does not go together with --output or --turntable; drop one")
-    if options.no_render and not (options.save_mesh or options.report):
-        raise InputError("--no-render: nothing to write; add --save-mesh FILE or --report FILE")
-    if not options.no_render and options.output is None:
-        options.output = Path("cubic_craft.png")
-    if options.input is not None:
-        _check_input(options.input)
-    _check_outputs(options)
+    options.input = None
+    if len(options.inputs) > 1 or options.output_folder or any(p.is_dir() for p in options.inputs):
+        check_batch(options)
+    else:
+        options.input = options.inputs[0] if options.inputs else None
+        check_single(options)
     options.handles = read_handles(options.handles_file) if options.handles_file else []
     return options
+
+
+def as_arguments(options: argparse.Namespace, names: Collection[str]) -> list[str]:
+    """Return the command line that gives some of the options, named as their attributes are."""
+    arguments = []
+    for name in names:
+        value = getattr(options, name)
+        flag = "--handles" if name == "handles_file" else f"--{name.replace('_', '-')}"
+        if isinstance(value, list) and len(value) > 1:
+            arguments += [flag, *map(_as_text, value)]
+        elif value is True:
+            arguments.append(flag)
+        elif value:
+            single = value[0] if isinstance(value, list) else value
+            arguments.append(f"{flag}={_as_text(single)}")
+    return arguments
+
+
+def _as_text(value: object) -> str:
+    # Without an exponent: argparse takes -1e-05 for an option.
+    return format(Decimal(repr(value)), "f") if isinstance(value, float) else str(value)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -81,16 +109,25 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     parser.add_argument(
-        "input",
-        nargs="?",
+        "inputs",
+        nargs="*",
         type=Path,
         metavar="INPUT",
-        help=f"{listing(READABLE)}; without it, Blender's monkey, subdivided",
+        help=f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
+        "files, or folders of them",
     )
     parser.add_argument("--object", metavar="NAME", help="this mesh object only (default: all)")
     _add_method(parser)
     _add_outputs(parser)
+    _add_batch(parser)
     _add_picture(parser)
+    parser.add_argument(
+        "--threads",
+        type=_integer(1, 1024),
+        metavar="N",
+        help="of the processor (default: all of them, in a batch shared by its jobs)",
+    )
+    parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
     return parser
 
@@ -148,12 +185,41 @@ def _add_outputs(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--no-render", action="store_true", help="no picture")
     group.add_argument(
         "--save-mesh",
-        type=Path,
         metavar="FILE",
         help=f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with several "
-        "cubeness values one file each (name_0.4.obj)",
+        "cubeness values one file each (name_0.4.obj); in a batch the end of the names, such as "
+        ".obj or _cubic.obj",
     )
     group.add_argument("--report", type=Path, metavar="FILE.json", help="numbers of the run")
+    group.add_argument(
+        "--error-file",
+        type=Path,
+        metavar="FILE",
+        help="if the input cannot be used, write why to this file and end with exit code 0: for "
+        "render farms, which would blame the machine",
+    )
+
+
+def _add_batch(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("several files")
+    group.add_argument(
+        "--output-folder",
+        type=Path,
+        metavar="DIR",
+        help="for the results, each named as its input; made if it is not there",
+    )
+    group.add_argument(
+        "--recursive",
+        action="store_true",
+        help="take folders with the folders in them, and lay the results out alike",
+    )
+    group.add_argument(
+        "--jobs",
+        type=_integer(1, 1024),
+        metavar="N",
+        help="files worked on at the same time, each in a Blender of its own (default: 1)",
+    )
+    group.add_argument("--force", action="store_true", help="do also what is done already")
 
 
 def _add_picture(parser: argparse.ArgumentParser) -> None:
@@ -217,47 +283,3 @@ def _integer(low: int, high: int) -> Callable[[str], int]:
         return value
 
     return integer
-
-
-def _check_input(path: Path) -> None:
-    if path.suffix.lower() not in READABLE:
-        kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
-        raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
-    try:
-        with path.open("rb") as file:
-            is_empty = not file.read(1)
-    except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file; check the path") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if is_empty:
-        raise InputError(f"{path}: the file is empty; export it again")
-
-
-def _check_outputs(options: argparse.Namespace) -> None:
-    """Refuse output paths of the wrong kind, that cannot be written, or that collide."""
-    outputs: dict[str, list[Path]] = {}
-    if options.output:
-        _check_suffix("--output", options.output, (".png",))
-        outputs["--output"] = numbered(options.output, options.turntable)
-    if options.save_mesh:
-        if options.save_mesh.suffix.lower() in LOSE_VERTICES:
-            raise InputError(
-                f"--save-mesh {options.save_mesh}: this format cannot keep vertex order and "
-                f"count; give {listing(KEEP_VERTICES)}"
-            )
-        _check_suffix("--save-mesh", options.save_mesh, KEEP_VERTICES)
-        outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
-    if options.report:
-        _check_suffix("--report", options.report, (".json",))
-        outputs["--report"] = [options.report]
-    for option, paths in outputs.items():
-        check_writable(option, paths)
-        for source in (options.input, options.handles_file):
-            if source is not None and source.resolve() in (path.resolve() for path in paths):
-                raise InputError(f"{option} {source}: this is the input; give another name")
-
-
-def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
-    if path.suffix.lower() not in allowed:
-        raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")

@@ -75,8 +75,6 @@ def cubify_all(
                 task.finish(_summary(solution))
             solutions.append(solution)
         sculptures.append(Sculpture(users, prepared, solutions))
-    if problem := extension.solver.problem_with_taichi():
-        bar.say(f"Taichi does not work here ({problem}): NumPy has computed, which is slower")
     return sculptures
 
 

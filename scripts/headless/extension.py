@@ -11,7 +11,7 @@ from types import ModuleType
 
 from .errors import InputError
 
-__all__ = ("Extension", "registered")
+__all__ = ("Extension", "read_version", "registered")
 
 PACKAGE = "cubic_craft"
 
@@ -25,8 +25,13 @@ class Extension:
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.settings = _room("cubic_craft_addon.settings")
         self.solver = _room("solver")
-        manifest = tomllib.loads((root / "blender_manifest.toml").read_text(encoding="utf-8"))
-        self.version: str = manifest["version"]
+        self.version = read_version(root)
+
+    def notices(self) -> list[str]:
+        """Return what there is to say about this machine after a run, one line each."""
+        if problem := self.solver.problem_with_taichi():
+            return [f"Taichi does not work here ({problem}): NumPy has computed, which is slower"]
+        return []
 
 
 @contextlib.contextmanager
@@ -48,6 +53,12 @@ def registered(root: Path) -> Iterator[Extension]:
         yield Extension(root)
     finally:
         package.unregister()
+
+
+def read_version(root: Path) -> str:
+    """Return the version of the extension, as its manifest has it."""
+    manifest = tomllib.loads((root / "blender_manifest.toml").read_text(encoding="utf-8"))
+    return manifest["version"]
 
 
 def _room(name: str) -> ModuleType:

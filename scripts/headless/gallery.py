@@ -2,6 +2,7 @@
 
 The meshes are not touched: whatever their size and place, each group (all objects of the input at
 one cubeness) hangs on an empty that scales it to the same size and stands it on the floor.
+`scripts/figures` arranges groups of its own with the same means.
 """
 
 import math
@@ -16,7 +17,16 @@ from .cubify_all import Sculpture
 from .detached import detached_copy
 from .extension import Extension
 
-__all__ = ("Gallery", "build_gallery")
+__all__ = (
+    "Gallery",
+    "Group",
+    "arrange",
+    "build_gallery",
+    "extent_of",
+    "outline",
+    "scene_for_gallery",
+    "stand",
+)
 
 SIZE = 2.0
 """largest extent of the original in the gallery; everything else is measured by it"""
@@ -47,11 +57,13 @@ class Gallery:
     width: float
     height: float
     """of all that the picture must show, along its sides"""
+    finishes: list[str]
+    """of each group, a name of `studio.FINISHES`; meshes with materials of their own keep those"""
 
 
 @dataclass
-class _Group:
-    """The input at one cubeness."""
+class Group:
+    """What stands on one turntable: the input at one cubeness, say."""
 
     label: str
     copies: list[bpy.types.Object]
@@ -59,32 +71,56 @@ class _Group:
     """where each copy is, stood upright"""
     points: np.ndarray
     """(n,3) of what can be seen, in the space of the places"""
-    is_original: bool
+    extent: float
+    """what becomes `SIZE`: the largest extent of the original"""
+    finish: str
+    yaw: float = YAW
+    """turn about the vertical"""
 
 
 def build_gallery(sculptures: list[Sculpture], options: Namespace, extension: Extension) -> Gallery:
     """Build the gallery for the picture's format, with room to turn for a turntable."""
+    scene = scene_for_gallery()
+    groups = _groups(sculptures, options, extension, scene)
+    return arrange(groups, scene, options.resolution, turns=options.turntable > 0)
+
+
+def scene_for_gallery() -> bpy.types.Scene:
+    """Make an empty scene and show it."""
     scene = bpy.data.scenes.new("Gallery")
     bpy.context.window.scene = scene
-    groups = _groups(sculptures, options, extension, scene)
-    outlines = _outlines(groups, options.turntable > 0)
+    return scene
+
+
+def arrange(
+    groups: list[Group], scene: bpy.types.Scene, resolution: tuple[int, int], turns: bool = False
+) -> Gallery:
+    """Stand the groups side by side, with their labels, as large as the resolution allows.
+
+    Parameters
+    ----------
+    groups : their copies are in the scene, which is shown
+    turns : leave room for a turn of each
+    """
+    outlines = np.array([outline(group, turns) for group in groups])
     labels = [_label(group.label, scene) for group in groups]
     bpy.context.view_layer.update()
     width = max((outlines[:, 1] - outlines[:, 0]).max(), *(label.dimensions.x for label in labels))
     bottom = outlines[:, 2].min() - LABEL_GAP - LABEL_SIZE
     top = outlines[:, 3].max()
     pitch_x, pitch_z = float(width) + GAP, float(top - bottom) + GAP
-    columns, rows = _grid(len(groups), pitch_x, pitch_z, *options.resolution)
+    columns, rows = _grid(len(groups), pitch_x, pitch_z, *resolution)
     centre = UP * ((bottom + top) / 2)
-    gallery = Gallery(scene, [], centre, columns * pitch_x, rows * pitch_z)
-    for number, (group, outline, label) in enumerate(zip(groups, outlines, labels, strict=True)):
+    finishes = [group.finish for group in groups]
+    gallery = Gallery(scene, [], centre, columns * pitch_x, rows * pitch_z, finishes)
+    for number, (group, extents, label) in enumerate(zip(groups, outlines, labels, strict=True)):
         row, column = divmod(number, columns)
         in_row = min(columns, len(groups) - row * columns)
         x = (column - (in_row - 1) / 2) * pitch_x
         # Rows are apart in the picture; on the floor that takes much more.
         y = ((rows - 1) / 2 - row) * pitch_z / math.sin(ELEVATION)
-        axis = Vector((x - (outline[0] + outline[1]) / 2, y, 0.0))
-        gallery.turntables.append(_stand(group, groups[0], axis, scene))
+        axis = Vector((x - (extents[0] + extents[1]) / 2, y, 0.0))
+        gallery.turntables.append(stand(group, axis, scene))
         label.location = (x, y + bottom / math.sin(ELEVATION), LABEL_LIFT)
     return gallery
 
@@ -94,27 +130,32 @@ def _groups(
     options: Namespace,
     extension: Extension,
     scene: bpy.types.Scene,
-) -> list[_Group]:
+) -> list[Group]:
     versions = [("original", None)]
     versions += [(f"cubeness {value!r}", number) for number, value in enumerate(options.cubeness)]
     turn = Euler([math.radians(angle) for angle in options.turn]).to_matrix().to_4x4()
     groups = []
     for label, number in versions:
-        group = _Group(label, [], [], np.empty((0, 3)), is_original=number is None)
+        copies, places = [], []
         for sculpture in sculptures:
             original = extension.mesh_bridge.original_positions(sculpture.object.data)
             shape = original if number is None else sculpture.solutions[number].positions
             for user in sculpture.users:
                 copy = detached_copy(user, shape, extension, keep_modifiers=True)
                 scene.collection.objects.link(copy)
-                group.copies.append(copy)
-                group.places.append(turn @ user.matrix_world)
+                copies.append(copy)
+                places.append(turn @ user.matrix_world)
         bpy.context.view_layer.update()
-        group.points = np.concatenate(
-            [_points(*pair) for pair in zip(group.copies, group.places, strict=True)]
-        )
-        groups.append(group)
+        points = np.concatenate([_points(*pair) for pair in zip(copies, places, strict=True)])
+        extent = groups[0].extent if groups else extent_of(points)
+        finish = "clay" if number is None else "teal"
+        groups.append(Group(label, copies, places, points, extent, finish))
     return groups
+
+
+def extent_of(points: np.ndarray) -> float:
+    """Return the largest extent of points (n,3); 1 if there is none."""
+    return float(np.ptp(points, axis=0).max()) or 1.0
 
 
 def _points(copy: bpy.types.Object, place: Matrix) -> np.ndarray:
@@ -131,32 +172,22 @@ def _points(copy: bpy.types.Object, place: Matrix) -> np.ndarray:
     return visible @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def _scale(original: _Group) -> float:
-    extent = float(np.ptp(original.points, axis=0).max())
-    return SIZE / extent if extent > 0.0 else 1.0
-
-
-def _outlines(groups: list[_Group], turns: bool) -> np.ndarray:
-    """(groups,4) left, right, bottom and top of each group in the picture.
+def outline(group: Group, turns: bool) -> tuple[float, float, float, float]:
+    """Return left, right, bottom and top of a group in the picture.
 
     Measured from where its axis meets the floor, along the directions of the picture.
     """
-    scale = _scale(groups[0])
-    outlines = []
-    for group in groups:
-        points = (group.points - _foot(group)) * scale
-        if turns:
-            radius = np.linalg.norm(points[:, :2], axis=1).max()
-            rim = radius * math.sin(ELEVATION)
-            outlines.append((-radius, radius, -rim, points[:, 2].max() * UP.z + rim))
-            continue
-        points = points @ np.array(Matrix.Rotation(YAW, 3, "Z")).T
-        across, up = points[:, 0], points @ np.array(UP)
-        outlines.append((across.min(), across.max(), up.min(), up.max()))
-    return np.array(outlines)
+    points = (group.points - _foot(group)) * (SIZE / group.extent)
+    if turns:
+        radius = np.linalg.norm(points[:, :2], axis=1).max()
+        rim = radius * math.sin(ELEVATION)
+        return -radius, radius, -rim, points[:, 2].max() * UP.z + rim
+    points = points @ np.array(Matrix.Rotation(group.yaw, 3, "Z")).T
+    across, up = points[:, 0], points @ np.array(UP)
+    return across.min(), across.max(), up.min(), up.max()
 
 
-def _foot(group: _Group) -> np.ndarray:
+def _foot(group: Group) -> np.ndarray:
     """Where the group's vertical axis meets the floor, in the space of the places."""
     low, high = group.points.min(axis=0), group.points.max(axis=0)
     return np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
@@ -175,15 +206,13 @@ def _grid(
     return columns, math.ceil(count / columns)
 
 
-def _stand(
-    group: _Group, original: _Group, place: Vector, scene: bpy.types.Scene
-) -> bpy.types.Object:
+def stand(group: Group, place: Vector, scene: bpy.types.Scene) -> bpy.types.Object:
     """Hang the group on an empty that turns and scales it, and stand it on the floor."""
     turntable = bpy.data.objects.new(group.label, None)
     scene.collection.objects.link(turntable)
     turntable.location = place
-    turntable.rotation_euler.z = YAW
-    turntable.scale = [_scale(original)] * 3
+    turntable.rotation_euler.z = group.yaw
+    turntable.scale = [SIZE / group.extent] * 3
     to_foot = Matrix.Translation(Vector(-_foot(group)))
     for copy, world in zip(group.copies, group.places, strict=True):
         # The inverse can hold any matrix, also a sheared one; location, rotation and scale cannot.

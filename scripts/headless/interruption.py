@@ -7,14 +7,24 @@ Nothing is lost by that: every file is written under a temporary name (see `outp
 
 import os
 import signal
+import sys
 import threading
+from collections.abc import Callable
 
 from .output_files import remove_temporaries
 from .quiet import terminal
 
-__all__ = ("end_on_signals",)
+__all__ = ("before_ending", "end_on_signals", "end_with_input")
 
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
+_CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
+"""for terminals: erase the progress bar, and show the cursor that it hides"""
+_duties: list[Callable[[], None]] = [remove_temporaries]
+
+
+def before_ending(duty: Callable[[], None]) -> None:
+    """Have something done, in another thread, before the process ends because it is told to."""
+    _duties.append(duty)
 
 
 def end_on_signals(program: str) -> None:
@@ -26,14 +36,31 @@ def end_on_signals(program: str) -> None:
         if signal.getsignal(number) != signal.SIG_IGN:  # as shells have it for background jobs
             # It does nothing itself, but without a handler there is no byte for the thread.
             signal.signal(number, lambda *_: None)
-    threading.Thread(target=_wait, args=(arrivals, program), daemon=True).start()
+    threading.Thread(target=_wait_for_signal, args=(arrivals, program), daemon=True).start()
 
 
-def _wait(arrivals: int, program: str) -> None:
+def end_with_input() -> None:
+    """From now on end, without a word, when standard input does: whoever holds it is gone."""
+    threading.Thread(target=_wait_for_end_of_input, daemon=True).start()
+
+
+def _wait_for_signal(arrivals: int, program: str) -> None:
     while True:
         number = os.read(arrivals, 1)[0]
         if number in _WORDS:
             break
-    remove_temporaries()
-    os.write(terminal(), f"{program}: {_WORDS[signal.Signals(number)]}\n".encode())
-    os._exit(128 + number)
+    line = f"{program}: {_WORDS[signal.Signals(number)]}\n".encode()
+    _end(128 + number, _CLEAN_LINE + line if sys.stderr.isatty() else line)
+
+
+def _wait_for_end_of_input() -> None:
+    while os.read(0, 1):
+        pass
+    _end(128 + signal.SIGTERM, b"")
+
+
+def _end(code: int, words: bytes) -> None:
+    for duty in _duties:
+        duty()
+    os.write(terminal(), words)
+    os._exit(code)

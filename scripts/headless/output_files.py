@@ -12,7 +12,14 @@ from pathlib import Path
 
 from .errors import InputError
 
-__all__ = ("check_writable", "numbered", "per_cubeness", "remove_temporaries", "replacing")
+__all__ = (
+    "check_writable",
+    "numbered",
+    "per_cubeness",
+    "remove_left_behind",
+    "remove_temporaries",
+    "replacing",
+)
 
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
 _begins: list[Path] = []  # of the temporary files of this process, without suffix
@@ -65,7 +72,7 @@ def replacing(path: Path) -> Iterator[Path]:
     relative paths stay right, and it is removed however the block ends. What runs that were killed
     have left of the same file is removed as well.
     """
-    _remove_left_behind(path)
+    remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
     temporary = begin.with_name(f"{begin.name}{path.suffix}")
     _begins.append(begin)
@@ -95,7 +102,7 @@ def remove_temporaries() -> None:
 
 def _prefix(path: Path) -> str:
     """Begin of the names of temporary files for a path, on this machine."""
-    stem = path.stem.encode()[:_LONGEST_STEM].decode(errors="ignore")
+    stem = os.fsencode(path.stem)[:_LONGEST_STEM].decode(errors="ignore")
     return f".{stem}.cubic_craft-{platform.node()}-"
 
 
@@ -112,7 +119,7 @@ def _remove(begin: Path) -> None:
                 return
 
 
-def _remove_left_behind(path: Path) -> None:
+def remove_left_behind(path: Path) -> None:
     """Remove temporary files for a path whose process is no longer there."""
     begin = path.with_name(_prefix(path))
     for other in _listed(path.parent):

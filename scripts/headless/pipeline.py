@@ -43,7 +43,7 @@ def run(options: Namespace, root: Path, begin: float) -> None:
 
 
 def _run(options: Namespace, extension: Extension, begin: float) -> None:
-    bar = ProgressBar()
+    bar = ProgressBar(is_silent=options.worker)
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         loaded = load(options.input, options.object, options.verbose)
@@ -51,6 +51,8 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:
         raise InputError(f"{options.input or 'monkey'}: {error}") from error
+    for notice in extension.notices():
+        bar.say(notice)
     with _timed("write", seconds):
         if options.save_mesh:
             paths = per_cubeness(options.save_mesh, options.cubeness)

@@ -46,8 +46,14 @@ def _set_up(scene: bpy.types.Scene, options: Namespace) -> None:
     settings.resolution_percentage = 100
     settings.image_settings.file_format = "PNG"
     settings.image_settings.color_mode = "RGB"
+    # Dither would make the file twice as large; there are no bands to be seen without it.
+    settings.dither_intensity = 0.0
+    settings.image_settings.compression = 90
     settings.use_persistent_data = options.turntable > 1
     settings.use_file_extension = False
+    if options.threads:
+        settings.threads_mode = "FIXED"
+        settings.threads = options.threads
     if options.engine == "cycles":
         _set_up_cycles(scene, options.samples)
     else:

@@ -35,6 +35,7 @@ def write_report(
     report = {
         "versions": _versions(extension),
         "device": sculptures[0].solutions[0].result.device,
+        "notices": extension.notices(),
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }

@@ -8,10 +8,15 @@ from mathutils import Vector
 
 from .gallery import ELEVATION, Gallery
 
-__all__ = ("furnish",)
+__all__ = ("FINISHES", "furnish", "surface")
 
-CLAY = (0.56, 0.20, 0.09)
-TEAL = (0.012, 0.27, 0.235)
+FINISHES = {
+    "clay": ((0.56, 0.20, 0.09), 0.55),
+    "teal": ((0.012, 0.27, 0.235), 0.42),
+    "grey": ((0.25, 0.25, 0.245), 0.55),
+    "green": ((0.075, 0.23, 0.05), 0.42),
+}
+"""name: linear RGB, roughness; headless pictures show clay and teal, the paper's grey and green"""
 INK = (0.05, 0.045, 0.04)
 FLOOR_NEAR = (0.80, 0.75, 0.68)
 FLOOR_FAR = (0.36, 0.34, 0.32)
@@ -68,7 +73,7 @@ def _floor(gallery: Gallery) -> None:
         [],
         [(0, 1, 2, 3)],
     )
-    material = _material("Floor", FLOOR_NEAR, roughness=0.9)
+    material = surface("Floor", FLOOR_NEAR, roughness=0.9)
     mesh.materials.append(material)
     gallery.scene.collection.objects.link(bpy.data.objects.new("Floor", mesh))
 
@@ -108,22 +113,22 @@ def _camera(gallery: Gallery, aspect: float) -> None:
 
 
 def _materials(gallery: Gallery) -> None:
-    """Clay for the original, teal for the results, unless a mesh has materials of its own."""
-    clay = _material("Clay", CLAY, roughness=0.55)
-    teal = _material("Teal", TEAL, roughness=0.42)
-    ink = _material("Ink", INK, roughness=1.0)
+    """Give each group its finish, unless a mesh has materials of its own."""
+    ink = surface("Ink", INK, roughness=1.0)
     for obj in gallery.scene.objects:
         if obj.type == "FONT":
             obj.data.materials.append(ink)
             obj.visible_shadow = False
             obj.display.show_shadows = False
-    for number, turntable in enumerate(gallery.turntables):
+    used = dict.fromkeys(gallery.finishes)
+    finishes = {name: surface(name.capitalize(), *FINISHES[name]) for name in used}
+    for finish, turntable in zip(gallery.finishes, gallery.turntables, strict=True):
         for copy in turntable.children:
             mesh = copy.data
             _shade(mesh)
             if not any(slot.material for slot in copy.material_slots):
                 mesh.materials.clear()
-                mesh.materials.append(teal if number else clay)
+                mesh.materials.append(finishes[finish])
 
 
 def _shade(mesh: bpy.types.Mesh) -> None:
@@ -134,7 +139,8 @@ def _shade(mesh: bpy.types.Mesh) -> None:
         mesh.set_sharp_from_angle(angle=SHARP_ANGLE)
 
 
-def _material(name: str, color: tuple[float, float, float], roughness: float) -> Any:
+def surface(name: str, color: tuple[float, float, float], roughness: float) -> Any:
+    """Return a new material of one colour (linear RGB), without gloss at roughness 1."""
     material = bpy.data.materials.new(name)
     material.diffuse_color = (*color, 1.0)  # what Workbench shows
     material.roughness = roughness

@@ -128,6 +128,14 @@ def test_target_bounds():
     assert Target("time", None, 2.0).line() == "FAIL  time: never (at most 2)"
 
 
+def test_table_of_targets():
+    lines = tables.targets([Target("time", 3.0, 2.0), Target("ratio", 3.0, 2.0, is_least=True)])
+    assert lines.splitlines()[2:] == [
+        "| time | 3.00 | at most 2 | **no** |",
+        "| ratio | 3.00 | at least 2 | yes |",
+    ]
+
+
 def test_targets_of_what_was_measured(case):
     assert targets(NOTHING) == []
     found = {target.text: target for target in targets(NOTHING | {"race": [case]})}

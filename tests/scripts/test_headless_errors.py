@@ -41,7 +41,7 @@ OPTIONS = {
     "device": (["ok.obj", "--device", "tpu"], ["--device", "tpu", "numpy"]),
     "unknown option": (["ok.obj", "--cubenes", "1"], ["--cubenes"]),
     "missing file": (["none.obj"], ["none.obj", "no such file"]),
-    "a folder": (["folder.obj"], ["folder.obj", "cannot be read"]),
+    "a folder": (["folder.obj"], ["folder.obj", "--output-folder"]),
     "unknown format": (["ok.xyz"], ["ok.xyz", ".xyz", ".obj"]),
     "no suffix": (["ok"], ["ok", "suffix"]),
     "empty file": (["empty.obj"], ["empty.obj", "empty"]),
@@ -125,3 +125,18 @@ def test_refusal_keeps_the_old_file(folder):
     )
     assert process.returncode == 2
     assert old.read_text() == TRIANGLE
+
+
+def test_the_error_file_has_the_reason_until_the_input_can_be_used(folder):
+    arguments = ("--no-render", "--save-mesh", "result.obj", "--error-file", "error.txt")
+    for name, word in (("empty.obj", "empty"), ("prose.obj", "no mesh")):
+        process = headless(name, *arguments, cwd=folder)
+        assert process.returncode == 0, process.stderr
+        assert word in (folder / "error.txt").read_text()
+        assert process.stderr == f"headless_render.py: {(folder / 'error.txt').read_text()}"
+        assert not (folder / "result.obj").exists()
+    process = headless("none.obj", *arguments, cwd=folder)
+    assert process.returncode == 2, "a file that is not there is not the fault of the file"
+    process = headless("ok.obj", *arguments, cwd=folder)
+    assert process.returncode == 0, process.stderr
+    assert (folder / "result.obj").exists() and not (folder / "error.txt").exists()

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figure 5: one mesh at growing cubeness."""
+
+from .picture import Picture, side_by_side
+from .workshop import Workshop
+
+__all__ = ("compose",)
+
+CUBENESS = (0.03, 0.1, 0.4, 1.5)
+HEIGHT = 460
+"""pixels"""
+
+
+def compose(workshop: Workshop) -> Picture:
+    """Stand the original and its cubic versions in a row."""
+    (model,) = workshop.there(["bunny"], instead=["monkey"])
+    groups = [workshop.group(model, model.original, "original", "grey")]
+    for value in CUBENESS:
+        shape = workshop.cubified(model, value)
+        groups.append(workshop.group(model, shape, f"cubeness {value:g}", "green"))
+    return side_by_side(groups, HEIGHT)

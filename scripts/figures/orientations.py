@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figure 6: one mesh, cubified toward cubes of different orientation, with each cube beside it."""
+
+import math
+
+import bpy
+import numpy as np
+from headless.gallery import Group
+from headless.studio import FINISHES, surface
+from mathutils import Euler, Matrix, Vector
+
+from .picture import Picture, side_by_side
+from .workshop import Model, Workshop, moved
+
+__all__ = ("compose",)
+
+CUBENESS = 0.6
+ORIENTATIONS = {
+    "not turned": (0.0, 0.0, 0.0),
+    "45\N{DEGREE SIGN} about Z": (0.0, 0.0, 45.0),
+    "45\N{DEGREE SIGN} about X": (45.0, 0.0, 0.0),
+    "on a corner": (45.0, math.degrees(math.atan(math.sqrt(0.5))), 0.0),
+}
+"""label: Euler angles in degrees, relative to the mesh"""
+HEIGHT = 520
+"""pixels"""
+EDGE = 0.2
+"""of the cube, relative to the largest side of the mesh"""
+BEVEL = 0.06
+"""relative to the edge"""
+AWAY = (-0.62, -0.30)
+"""middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
+
+
+def compose(workshop: Workshop) -> Picture:
+    """Stand the cubic versions in a row, each with the cube that it is turned toward."""
+    (model,) = workshop.there(["bunny"], instead=["monkey"])
+    clay = surface("Cube", *FINISHES["clay"])
+    groups = []
+    for label, angles in ORIENTATIONS.items():
+        # Left free, the whole mesh would turn toward the cube.
+        shape = workshop.cubified(model, CUBENESS, angles, rotation="KEEP")
+        group = workshop.group(model, shape, label, "green")
+        _add_cube(group, model, angles, clay)
+        groups.append(group)
+    return side_by_side(groups, HEIGHT)
+
+
+def _add_cube(
+    group: Group, model: Model, angles: tuple[float, float, float], clay: bpy.types.Material
+) -> None:
+    """Put a cube of the orientation on the floor, before the mesh and to its left."""
+    axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
+    upright = model.place.to_3x3().normalized() @ axes
+    corners = _corners(EDGE * group.extent / 2)
+    low, high = group.points.min(axis=0), group.points.max(axis=0)
+    away = Vector((*AWAY, 0.0)) * group.extent
+    away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
+    middle = Vector((low + high) / 2) + away
+    middle.z = low[2] - moved(corners, upright.to_4x4())[:, 2].min()
+    place = Matrix.Translation(middle) @ upright.to_4x4()
+    group.copies.append(_cube(corners, clay))
+    group.places.append(place)
+    group.points = np.concatenate([group.points, moved(corners, place)])
+
+
+def _corners(half: float) -> np.ndarray:
+    signs = (-half, half)
+    return np.array([(x, y, z) for x in signs for y in signs for z in signs])
+
+
+def _cube(corners: np.ndarray, clay: bpy.types.Material) -> bpy.types.Object:
+    """Return a cube, slightly rounded, in no scene."""
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    mesh = bpy.data.meshes.new("Cube")
+    mesh.from_pydata(corners.tolist(), [], faces)
+    mesh.materials.append(clay)
+    cube = bpy.data.objects.new("Cube", mesh)
+    bevel = cube.modifiers.new("Bevel", "BEVEL")
+    bevel.width = BEVEL * float(np.ptp(corners[:, 0]))
+    bevel.segments = 3
+    return cube

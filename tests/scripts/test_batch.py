@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A folder with sound and broken files: what is written, said and returned."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from batch_kit import CUBE, MESHES, QUICK, batch, files_in, statuses
+from headless import headless
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "corpus"))
+from make_corpus import corpus
+
+SOUND = ("doubled_corners.ply", "loose.obj", "moebius.obj")
+BROKEN = ("cut.stl", "cut_faces.ply", "too_huge.obj")
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """Folder and process of a batch, two at a time, with a report."""
+    folder = tmp_path_factory.mktemp("batch")
+    (folder / "meshes" / "sub").mkdir(parents=True)
+    for name in (*SOUND, *BROKEN):
+        (folder / "meshes" / name).write_bytes(corpus()[name])
+    (folder / "meshes" / "notes.txt").write_text("no mesh")
+    (folder / "meshes" / "._loose.obj").write_text("what macOS puts beside a file")
+    (folder / "meshes" / "sub" / "below.obj").write_text(CUBE)
+    process = batch("meshes", "--jobs", 2, "--report", "report.json", cwd=folder)
+    return folder, process
+
+
+def test_sound_files_are_done_whatever_the_others_are(done):
+    folder, process = done
+    assert process.returncode == 3, process.stderr
+    assert files_in(folder / "out") == ["doubled_corners.obj", "loose.obj", "moebius.obj"]
+    text = (folder / "out" / "moebius.obj").read_text()
+    V = np.array([line.split()[1:4] for line in text.splitlines() if line[:2] == "v "], float)
+    assert V.shape == (24, 3) and np.isfinite(V).all()
+
+
+def test_the_report_has_all_files(done):
+    folder, _ = done
+    assert statuses(folder) == dict.fromkeys(SOUND, "done") | dict.fromkeys(BROKEN, "failed")
+    report = json.loads((folder / "report.json").read_text())
+    assert report["counts"] == {"done": 3, "kept": 0, "failed": 3}
+    for each in report["files"]:
+        if each["status"] == "failed":
+            assert each["error"] and "\n" not in each["error"]
+        else:
+            (run,) = each["report"]["objects"][0]["runs"]
+            assert np.isfinite(run["energy"]["total"])
+            assert each["outputs"] == [Path(each["input"]).stem + ".obj"]
+
+
+def test_the_table_has_a_row_for_each_file(done):
+    _, process = done
+    assert process.stdout == ""
+    assert "Traceback" not in process.stderr
+    lines = process.stderr.splitlines()
+    begin = next(number for number, line in enumerate(lines) if line.startswith("file "))
+    rows = {line.split()[0]: line.split()[1:] for line in lines[begin + 1 :]}
+    assert list(rows)[:6] == sorted((*SOUND, *BROKEN))
+    assert rows["moebius.obj"][:2] == ["0.4", "24"]
+    assert rows["moebius.obj"][-1] == "moebius.obj"
+    for name in BROKEN:
+        assert rows[name][0] == "failed:" and len(rows[name]) > 3
+    assert lines[-1] == "headless_render.py: 3 of 6 files failed"
+
+
+def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
+    for name in ("one.obj", "two.obj"):
+        (tmp_path / name).write_text(CUBE)
+    process = batch(
+        *("one.obj", "two.obj", "--cubeness", 0.1, 0.2, "--save-mesh", "_cubic.ply"),
+        *("--turntable", 2, "--samples", 1, "--resolution", 32, 32),
+        cwd=tmp_path,
+        options=QUICK,
+    )
+    assert process.returncode == 0, process.stderr
+    ends = ["_0001.png", "_0002.png", "_cubic_0.1.ply", "_cubic_0.2.ply"]
+    assert files_in(tmp_path / "out") == [f"{name}{end}" for name in ("one", "two") for end in ends]
+
+
+def test_files_of_the_same_name_do_not_overwrite_each_other(tmp_path):
+    (tmp_path / "meshes" / "sub").mkdir(parents=True)
+    inputs = {
+        "a.obj": CUBE.encode(),
+        "a.ply": corpus()["doubled_corners.ply"],
+        "sub/a.obj": CUBE.encode(),
+    }
+    for name, content in inputs.items():
+        (tmp_path / "meshes" / name).write_bytes(content)
+    process = batch("meshes", "--recursive", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert files_in(tmp_path / "out") == ["a_obj.obj", "a_ply.obj", "sub/a.obj"]
+
+
+def test_what_is_left_out_of_a_file_is_said(tmp_path):
+    for name in ("one.obj", "two.obj"):
+        (tmp_path / name).write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")
+    process = batch("one.obj", "two.obj", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    for name in ("one.obj", "two.obj"):
+        assert f"{name}: 'dust' is left out" in process.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
+def test_files_may_have_any_name(tmp_path):
+    names = [
+        "two words",
+        'it\'s "$HOME" `ls`;#',
+        "line\nbreak",
+        "Größe 立方体 🧊",
+        "-lead",
+        "[b]",
+        "[red]a",
+    ]
+    folder = tmp_path / "-odd [red] folder"
+    folder.mkdir()
+    for name in names:
+        (folder / f"{name}.obj").write_text(CUBE)
+    process = headless(".", "--output-folder=-out 立", "--jobs", 2, *MESHES, cwd=folder)
+    assert process.returncode == 0, process.stderr
+    assert files_in(folder / "-out 立") == sorted(f"{name}.obj" for name in names)
+    rows = process.stderr[process.stderr.index("\nfile ") :].splitlines()[2:]
+    assert len(rows) == len(names), "each has one row, in one line"
+
+
+def test_a_handles_file_and_options_reach_every_file(tmp_path):
+    for name in ("one.obj", "two.obj"):
+        (tmp_path / name).write_text(CUBE)
+    handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5], "translate": [0, 0.5, 0]}]
+    (tmp_path / "h.json").write_text(json.dumps(handles))
+    options = ("--handles", "h.json", "--cubeness", 0, "--orientation", "-0.00001", "-90.5", "0")
+    process = batch("one.obj", "two.obj", *options, cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    for name in ("one", "two"):
+        lines = (tmp_path / "out" / f"{name}.obj").read_text().splitlines()
+        V = np.array([line.split()[1:4] for line in lines if line[:2] == "v "], float)
+        original = [line.split()[1:4] for line in CUBE.splitlines() if line[:2] == "v "]
+        moved = V - np.array(original, float)
+        np.testing.assert_allclose(moved[:4], 0.0, atol=1e-6)
+        np.testing.assert_allclose(moved[4:6], [[0, 0.5, 0]] * 2, atol=1e-6)

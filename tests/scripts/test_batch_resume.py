@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Batches that are stopped or have lost a worker, and what the next run does again."""
+
+import os
+import signal
+import sys
+import time
+
+import pytest
+from batch_kit import (
+    CUBE,
+    PATIENCE,
+    batch,
+    children,
+    files_in,
+    is_there,
+    start,
+    statuses,
+    wait_for_children,
+)
+
+on_posix = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
+CALM = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
+NAMES = ["a.obj", "b.obj", "c.obj"]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "meshes").mkdir()
+    for name in NAMES:
+        (tmp_path / "meshes" / name).write_text(CUBE)
+    return tmp_path
+
+
+def run(folder, *arguments):
+    """Run the batch to its end; return {name: status}."""
+    process = batch("meshes", "--report", "report.json", *arguments, cwd=folder)
+    assert process.returncode == 0, process.stderr
+    return statuses(folder)
+
+
+def test_only_what_has_changed_is_done_again(folder):
+    assert run(folder) == dict.fromkeys(NAMES, "done")
+    times = {path: path.stat().st_mtime_ns for path in (folder / "out").glob("*.obj")}
+    os.utime(folder / "meshes" / "a.obj", (0, 0))  # copied, but the same
+    assert run(folder) == dict.fromkeys(NAMES, "kept")
+    assert {path: path.stat().st_mtime_ns for path in times} == times
+    (folder / "meshes" / "a.obj").write_text(CUBE.replace("v 1 1 1", "v 1 1 2"))
+    (folder / "out" / "b.obj").write_text("cut off")
+    assert run(folder) == {"a.obj": "done", "b.obj": "done", "c.obj": "kept"}
+    (folder / "out" / "c.obj").unlink()
+    assert run(folder) == {"a.obj": "kept", "b.obj": "kept", "c.obj": "done"}
+
+
+def test_other_options_or_force_do_all_again(folder):
+    assert run(folder) == dict.fromkeys(NAMES, "done")
+    assert run(folder, "--cubeness", "0.3") == dict.fromkeys(NAMES, "done")
+    assert run(folder, "--cubeness", "0.3", "--jobs", "2") == dict.fromkeys(NAMES, "kept")
+    assert run(folder, "--cubeness", "0.3", "--force") == dict.fromkeys(NAMES, "done")
+
+
+@on_posix
+@pytest.mark.parametrize("number", [*CALM, signal.SIGKILL])
+def test_stopped_in_the_middle(folder, number):
+    process = start("meshes", cwd=folder)
+    assert process.stderr.readline().startswith("1 of 3, a.obj: ")
+    (worker,) = wait_for_children(process)
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=PATIENCE)
+    if number == signal.SIGKILL:
+        assert process.returncode == -number
+        wait_until_gone(worker)
+    else:
+        assert process.returncode == 128 + number
+        assert errors == f"headless_render.py: {CALM[number]}\n"
+        assert not is_there(worker)
+    assert set(files_in(folder / "out")) <= set(NAMES), "something half-written is left"
+    again = run(folder)
+    assert again.pop("a.obj") == "kept"
+    assert "done" in again.values()
+    assert files_in(folder / "out") == NAMES
+
+
+def wait_until_gone(number):
+    end = time.monotonic() + PATIENCE
+    while is_there(number):
+        assert time.monotonic() < end, "the worker goes on without its batch"
+        time.sleep(0.05)
+
+
+@on_posix
+def test_all_workers_end_with_the_batch(folder):
+    endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--cubeness", "1")
+    options = ("--device", "numpy", "--no-render", "--save-mesh", ".obj", *endless)
+    for name in NAMES:
+        (folder / "meshes" / name).write_text(waves(60))
+    process = start("meshes", "--jobs", "3", cwd=folder, options=options)
+    workers = wait_for_children(process, 3)
+    time.sleep(4)  # they now solve
+    assert children(process) == workers
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, errors) == (130, "headless_render.py: interrupted\n")
+    assert not any(map(is_there, workers))
+    assert files_in(folder / "out") == []
+
+
+def waves(size):
+    """Return an .obj with a wavy sheet, on which the solver is busy for long."""
+    points = [f"v {x} {y} {(x * 7 + y * 13) % 10}" for y in range(size) for x in range(size)]
+    corners = [y * size + x + 1 for y in range(size - 1) for x in range(size - 1)]
+    faces = [f"f {c} {c + 1} {c + size + 1} {c + size}" for c in corners]
+    return "\n".join([*points, *faces]) + "\n"
+
+
+@on_posix
+@pytest.mark.parametrize(
+    ("number", "word"), [(signal.SIGSEGV, "crashed"), (signal.SIGKILL, "ended from outside")]
+)
+def test_a_worker_that_dies_is_a_file_that_failed(folder, number, word):
+    process = start("meshes", cwd=folder)
+    (worker,) = wait_for_children(process)
+    os.kill(worker, number)
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 3, errors
+    lines = errors.splitlines()
+    assert lines[0].startswith("1 of 3, a.obj: failed: ") and word in lines[0]
+    assert lines[-1] == "headless_render.py: 1 of 3 files failed"
+    assert files_in(folder / "out") == ["b.obj", "c.obj"]
+    assert run(folder) == {"a.obj": "done", "b.obj": "kept", "c.obj": "kept"}

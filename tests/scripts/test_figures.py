@@ -1,0 +1,150 @@
+"""The figures of the paper, of Blender's own shapes, tiny and rough."""
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from headless import read_files
+
+ROOT = Path(__file__).resolve().parents[2]
+WIDTH = 120
+HEIGHTS = {
+    "figure_1_teaser": 860,
+    "figure_2_uv_texture": 560,
+    "figure_3_handles": 560,
+    "figure_5_cubeness": 460,
+    "figure_6_orientations": 520,
+}
+"""of a picture of 1600 pixels"""
+RED, GREEN, BLUE = range(3)
+
+
+def figures(*arguments):
+    environment = {name: value for name, value in os.environ.items() if "CUBIC_CRAFT" not in name}
+    return subprocess.run(
+        [sys.executable, str(ROOT / "scripts" / "figures"), *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=300,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Folder with all rendered figures and the scenes that they show."""
+    folder = tmp_path_factory.mktemp("figures")
+    size = ("--width", WIDTH, "--samples", 1)
+    numbers = ("--only", 1, 2, 3, 5, 6)
+    process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
+    assert process.returncode == 0, process.stderr
+    return folder
+
+
+@pytest.fixture(scope="module")
+def pictures(folder):
+    found = read_files(*(folder / f"{name}.png" for name in HEIGHTS), folder=folder)
+    return dict(zip(HEIGHTS, found, strict=True))
+
+
+def meshes_of(scene):
+    """Return [(positions, UVs)] of the meshes in a saved scene, in the order of their names."""
+    target = scene.with_suffix(".pickle")
+    script = Path(__file__).with_name("read_uvs.py")
+    subprocess.run([sys.executable, script, scene, target], check=True, capture_output=True)
+    return pickle.loads(target.read_bytes())
+
+
+@pytest.mark.parametrize("name", HEIGHTS)
+def test_each_picture_has_its_size_and_shows_something(pictures, name):
+    picture = pictures[name]
+    assert picture.shape == (round(WIDTH * HEIGHTS[name] / 1600), WIDTH, 4)
+    assert picture[..., :3].std() > 0.05
+    assert (picture[..., :3].min(axis=-1) > 0.98).mean() < 0.001, "white is lost"
+
+
+@pytest.mark.parametrize("name", ["figure_1_teaser", "figure_5_cubeness", "figure_6_orientations"])
+def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):
+    picture = pictures[name]
+    is_green = picture[..., GREEN] > np.maximum(picture[..., RED], picture[..., BLUE]) + 0.1
+    assert is_green.mean() > 0.04
+    assert not (is_green[[0, -1]].any() or is_green[:, [0, -1]].any())
+
+
+def test_the_teaser_has_its_greens_before_its_greys(pictures):
+    picture = pictures["figure_1_teaser"]
+    is_green = picture[..., GREEN] > np.maximum(picture[..., RED], picture[..., BLUE]) + 0.1
+    half = len(picture) // 2
+    assert is_green[half:].mean() > 5 * is_green[:half].mean()
+
+
+def test_handles_are_painted(pictures):
+    picture = pictures["figure_3_handles"]
+    assert (picture[..., RED] > picture[..., GREEN] + 0.2).sum() > 10, "moved handles are orange"
+    assert (picture[..., BLUE] > picture[..., RED] + 0.1).sum() > 10, "pinned handles are blue"
+
+
+def test_the_textured_meshes_have_the_same_uvs_bit_for_bit(folder):
+    meshes = meshes_of(folder / "figure_2_uv_texture.blend")
+    assert len(meshes) == 4
+    painted, cubic, *_ = meshes
+    assert np.abs(painted["positions"] - cubic["positions"]).max() > 0.05
+    for mesh in meshes:
+        assert mesh["uvs"] == painted["uvs"]
+        assert len(set(mesh["uvs"])) > 1
+        assert mesh["image"], "the material reads something else than an image"
+
+
+def test_the_table_is_that_of_the_benchmark(tmp_path):
+    results = {"machine": "A machine.", "runs": 3}
+    results["ten"] = [{"mesh": "bunny", "vertices": 6172, "seconds": [0.3, 0.1, 0.2]}]
+    results["ten"][0]["reading"] = [0.01]
+    bench = tmp_path / "results.json"
+    bench.write_text(json.dumps(results), encoding="utf-8")
+    process = figures("--only", "table", "--bench", bench, "--output", tmp_path)
+    assert process.returncode == 0, process.stderr
+    table = (tmp_path / "table_1.md").read_text(encoding="utf-8")
+    assert "A machine." in table
+    assert "| bunny | 6,172 | 0.01 s | 0.20 s | 3.55 s | 27.6 s | 18 | 138 |" in table
+
+
+def test_results_of_something_else_are_refused(tmp_path):
+    bench = tmp_path / "results.json"
+    bench.write_text("{}", encoding="utf-8")
+    process = figures("--only", "table", "--bench", bench, "--output", tmp_path)
+    assert process.returncode == 2
+    assert str(bench) in process.stderr
+    assert "Traceback" not in process.stderr
+
+
+def test_figure_4_is_the_last_screenshot(tmp_path):
+    for number, suite in enumerate(("trixie", "sid")):
+        shot = tmp_path / "gui" / suite / "test_first_sculpture" / "first_3_live.png"
+        shot.parent.mkdir(parents=True)
+        shot.write_bytes(suite.encode())
+        os.utime(shot, (number, number))
+    process = figures(
+        "--only", 4, "--screenshots", tmp_path / "gui", "--output", tmp_path / "figures"
+    )
+    assert process.returncode == 0, process.stderr
+    assert (tmp_path / "figures" / "figure_4_interface.png").read_bytes() == b"sid"
+
+
+def test_what_was_not_made_stays_and_is_told(tmp_path):
+    kept = tmp_path / "figure_4_interface.png"
+    kept.write_bytes(b"kept")
+    nowhere = tmp_path / "nowhere"
+    process = figures(
+        *("--only", 4, "table", "--output", tmp_path),
+        *("--screenshots", nowhere, "--bench", nowhere),
+    )
+    assert process.returncode == 0, process.stderr
+    assert kept.read_bytes() == b"kept"
+    assert "make test-gui" in process.stderr
+    assert "make bench" in process.stderr
