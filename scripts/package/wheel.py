@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name, parse_wheel_filename
 _LICENCE = re.compile(r"(licen[cs]e|copying|notice|authors)[^/]*$", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Wheel:
     """`tags` as in the name of the file; `files` are the names inside."""
 
