@@ -11,13 +11,14 @@ PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
 ZIP := dist/cubic_craft.zip
+PACKAGING := $(VENV)/.packaging
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
-	has-py313
+	test-reliability test-gui test-walk test-package test-package-gui lint typecheck build package \
+	repository lock bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -84,6 +85,21 @@ test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path fo
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
 	SEEDS="$(SEEDS)" ACTIONS="$(ACTIONS)" tests/gui/walks.sh $(ZIP)
 
+BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
+
+test-package: $(PACKAGING) $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
+	$(PY) scripts/package build $(ZIP) --platforms linux-x64
+	CUBIC_CRAFT_BARE_PYTHONS="$(BARE:=/bin/python)" \
+		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
+
+test-package-gui: package ## Packages and repository in real Blender windows
+	tests/gui/packages.sh dist/packages $(ZIP)
+
+$(VENV)-bare-%/.done: requirements/blender-%.txt
+	$(PYTHON) -m venv $(VENV)-bare-$*
+	$(VENV)-bare-$*/bin/python $(PIP) -r $<
+	@touch $@
+
 lint: setup ## Style and formatting
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -95,6 +111,19 @@ build: $(ZIP) ## The extension as Blender installs it
 
 $(ZIP): $(VENV)/.done $(SOURCES)
 	$(PY) scripts/build_extension.py $@
+
+package: $(PACKAGING) $(ZIP) ## One zip for each platform that brings its wheels, in dist/packages
+	$(PY) scripts/package build $(ZIP) $(ARGS)
+
+repository: package ## Those as an extension repository for any web server, in dist/repository
+	$(PY) scripts/package repository dist/packages/*.zip
+
+lock: $(PACKAGING) ## Choose the wheels of the packages anew: requirements/wheels.lock
+	$(PY) scripts/package lock
+
+$(PACKAGING): $(VENV)/.done
+	$(PY) $(PIP) -r requirements/package.txt
+	@touch $@
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt

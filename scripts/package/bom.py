@@ -57,6 +57,7 @@ def _component(wheel, entry):
         hashes=[HashType(alg=HashAlgorithm.SHA_256, content=wheel.sha256)],
         licenses=[LicenseExpression(entry.licence)],
         copyright="\n".join(entry.copyrights),
+        properties=[Property(name="cubic_craft:inside", value=line) for line in entry.inside],
     )
 
 

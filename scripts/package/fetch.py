@@ -23,6 +23,9 @@ def fetch(platform, python, cache, lock=LOCK):
         options = ["--no-deps", "--require-hashes", f"--dest={folder}", "-r", lock]
         pip.run("download", platform, python, *options)
         found = _cached(folder, locked)
+    missing = locked.keys() - found
+    if missing:
+        raise SystemExit(f"pip has not brought {', '.join(sorted(missing))} as locked")
     return [found[name] for name in sorted(locked)]
 
 

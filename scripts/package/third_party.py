@@ -12,10 +12,13 @@ ADDITIONS = Path(__file__).with_name("licences")
 
 # Names of classifiers and what else projects write, where it is not an SPDX expression.
 _SPDX = {"MIT License": "MIT", "Apache Software License": "Apache-2.0"}
+# The holder may go on in lines that are indented deeper.
 _COPYRIGHT = re.compile(
-    r"^[\s*#/]*Copyright\s*(?:\(c\)|©)?\s*(\d{4}(?:\s*[-,]\s*\d{4})*),?\s+(?:by\s+)?(\S.*)$",
+    r"^[\s*#/]{0,4}Copyright\s*(?:\(c\)|©)?\s*(\d{4}(?:\s*[-,]\s*\d{4})*),?\s+(?:by\s+)?"
+    r"(\S.*(?:\n {12,}\S.*)*)$",
     re.IGNORECASE | re.MULTILINE,
 )
+_NOT_A_NAME = re.compile(r"<[^>]*>|\bAll\s+rights(\s+reserved)?\.?", re.IGNORECASE)
 
 _HEAD = """\
 # Third-party software in this package
@@ -74,8 +77,8 @@ def copyright_lines(text):
     for years, holder in _COPYRIGHT.findall(text):
         numbers = re.findall(r"\d{4}", years)
         span = numbers[0] if len(numbers) == 1 else f"{numbers[0]}-{numbers[-1]}"
-        name = re.sub(r"<[^>]*>|\(see [^)]*\)|All rights reserved\.?", "", holder, flags=re.I)
-        entry = f"{span} {' '.join(name.split()).rstrip(' .,')}"
+        name = " ".join(_NOT_A_NAME.sub("", holder).split())
+        entry = f"{span} {re.sub(r'(?<!Inc)[ .,]+$', '', name)}"
         if entry not in found:
             found.append(entry)
     return found

@@ -1,0 +1,63 @@
+#!/bin/bash
+# Packages that bring their wheels, in Debian's Blenders: installed from an extension repository and
+# updated (4.3), and refused by a Python that is too new for them (5.2).
+#   packages.sh PACKAGES PLAIN.zip [OUTPUT [SUITE...]]
+#     PACKAGES   folder of the packages (make package)
+#     PLAIN.zip  the extension without wheels (make build)
+#     OUTPUT     folder for screenshots and logs (default: build/packages in the project)
+#     SUITE      trixie, sid (default: both)
+# PYTHON is one with bpy (default: that of the project's .venv). Needs root on Debian, as run.sh does.
+# Exit codes: 0 all passed, 1 something failed, 2 wrong options.
+set -uo pipefail
+
+HERE=$(dirname "$(realpath "$0")")
+PROJECT=$(realpath "$HERE/../..")
+if [ $# -lt 2 ]; then
+    sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0" >&2
+    exit 2
+fi
+PACKAGES=$(realpath -e "$1") || exit 2
+PLAIN=$(realpath -e "$2") || exit 2
+OUTPUT=${3:-$PROJECT/build/packages}
+shift $(($# < 3 ? $# : 3))
+read -ra SUITES <<<"${*:-trixie sid}"
+PYTHON=$(realpath -s "${PYTHON:-$PROJECT/.venv/bin/python}")
+
+# Two repositories, with all packages and with the next version of those for Linux.
+prepare_trixie() {
+    local newer=$1/newer_zips versions
+    versions=$("$PYTHON" "$PROJECT/tests/packages/newer.py" "$newer" "$PACKAGES"/*linux_x64*.zip)
+    "$PYTHON" "$PROJECT/scripts/package" repository "$PACKAGES"/*.zip --output "$1/first" &&
+        "$PYTHON" "$PROJECT/scripts/package" repository "$newer"/*.zip --output "$1/newer" || return 1
+    rm -rf "$newer"
+    OPTIONS=(-o -v "FIRST_VERSION=${versions% *}" -v "NEWER_VERSION=${versions#* }")
+    TEST=test_repository.py
+}
+
+prepare_sid() {
+    local package
+    package=$(ls "$PACKAGES"/*linux_x64*.zip | tail -n 1)
+    cp "$package" "$PLAIN" "$1"
+    OPTIONS=(-p -v "PACKAGE=/share/$(basename "$package")" -v "PLAIN=/share/$(basename "$PLAIN")")
+    TEST=test_refused.py
+}
+
+RESULT=0
+for suite in "${SUITES[@]}"; do
+    folder=$OUTPUT/$suite
+    rm -rf "$folder"
+    mkdir -p "$folder" || exit 2
+    "$HERE/kit/setup_blender_gui.sh" -s "$suite" && "prepare_$suite" "$folder" >"$folder/log.txt" 2>&1 &&
+        "$HERE/kit/run_in_gui.sh" -s "$suite" -g 1400x800 -d "$folder" "${OPTIONS[@]}" \
+            "$HERE/packages/$TEST" >>"$folder/log.txt" 2>&1
+    code=$?
+    rm -rf "$folder"/{first,newer} "$folder"/*.zip
+    if [ $code = 0 ]; then
+        echo "passed: packages on $suite, pictures in $folder"
+    else
+        cat "$folder/log.txt"
+        echo "failed: packages on $suite ($code), pictures in $folder"
+        RESULT=1
+    fi
+done
+exit $RESULT
