@@ -23,35 +23,43 @@ shift $(($# < 3 ? $# : 3))
 read -ra SUITES <<<"${*:-trixie sid}"
 PYTHON=$(realpath -s "${PYTHON:-$PROJECT/.venv/bin/python}")
 
-# Two repositories, with all packages and with the next version of those for Linux.
+# Two repositories, with all packages and with the next version of those for Linux; and a package.
 prepare_trixie() {
     local newer=$1/newer_zips versions
     versions=$("$PYTHON" "$PROJECT/tests/packages/newer.py" "$newer" "$PACKAGES"/*linux_x64*.zip)
     "$PYTHON" "$PROJECT/scripts/package" repository "$PACKAGES"/*.zip --output "$1/first" &&
         "$PYTHON" "$PROJECT/scripts/package" repository "$newer"/*.zip --output "$1/newer" || return 1
     rm -rf "$newer"
-    OPTIONS=(-o -v "FIRST_VERSION=${versions% *}" -v "NEWER_VERSION=${versions#* }")
-    TEST=test_repository.py
+    OPTIONS=(-v "FIRST_VERSION=${versions% *}" -v "NEWER_VERSION=${versions#* }")
+    OPTIONS+=(-v "PACKAGE=/share/first/$(basename "$PACKAGE")")
 }
 
 prepare_sid() {
-    local package
-    package=$(ls "$PACKAGES"/*linux_x64*.zip | tail -n 1)
-    cp "$package" "$PLAIN" "$1"
-    OPTIONS=(-p -v "PACKAGE=/share/$(basename "$package")" -v "PLAIN=/share/$(basename "$PLAIN")")
-    TEST=test_refused.py
+    cp "$PACKAGE" "$PLAIN" "$1"
+    OPTIONS=(-v "PACKAGE=/share/$(basename "$PACKAGE")" -v "PLAIN=/share/$(basename "$PLAIN")")
 }
 
+# -o: the repository is on localhost; -p: with the SciPy of the set-up, but without it in trixie.
+run_suite() {
+    local suite=$1 folder=$2
+    "$HERE/kit/setup_blender_gui.sh" -s "$suite" && "prepare_$suite" "$folder" || return 1
+    local run=("$HERE/kit/run_in_gui.sh" -s "$suite" -g 1400x800 -d "$folder" "${OPTIONS[@]}")
+    case $suite in
+        trixie) "${run[@]}" -o "$HERE/packages/test_repository.py" &&
+            "${run[@]}" "$HERE/packages/test_from_disk.py" ;;
+        sid) "${run[@]}" -p "$HERE/packages/test_refused.py" ;;
+    esac
+}
+
+PACKAGE=$(ls "$PACKAGES"/*linux_x64*.zip | tail -n 1)  # of the newer Python, if there is one for each
 RESULT=0
 for suite in "${SUITES[@]}"; do
     folder=$OUTPUT/$suite
     rm -rf "$folder"
     mkdir -p "$folder" || exit 2
-    "$HERE/kit/setup_blender_gui.sh" -s "$suite" && "prepare_$suite" "$folder" >"$folder/log.txt" 2>&1 &&
-        "$HERE/kit/run_in_gui.sh" -s "$suite" -g 1400x800 -d "$folder" "${OPTIONS[@]}" \
-            "$HERE/packages/$TEST" >>"$folder/log.txt" 2>&1
+    run_suite "$suite" "$folder" >"$folder/log.txt" 2>&1
     code=$?
-    rm -rf "$folder"/{first,newer} "$folder"/*.zip
+    rm -rf "$folder"/{first,newer,newer_zips} "$folder"/*.zip
     if [ $code = 0 ]; then
         echo "passed: packages on $suite, pictures in $folder"
     else

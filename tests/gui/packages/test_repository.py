@@ -10,17 +10,24 @@ import socket
 import struct
 import subprocess
 import sys
-import tomllib
 import urllib.request
 
 import bpy
 import guidrive as gui
-from preferences_area import WHERE, extensions, open_preferences, press, redraw, unpacked_wheels
+from preferences_area import (
+    WHERE,
+    cubify,
+    extensions,
+    open_preferences,
+    press,
+    redraw,
+    remove,
+    wait_installed,
+)
 
 PORT = 8642
 URL = f"http://localhost:{PORT}/index.json"
 MODULE = "studio"
-INSTALL_SECONDS = 240.0  # a hundred megabytes are loaded, checked and unpacked
 
 
 def loopback_up():
@@ -55,15 +62,6 @@ class Server:
         self.process.wait()
 
 
-def manifest():
-    path = extensions() / MODULE / "cubic_craft" / "blender_manifest.toml"
-    return tomllib.loads(path.read_text()) if path.exists() else {}
-
-
-def addon():
-    return f"bl_ext.{MODULE}.cubic_craft"
-
-
 def add_repository():
     """Add ours, and remove Blender's own, which cannot be reached here."""
     repos = bpy.context.preferences.extensions.repos
@@ -80,87 +78,52 @@ def add_repository():
 def synchronise():
     with gui.in_region(**WHERE):
         assert bpy.ops.extensions.repo_sync_all() == {"FINISHED"}
+    yield from gui.wait_until(lambda: not gui.running_operators(), what="the listing")
     yield from redraw()
 
 
 def install(version):
     """Click on Install or Update, and wait until Blender has done it."""
     yield from press("extensions.package_install")
-    yield from gui.wait_until(
-        lambda: manifest().get("version") == version
-        and addon() in bpy.context.preferences.addons
-        and not gui.running_operators(),
-        timeout=INSTALL_SECONDS,
-        what=f"version {version}",
-    )
-    assert {"taichi", "scipy", "cholespy", "pyamg"} <= unpacked_wheels(), unpacked_wheels()
-    assert "numpy" not in unpacked_wheels()
-    yield from redraw()
+    yield from wait_installed(MODULE, version)
 
 
-def cubify():
-    """Add a monkey and click on Cubify in the sidebar; Taichi must have done it."""
-    with gui.in_region():
-        bpy.ops.object.select_all(action="SELECT")
-        bpy.ops.object.delete()
-        bpy.ops.mesh.primitive_monkey_add()
-    yield from gui.open_sidebar("Cubic Craft")
-    button = yield from gui.find_button("cubic_craft.cubify")
-    yield from gui.click(button)
-    yield from gui.wait_until(
-        lambda: bpy.context.view_layer.objects.active.cubic_craft.status
-        and not gui.running_operators(),
-        timeout=120.0,
-        what="a cubic monkey",
-    )
-    status = bpy.context.view_layer.objects.active.cubic_craft.status
-    gui.log("status:", status)
-    assert "taichi-cpu" in status, status
+def use():
+    """Cubify with the Taichi that has been installed."""
+    yield from cubify("taichi-cpu")
     file = sys.modules["taichi"].__file__
     assert file.startswith(str(extensions())), file
-
-
-def remove():
-    repos = list(bpy.context.preferences.extensions.repos)
-    index = next(i for i, repo in enumerate(repos) if repo.module == MODULE)
-    with gui.in_region(**WHERE):
-        done = bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id="cubic_craft")
-    assert done == {"FINISHED"}
-    assert not manifest() and addon() not in bpy.context.preferences.addons
-    assert not {"taichi", "scipy"} & unpacked_wheels(), unpacked_wheels()
-    assert not hasattr(bpy.types.Object, "cubic_craft")
 
 
 def test():
     assert "taichi" not in sys.modules
     loopback_up()
     yield from open_preferences()
-    yield from gui.screenshot("1_before.png")
+    yield from gui.screenshot("repository_1_before.png")
     yield from press("extensions.userpref_allow_online")
     assert bpy.app.online_access
     server = Server("/share/first")
     yield from server.wait()
     add_repository()
     yield from synchronise()
-    yield from gui.screenshot("2_offered.png")
+    yield from gui.screenshot("repository_2_offered.png")
     yield from install(os.environ["FIRST_VERSION"])
-    yield from gui.screenshot("3_installed.png")
-    yield from cubify()
-    yield from gui.screenshot("4_cubified.png")
+    yield from gui.screenshot("repository_3_installed.png")
+    yield from use()
+    yield from gui.screenshot("repository_4_cubified.png")
     server.stop()
 
     server = Server("/share/newer")
     yield from server.wait()
     yield from synchronise()
-    yield from gui.screenshot("5_update_offered.png")
+    yield from gui.screenshot("repository_5_update_offered.png")
     yield from install(os.environ["NEWER_VERSION"])
-    yield from cubify()
-    yield from gui.screenshot("6_updated.png")
+    yield from use()
+    yield from gui.screenshot("repository_6_updated.png")
     server.stop()
 
-    remove()
-    yield from redraw()
-    yield from gui.screenshot("7_removed.png")
+    yield from remove(MODULE)
+    yield from gui.screenshot("repository_7_removed.png")
 
 
 gui.run(test)
