@@ -11,7 +11,6 @@ PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests
 ZIP := dist/cubic_craft.zip
-PACKAGING := $(VENV)/.packaging
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
 
@@ -29,7 +28,8 @@ $(VENV)/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.11 found, for which the bpy module is built;" \
 		"set it: make PYTHON=path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
-	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/blender-newest.txt
+	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/package.txt \
+		-r requirements/blender-newest.txt
 	@touch $@
 
 render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=options
@@ -41,7 +41,7 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 test: test-solver test-blender ## All tests that need no window
 
 test-solver: setup ## The solver, and what decides in Live, without Blender
-	$(PY) $(PYTEST) tests/solver tests/live tests/hostile
+	$(PY) $(PYTEST) tests/solver tests/live tests/hostile tests/packages
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
@@ -87,7 +87,7 @@ test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTI
 
 BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 
-test-package: $(PACKAGING) $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
+test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64
 	CUBIC_CRAFT_BARE_PYTHONS="$(BARE:=/bin/python)" \
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
@@ -112,18 +112,14 @@ build: $(ZIP) ## The extension as Blender installs it
 $(ZIP): $(VENV)/.done $(SOURCES)
 	$(PY) scripts/build_extension.py $@
 
-package: $(PACKAGING) $(ZIP) ## One zip for each platform that brings its wheels, in dist/packages
+package: setup $(ZIP) ## One zip for each platform that brings its wheels, in dist/packages
 	$(PY) scripts/package build $(ZIP) $(ARGS)
 
 repository: package ## Those as an extension repository for any web server, in dist/repository
 	$(PY) scripts/package repository dist/packages/*.zip
 
-lock: $(PACKAGING) ## Choose the wheels of the packages anew: requirements/wheels.lock
+lock: setup ## Choose the wheels of the packages anew: requirements/wheels.lock
 	$(PY) scripts/package lock
-
-$(PACKAGING): $(VENV)/.done
-	$(PY) $(PIP) -r requirements/package.txt
-	@touch $@
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt

@@ -88,4 +88,3 @@ def _complete(source, package, paths):
     bill = bill_of_materials(package, manifest, wheels, credits)
     (source / FILE_NAME).write_text(bill)
     return manifest
-

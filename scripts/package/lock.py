@@ -14,7 +14,7 @@ from .locked import LOCK, SOLVER
 from .targets import NUMPY_OF_BLENDER, PLATFORMS, PYTHONS
 
 _HEAD = """\
-# The wheels in the packages, written by `make lock`: one version each, as Blender installs one only.
+# The wheels in the packages, written by `make lock`. One version each: Blender installs one only.
 """
 
 

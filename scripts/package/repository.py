@@ -9,8 +9,8 @@ from build_extension import blender_tool
 def make_repository(zips, output):
     """Copy the zips into a folder and have Blender's tool write the listing and a page.
 
-    All addresses in the listing are relative, so that the folder can lie anywhere. The package
-    without wheels stays outside: it is for all platforms, and Blender would have two to choose from.
+    All addresses in the listing are relative, so that the folder can lie anywhere. The zip without
+    wheels does not belong there: it is for all platforms, and Blender would then find two.
     """
     shutil.rmtree(output, ignore_errors=True)
     output.mkdir(parents=True)

@@ -72,7 +72,7 @@ def credit(wheel):
 
 
 def copyright_lines(text):
-    """Return the copyrights of a text as the manifest takes them, "YEAR Name" or "YEAR-YEAR Name"."""
+    """Return the copyrights of a text as the manifest wants them: "YEAR Name", "YEAR-YEAR Name"."""
     found = []
     for years, holder in _COPYRIGHT.findall(text):
         numbers = re.findall(r"\d{4}", years)

@@ -4,6 +4,7 @@
 import hashlib
 import json
 import zipfile
+from io import BytesIO
 
 from packaging.requirements import Requirement
 
@@ -16,8 +17,6 @@ NEEDED = [Requirement("fast"), Requirement("plain>=1.0")]
 
 def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MIT",)):
     """Return the name and the bytes of a wheel."""
-    from io import BytesIO
-
     lines = ["Metadata-Version: 2.1", f"Name: {name}", f"Version: {version}", *fields]
     lines += [f"Requires-Dist: {text}" for text in requires]
     info = f"{name}-{version}.dist-info"
@@ -44,11 +43,10 @@ def good_wheels():
 
 def lock_of(wheels):
     """Return the lock with exactly these wheels."""
-    names = {name.split("-")[0] for name in wheels}
-    return {
-        name: ("1.0", {sha256(content) for file, content in wheels.items() if file.startswith(name)})
-        for name in names
-    }
+    locked = {}
+    for file, content in wheels.items():
+        locked.setdefault(file.split("-")[0], ("1.0", set()))[1].add(sha256(content))
+    return locked
 
 
 def sha256(content):

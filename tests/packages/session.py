@@ -113,5 +113,5 @@ def later(_archive):
 
 if __name__ == "__main__":
     {"first": first, "later": later}[sys.argv[1]](sys.argv[2])
-    print("done in", bpy.app.version_string, "with numpy", sys.modules["numpy"].__version__, flush=True)
+    print("done in", bpy.app.version_string, flush=True)
     os._exit(0)  # Blender 4.2 crashes while it is freed

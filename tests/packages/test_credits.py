@@ -36,7 +36,7 @@ def wheels():
         ("Copyright (c) 2010 Jo Doe", "2010 Jo Doe"),
         ("  Copyright 2001-2003, Doe, Inc.", "2001-2003 Doe, Inc."),
         (" * copyright (C) 2001, 2004 by Doe <doe@example.org>.", "2001-2004 Doe"),
-        ("Copyright © 2020 The Doe\n            Foundation. All rights reserved.", "2020 The Doe Foundation"),
+        ("Copyright © 2020 Doe and\n            Son. All rights reserved.", "2020 Doe and Son"),
     ],
 )
 def test_copyright_in_the_form_of_the_manifest(line, expected):
@@ -57,7 +57,7 @@ def test_the_licence_as_an_expression(fields, expected):
 
 
 def test_an_unknown_licence_is_an_error():
-    with pytest.raises(ValueError, match="licence of deep-1.0-py3-none-any.whl is not known"):
+    with pytest.raises(ValueError, match="licence of deep"):
         credit(read(*wheel("deep", "py3-none-any", fields=["License: mine"])))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's preferences beside the viewport, at the section of the extensions, and what is there."""
+"""What a user does with extensions in Blender's preferences, shown beside the viewport."""
 
 import sys
 import tomllib
@@ -60,9 +60,11 @@ def wait_installed(repository, version):
     """Wait until a version with its wheels is installed and enabled."""
     addon = f"bl_ext.{repository}.cubic_craft"
     yield from gui.wait_until(
-        lambda: manifest(repository).get("version") == version
-        and addon in bpy.context.preferences.addons
-        and not gui.running_operators(),
+        lambda: (
+            manifest(repository).get("version") == version
+            and addon in bpy.context.preferences.addons
+            and not gui.running_operators()
+        ),
         timeout=INSTALL_SECONDS,
         what=f"version {version}",
     )

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A package dropped on the window of a Blender without network and with nothing of ours.
 
-PACKAGE is its file, FIRST_VERSION its version. Used, disabled, enabled, removed, installed again, used.
+PACKAGE is its file, FIRST_VERSION its version. Used, disabled, enabled, removed, installed again.
 """
 
 import os

@@ -31,6 +31,7 @@ def test():
     yield 2.0
     yield from redraw()
     yield from gui.screenshot("2_refused.png")
+    yield from gui.keys("ESC")  # closes the report
     assert ADDON not in bpy.context.preferences.addons and not unpacked_wheels()
     text = refused()
     gui.log("the user reads:", text)
