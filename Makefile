@@ -93,7 +93,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
 
 test-package-gui: package ## Packages and repository in real Blender windows
-	tests/gui/packages.sh dist/packages $(ZIP)
+	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages $(ZIP)
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(PYTHON) -m venv $(VENV)-bare-$*

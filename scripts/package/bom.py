@@ -11,8 +11,6 @@ from packageurl import PackageURL
 
 from .wheel import requirement_name
 
-FILE_NAME = "sbom.cdx.json"
-
 
 def bill_of_materials(package, manifest, wheels, credits):
     """Return it as JSON text: the extension, each wheel with its hash, and what needs what.

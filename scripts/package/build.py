@@ -10,8 +10,8 @@ from pathlib import Path
 import tomlkit
 from build_extension import build
 
-from .bom import FILE_NAME, bill_of_materials
-from .check import check
+from .bom import bill_of_materials
+from .check import BILL, check
 from .fetch import fetch
 from .targets import SIZE_LIMIT_BYTES
 from .third_party import write_third_party
@@ -52,7 +52,7 @@ def build_platform(platform_package, plain, output, cache):
         manifest = _complete(source, platform_package, _wheel_paths(platform_package, cache))
         target = output / platform_package.file_name(manifest["version"])
         build(target, source)
-        shutil.copy(source / FILE_NAME, target.with_suffix(".cdx.json"))
+        shutil.copy(source / BILL, target.with_suffix(".cdx.json"))
     problems = check(target, platform_package)
     if problems:
         raise SystemExit("\n".join([f"{target.name} is not what it promises:", *problems]))
@@ -86,5 +86,5 @@ def _complete(source, package, paths):
     (source / MANIFEST).write_text(text)
     manifest = tomllib.loads(text)
     bill = bill_of_materials(package, manifest, wheels, credits)
-    (source / FILE_NAME).write_text(bill)
+    (source / BILL).write_text(bill)
     return manifest

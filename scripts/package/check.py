@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check what is in a package. Blender's own validator opens no wheel and misses all of this."""
 
+import json
 import tomllib
 import zipfile
 from pathlib import Path, PurePosixPath
@@ -9,6 +10,7 @@ from .locked import needed_by_solver, read_lock
 from .targets import NUMPY_OF_BLENDER, SIZE_LIMIT_BYTES, all_packages
 from .wheel import Wheel, requirement_name
 
+BILL = "sbom.cdx.json"  # the bill of materials
 FROM_BLENDER = "numpy"  # extensions share it with Blender, so none may bring one
 
 
@@ -40,12 +42,14 @@ def check(path, package=None, lock=None, needed=None, limit=SIZE_LIMIT_BYTES):
     with zipfile.ZipFile(path) as archive:
         manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
         names = archive.namelist()
+        bill = json.loads(archive.read(BILL)) if BILL in names else {}
         wheels = [
             Wheel.read(PurePosixPath(name).name, archive.open(name))
             for name in names
             if name.endswith(".whl")
         ]
     problems = _manifest_problems(manifest, package, names)
+    problems += _credit_problems(wheels, names, bill)
     problems += [p for wheel in wheels for p in _wheel_problems(wheel, package, lock)]
     used = set()
     for python in package.pythons:
@@ -82,9 +86,18 @@ def _manifest_problems(manifest, package, names):
     for field, value in expected.items():
         if manifest.get(field) != value:
             problems.append(f"its {field} is {manifest.get(field)}, not {value}")
-    for name in ("THIRD_PARTY.md", "sbom.cdx.json"):
-        if name not in names:
-            problems.append(f"{name} is missing")
+    return problems
+
+
+def _credit_problems(wheels, names, bill):
+    """Check that all that is bundled is credited and listed."""
+    problems = [f"{name} is missing" for name in ("THIRD_PARTY.md", BILL) if name not in names]
+    listed = {h["content"] for part in bill.get("components", []) for h in part["hashes"]}
+    for wheel in wheels:
+        if not any(name.startswith(f"licences/{wheel.name}/") for name in names):
+            problems.append(f"there is no licence text of {wheel.name}")
+        if bill and wheel.sha256 not in listed:
+            problems.append(f"{wheel.file_name} is not in {BILL}")
     return problems
 
 

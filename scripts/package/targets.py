@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from packaging import tags
 
-PYTHONS = ("3.11", "3.13")  # of Blender 4.2 to 5.0, and of 5.1 and 5.2
+PYTHONS = ("3.11", "3.13")  # of Blender 4.2 to 5.0, and from 5.1 on
 NEW_PYTHON_BLENDER = "5.1.0"  # the first with the second of them, where Blender brings Python
 
 # A wheel must work with each. Python 3.11: Blender 4.2, 4.4 to 5.0. Python 3.13: Debian 13, 5.1.

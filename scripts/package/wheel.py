@@ -65,7 +65,7 @@ class Wheel:
 
     @property
     def misplaced(self):
-        """Names of files that Blender before 4.5 would not put where Python finds them."""
+        """Names of files that older Blenders (4.3) do not put where Python finds them."""
         return [f for f in self.files if re.match(r"[^/]+\.data/(purelib|platlib)/", f)]
 
     def fits(self, platform, python):

@@ -1,20 +1,28 @@
 #!/bin/bash
 # Packages that bring their wheels, in Debian's Blenders: installed from an extension repository and
 # updated (4.3), and refused by a Python that is too new for them (5.2).
-#   packages.sh PACKAGES PLAIN.zip [OUTPUT [SUITE...]]
+#   packages.sh [--if-possible] PACKAGES PLAIN.zip [OUTPUT [SUITE...]]
 #     PACKAGES   folder of the packages (make package)
 #     PLAIN.zip  the extension without wheels (make build)
 #     OUTPUT     folder for screenshots and logs (default: build/packages in the project)
 #     SUITE      trixie, sid (default: both)
 # PYTHON is one with bpy (default: that of the project's .venv). Needs root on Debian, as run.sh does.
-# Exit codes: 0 all passed, 1 something failed, 2 wrong options.
+# --if-possible: where they cannot run, say so and succeed.
+# Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
 set -uo pipefail
 
 HERE=$(dirname "$(realpath "$0")")
 PROJECT=$(realpath "$HERE/../..")
+IF_POSSIBLE=''
+[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
 if [ $# -lt 2 ]; then
     sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0" >&2
     exit 2
+fi
+if [ "$(id -u)" != 0 ] || ! grep -qsx 'ID=debian' /etc/os-release; then
+    echo "window tests of the packages skipped: they need root on Debian"
+    [ -n "$IF_POSSIBLE" ]
+    exit $((2 * $?))
 fi
 PACKAGES=$(realpath -e "$1") || exit 2
 PLAIN=$(realpath -e "$2") || exit 2

@@ -53,8 +53,8 @@ def sha256(content):
     return hashlib.sha256(content).hexdigest()
 
 
-def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), **fields):
-    """Write a package with these wheels; the manifest may list others."""
+def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), bill=None, **fields):
+    """Write a package with these wheels; the manifest and the bill may list others."""
     listed = wheels if listed is None else listed
     manifest = {
         "id": "cubic_craft",
@@ -64,7 +64,10 @@ def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), **f
         "wheels": [f"./wheels/{name}" for name in listed],
         **fields,
     }
-    texts = {"THIRD_PARTY.md": "", "sbom.cdx.json": "{}"}
+    billed = wheels if bill is None else bill
+    parts = [{"hashes": [{"content": sha256(content)}]} for content in billed.values()]
+    texts = {"THIRD_PARTY.md": "", "sbom.cdx.json": json.dumps({"components": parts})}
+    texts |= {f"licences/{name.split('-')[0]}/LICENSE": "" for name in wheels}
     texts["blender_manifest.toml"] = "".join(
         f"{name} = {json.dumps(value)}\n" for name, value in manifest.items()
     )

@@ -153,6 +153,18 @@ def test_a_list_is_missing(problems, name):
     assert problems(good_wheels(), without=[name]) == [f"{name} is missing"]
 
 
+def test_a_wheel_that_is_not_in_the_bill(problems):
+    wheels = good_wheels()
+    bill = {name: content for name, content in wheels.items() if not name.startswith("deep")}
+    found = problems(wheels, bill=bill)
+    assert found == ["deep-1.0-py2.py3-none-any.whl is not in sbom.cdx.json"]
+
+
+def test_a_licence_text_is_missing(problems):
+    found = problems(good_wheels(), without=["licences/deep/LICENSE"])
+    assert found == ["there is no licence text of deep"]
+
+
 def test_half_a_package_must_say_for_which_blenders_it_is(tmp_path):
     windows = PLATFORMS["windows-x64"]
     wheels = dict([wheel("fast", "cp311-cp311-win_amd64"), wheel("plain", "py3-none-any")])

@@ -82,9 +82,11 @@ def synchronise():
     yield from redraw()
 
 
-def install(version):
+def install(version, picture):
     """Click on Install or Update, and wait until Blender has done it."""
-    yield from press("extensions.package_install")
+    button = yield from gui.find_button("extensions.package_install", **WHERE)
+    yield from gui.screenshot(picture)
+    yield from gui.click(button)
     yield from wait_installed(MODULE, version)
 
 
@@ -106,8 +108,8 @@ def test():
     yield from server.wait()
     add_repository()
     yield from synchronise()
-    yield from gui.screenshot("repository_2_offered.png")
-    yield from install(os.environ["FIRST_VERSION"])
+    yield from press("extensions.package_show_set")  # opens the entry, which shows the version
+    yield from install(os.environ["FIRST_VERSION"], "repository_2_offered.png")
     yield from gui.screenshot("repository_3_installed.png")
     yield from use()
     yield from gui.screenshot("repository_4_cubified.png")
@@ -116,8 +118,7 @@ def test():
     server = Server("/share/newer")
     yield from server.wait()
     yield from synchronise()
-    yield from gui.screenshot("repository_5_update_offered.png")
-    yield from install(os.environ["NEWER_VERSION"])
+    yield from install(os.environ["NEWER_VERSION"], "repository_5_update_offered.png")
     yield from use()
     yield from gui.screenshot("repository_6_updated.png")
     server.stop()
