@@ -73,12 +73,24 @@ def wait_installed(repository, version):
     yield from redraw()
 
 
-def remove(repository):
-    """Uninstall; nothing of it stays."""
+def entry(repository):
+    """Return what operators need to find our entry in the list."""
     repos = list(bpy.context.preferences.extensions.repos)
     index = next(i for i, repo in enumerate(repos) if repo.module == repository)
+    return {"repo_index": index, "pkg_id": "cubic_craft"}
+
+
+def open_entry(repository):
+    """Show the details of our entry: version, licence, copyright, ..."""
     with gui.in_region(**WHERE):
-        done = bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id="cubic_craft")
+        assert bpy.ops.extensions.package_show_set(**entry(repository)) == {"FINISHED"}
+    yield from redraw()
+
+
+def remove(repository):
+    """Uninstall; nothing of it stays."""
+    with gui.in_region(**WHERE):
+        done = bpy.ops.extensions.package_uninstall(**entry(repository))
     assert done == {"FINISHED"} and not manifest(repository)
     assert f"bl_ext.{repository}.cubic_craft" not in bpy.context.preferences.addons
     assert not {"taichi", "scipy"} & unpacked_wheels(), unpacked_wheels()

@@ -18,6 +18,7 @@ from preferences_area import (
     WHERE,
     cubify,
     extensions,
+    open_entry,
     open_preferences,
     press,
     redraw,
@@ -108,7 +109,7 @@ def test():
     yield from server.wait()
     add_repository()
     yield from synchronise()
-    yield from press("extensions.package_show_set")  # opens the entry, which shows the version
+    yield from open_entry(MODULE)
     yield from install(os.environ["FIRST_VERSION"], "repository_2_offered.png")
     yield from gui.screenshot("repository_3_installed.png")
     yield from use()
