@@ -66,9 +66,9 @@ def cubify_large():
     cubify(max_iterations=3)
 
 
-def check_imports():
-    """All that is used has been imported from the package's wheels."""
-    for name in BROUGHT[:-1]:
+def check_imports(*names):
+    """These have been imported, from the package's wheels; NumPy is Blender's."""
+    for name in names:
         file = sys.modules[name].__file__
         assert Path(file).is_relative_to(FOLDER), file
     assert not Path(sys.modules["numpy"].__file__).is_relative_to(FOLDER)
@@ -92,7 +92,7 @@ def first(archive):
     install(archive)
     cubify_monkey()
     cubify_large()
-    check_imports()
+    check_imports("taichi", "scipy", "cholespy", "pyamg", "fast_simplification")
     check(bpy.ops.preferences.addon_disable(module=NAME))
     assert not hasattr(bpy.types.Object, "cubic_craft")
     check(bpy.ops.preferences.addon_enable(module=NAME))
@@ -100,14 +100,13 @@ def first(archive):
     remove()
     install(archive)
     cubify_monkey()
-    check(bpy.ops.wm.save_userpref())
 
 
 def later(_archive):
-    bpy.ops.wm.read_userpref()  # which the module does not do by itself
-    assert NAME in bpy.context.preferences.addons
+    # Blender as a module does not read its preferences, and 4.2 crashes when told to.
+    check(bpy.ops.preferences.addon_enable(module=NAME))
     cubify_monkey()
-    check_imports()
+    check_imports("taichi", "scipy", "cholespy")
     remove()
 
 
