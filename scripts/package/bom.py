@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The software bill of materials of a package, in the form of CycloneDX."""
+# pyright: reportCallIssue=false
+# The decorators of the library hide the parameters of its classes.
 
 from cyclonedx.model import HashAlgorithm, HashType, Property
 from cyclonedx.model.bom import Bom

@@ -67,7 +67,7 @@ def cubify_large():
 
 
 def check_imports(*names):
-    """These have been imported, from the package's wheels; NumPy is Blender's."""
+    """Check that these have been imported from the package; NumPy is Blender's."""
     for name in names:
         file = sys.modules[name].__file__
         assert Path(file).is_relative_to(FOLDER), file
