@@ -243,8 +243,8 @@ def test_errors_in_kernels_keep_their_place_under_quick_compilation(tmp_path):
 
 @needs_taichi
 def test_the_first_result_needs_no_graph_search_of_scipy():
-    # Its import takes longer than the set-up of a small mesh. SciPy up to 1.15 imports it by itself,
-    # so it is forgotten before.
+    # Its import takes longer than the set-up of a small mesh. SciPy 1.15 imports it itself, so it
+    # is forgotten before.
     passes(
         """
         import scipy.sparse
