@@ -17,8 +17,8 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui test-walk lint typecheck build bench bench-quick bench-live docs-images clean \
-	has-py313
+	test-reliability test-gui test-walk test-package test-package-gui lint typecheck build package \
+	repository lock bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -29,7 +29,8 @@ $(VENV)/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.11 found, for which the bpy module is built;" \
 		"set it: make PYTHON=path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
-	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/blender-newest.txt
+	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/package.txt \
+		-r requirements/blender-newest.txt
 	@touch $@
 
 render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=options
@@ -40,8 +41,8 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 
 test: test-solver test-blender ## All tests that need no window
 
-test-solver: setup ## The solver, what decides in Live, and the documentation, without Blender
-	$(PY) $(PYTEST) tests/solver tests/live tests/hostile tests/docs
+test-solver: setup ## The solver, what decides in Live, packages, and the documentation, without Blender
+	$(PY) $(PYTEST) tests/solver tests/live tests/hostile tests/packages tests/docs
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
@@ -85,6 +86,21 @@ test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path fo
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
 	SEEDS="$(SEEDS)" ACTIONS="$(ACTIONS)" tests/gui/walks.sh $(ZIP)
 
+BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
+
+test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
+	$(PY) scripts/package build $(ZIP) --platforms linux-x64
+	CUBIC_CRAFT_BARE_PYTHONS="$(BARE:=/bin/python)" \
+		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
+
+test-package-gui: package ## Packages and repository in real Blender windows
+	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages $(ZIP)
+
+$(VENV)-bare-%/.done: requirements/blender-%.txt
+	$(PYTHON) -m venv $(VENV)-bare-$*
+	$(VENV)-bare-$*/bin/python $(PIP) -r $<
+	@touch $@
+
 lint: setup ## Style and formatting
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -96,6 +112,15 @@ build: $(ZIP) ## The extension as Blender installs it
 
 $(ZIP): $(VENV)/.done $(SOURCES)
 	$(PY) scripts/build_extension.py $@
+
+package: setup $(ZIP) ## One zip for each platform that brings its wheels, in dist/packages
+	$(PY) scripts/package build $(ZIP) $(ARGS)
+
+repository: package ## Those as an extension repository for any web server, in dist/repository
+	$(PY) scripts/package repository dist/packages/*.zip
+
+lock: setup ## Choose the wheels of the packages anew: requirements/wheels.lock
+	$(PY) scripts/package lock
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt

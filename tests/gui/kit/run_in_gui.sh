@@ -10,7 +10,7 @@
 #     -r DIR    folder shown as /test, read-only; SCRIPT must lie in it (default: SCRIPT's folder)
 #     -u DIR    keep Blender's user folder (preferences, extensions) in DIR (default: a new one)
 #     -n        keep the network (default: the run has none)
-#     -g, -t, -v, -x  as for run_with_blender.sh, which runs in the chroot
+#     -g, -o, -t, -v, -x  as for run_with_blender.sh, which runs in the chroot
 # Needs root. Exit codes: 0 passed, 1 failed; the others are listed in ../README.md.
 set -euo pipefail
 
@@ -64,7 +64,7 @@ enter() {
 }
 
 SUITE=trixie PYSITE='' SHARE='' TESTS='' USER_DIR='' NETWORK=--net EXTENSIONS=() OPTIONS=()
-while getopts s:e:pd:r:u:g:t:v:xnh option; do
+while getopts s:e:pd:r:u:g:t:v:oxnh option; do
     case $option in
         s) SUITE=$OPTARG ;;
         e) EXTENSIONS+=("$(realpath -e "$OPTARG")") || exit 2 ;;
@@ -73,7 +73,7 @@ while getopts s:e:pd:r:u:g:t:v:xnh option; do
         r) TESTS=$OPTARG ;;
         u) USER_DIR=$OPTARG ;;
         g | t | v) OPTIONS+=("-$option" "$OPTARG") ;;
-        x) OPTIONS+=(-x) ;;
+        o | x) OPTIONS+=("-$option") ;;
         n) NETWORK= ;;
         h) usage; exit 0 ;;
         *) usage >&2; exit 2 ;;

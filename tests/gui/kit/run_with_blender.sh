@@ -9,6 +9,7 @@
 #     -g WxH    size of Blender's window (default 1000x700)
 #     -t SECS   time limit for Blender (default 600)
 #     -v A=B    set this environment variable for Blender; may be given several times
+#     -o        let Blender go online, if its preferences do (default: its offline mode)
 #     -x        real X events (xdotool) in place of Blender's simulated ones; needs Xvfb
 # Environment: BLENDER is the executable (default: blender). Where neither DISPLAY nor
 # WAYLAND_DISPLAY is set, the window opens in an X server without a screen (Xvfb;
@@ -23,8 +24,8 @@ die() {
     exit 2
 }
 
-SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=600 REAL_EVENTS='' EXTENSIONS=()
-while getopts e:d:u:g:t:v:xh option; do
+SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=600 REAL_EVENTS='' OFFLINE=(--offline-mode) EXTENSIONS=()
+while getopts e:d:u:g:t:v:oxh option; do
     case $option in
         e) EXTENSIONS+=("$OPTARG") ;;
         d) SHARE=$OPTARG ;;
@@ -33,6 +34,7 @@ while getopts e:d:u:g:t:v:xh option; do
         t) LIMIT=$OPTARG ;;
         v) [[ $OPTARG == [A-Za-z_]*=* ]] || die "-v $OPTARG: not NAME=VALUE"
            export "${OPTARG?}" ;;
+        o) OFFLINE=() ;;
         x) REAL_EVENTS=1 ;;
         h) usage; exit 0 ;;
         *) usage >&2; exit 2 ;;
@@ -106,7 +108,7 @@ IMPORT_PATH='import os, sys
 script = sys.argv[sys.argv.index("--python") + 1]
 sys.path[:0] = [os.path.dirname(script), os.environ["GUIDRIVE_KIT"]]'
 GUIDRIVE_KIT=$KIT TMPDIR=$WORK/tmp timeout --foreground -k 10 "$LIMIT" "$BLENDER" "${EVENTS[@]}" \
-    -noaudio --offline-mode --window-geometry 0 0 "${SIZE%x*}" "${SIZE#*x}" \
+    -noaudio "${OFFLINE[@]}" --window-geometry 0 0 "${SIZE%x*}" "${SIZE#*x}" \
     --python-exit-code 97 --python-expr "$IMPORT_PATH" --python "$SCRIPT" -- "$@" 2>&1
 code=$?
 if [ $code -ge 128 ]; then

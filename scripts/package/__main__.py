@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Build the packages of the extension that bring the wheels it needs, check them, host them."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
+
+from package.check import check  # noqa: E402
+from package.targets import PLATFORMS, Package  # noqa: E402
+
+DIST = ROOT / "dist"
+CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "cubic_craft" / "wheels"
+
+
+def arguments():
+    """Return the parsed command line."""
+    parser = argparse.ArgumentParser(prog="package", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    build = commands.add_parser("build", help="build the zips, one or two for each platform")
+    build.add_argument("plain", type=Path, help="the extension without wheels")
+    build.add_argument("--platforms", nargs="+", choices=PLATFORMS, default=list(PLATFORMS))
+    build.add_argument("--output", type=Path, default=DIST / "packages")
+    build.add_argument("--cache", type=Path, default=CACHE, help="folder of the wheels")
+    checks = commands.add_parser("check", help="check zips that have been built")
+    checks.add_argument("zips", nargs="+", type=Path)
+    repository = commands.add_parser("repository", help="a folder for a web server")
+    repository.add_argument("zips", nargs="+", type=Path)
+    repository.add_argument("--output", type=Path, default=DIST / "repository")
+    commands.add_parser("lock", help="choose the wheels anew")
+    return parser.parse_args()
+
+
+def main():
+    """Do what the command line says."""
+    options = arguments()
+    if options.command == "lock":
+        from package.lock import write_lock
+
+        write_lock()
+    elif options.command == "check":
+        check_all(options.zips)
+    elif options.command == "repository":
+        from package.repository import make_repository
+
+        make_repository(options.zips, options.output)
+    else:
+        build_all(options)
+
+
+def build_all(options):
+    """Build and list the packages; what another run has left in the folder is removed."""
+    from package.build import build_platform
+
+    built = []
+    for name in options.platforms:
+        for stale in options.output.glob(f"cubic_craft-*-{name.replace('-', '_')}*"):
+            stale.unlink()
+        built += build_platform(
+            Package(PLATFORMS[name]), options.plain, options.output, options.cache
+        )
+    for path in built:
+        print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")
+
+
+def check_all(zips):
+    """Print the problems of all zips; ends with status 1 if there are any."""
+    found = {path: check(path) for path in zips}
+    for path, problems in found.items():
+        print("\n  ".join([f"{path.name}: {'wrong' if problems else 'good'}", *problems]))
+    raise SystemExit(any(found.values()))
+
+
+if __name__ == "__main__":
+    main()

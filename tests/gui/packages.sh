@@ -1,0 +1,79 @@
+#!/bin/bash
+# Packages that bring their wheels, in Debian's Blenders: installed from an extension repository and
+# updated (4.3), and refused by a Python that is too new for them (5.2).
+#   packages.sh [--if-possible] PACKAGES PLAIN.zip [OUTPUT [SUITE...]]
+#     PACKAGES   folder of the packages (make package)
+#     PLAIN.zip  the extension without wheels (make build)
+#     OUTPUT     folder for screenshots and logs (default: build/packages in the project)
+#     SUITE      trixie, sid (default: both)
+# PYTHON is one with bpy (default: that of the project's .venv). Needs root on Debian, as run.sh does.
+# --if-possible: where they cannot run, say so and succeed.
+# Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
+set -uo pipefail
+
+HERE=$(dirname "$(realpath "$0")")
+PROJECT=$(realpath "$HERE/../..")
+IF_POSSIBLE=''
+[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
+if [ $# -lt 2 ]; then
+    sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0" >&2
+    exit 2
+fi
+if [ "$(id -u)" != 0 ] || ! grep -qsx 'ID=debian' /etc/os-release; then
+    echo "window tests of the packages skipped: they need root on Debian"
+    [ -n "$IF_POSSIBLE" ]
+    exit $((2 * $?))
+fi
+PACKAGES=$(realpath -e "$1") || exit 2
+PLAIN=$(realpath -e "$2") || exit 2
+OUTPUT=${3:-$PROJECT/build/packages}
+shift $(($# < 3 ? $# : 3))
+read -ra SUITES <<<"${*:-trixie sid}"
+PYTHON=$(realpath -s "${PYTHON:-$PROJECT/.venv/bin/python}")
+
+# Two repositories, with all packages and with the next version of those for Linux; and a package.
+prepare_trixie() {
+    local newer=$1/newer_zips versions
+    versions=$("$PYTHON" "$PROJECT/tests/packages/newer.py" "$newer" "$PACKAGES"/*linux_x64*.zip)
+    "$PYTHON" "$PROJECT/scripts/package" repository "$PACKAGES"/*.zip --output "$1/first" &&
+        "$PYTHON" "$PROJECT/scripts/package" repository "$newer"/*.zip --output "$1/newer" || return 1
+    rm -rf "$newer"
+    OPTIONS=(-v "FIRST_VERSION=${versions% *}" -v "NEWER_VERSION=${versions#* }")
+    OPTIONS+=(-v "PACKAGE=/share/first/$(basename "$PACKAGE")")
+}
+
+prepare_sid() {
+    cp "$PACKAGE" "$PLAIN" "$1"
+    OPTIONS=(-v "PACKAGE=/share/$(basename "$PACKAGE")" -v "PLAIN=/share/$(basename "$PLAIN")")
+}
+
+# -o: the repository is on localhost; -p: with the SciPy of the set-up, but without it in trixie.
+run_suite() {
+    local suite=$1 folder=$2
+    "$HERE/kit/setup_blender_gui.sh" -s "$suite" && "prepare_$suite" "$folder" || return 1
+    local run=("$HERE/kit/run_in_gui.sh" -s "$suite" -g 1400x800 -d "$folder" "${OPTIONS[@]}")
+    case $suite in
+        trixie) "${run[@]}" -o "$HERE/packages/test_repository.py" &&
+            "${run[@]}" "$HERE/packages/test_from_disk.py" ;;
+        sid) "${run[@]}" -p "$HERE/packages/test_refused.py" ;;
+    esac
+}
+
+PACKAGE=$(ls "$PACKAGES"/*linux_x64*.zip | tail -n 1)  # of the newer Python, if there is one for each
+RESULT=0
+for suite in "${SUITES[@]}"; do
+    folder=$OUTPUT/$suite
+    rm -rf "$folder"
+    mkdir -p "$folder" || exit 2
+    run_suite "$suite" "$folder" >"$folder/log.txt" 2>&1
+    code=$?
+    rm -rf "$folder"/{first,newer,newer_zips} "$folder"/*.zip
+    if [ $code = 0 ]; then
+        echo "passed: packages on $suite, pictures in $folder"
+    else
+        cat "$folder/log.txt"
+        echo "failed: packages on $suite ($code), pictures in $folder"
+        RESULT=1
+    fi
+done
+exit $RESULT

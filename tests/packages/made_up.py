@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small wheels and packages of our own making, right or wrong in one point."""
+
+import hashlib
+import json
+import zipfile
+from io import BytesIO
+
+from packaging.requirements import Requirement
+
+from scripts.package.targets import PLATFORMS, Package
+
+LINUX = PLATFORMS["linux-x64"]
+PACKAGE = Package(LINUX)
+NEEDED = [Requirement("fast"), Requirement("plain>=1.0")]
+
+
+def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MIT",)):
+    """Return the name and the bytes of a wheel."""
+    lines = ["Metadata-Version: 2.1", f"Name: {name}", f"Version: {version}", *fields]
+    lines += [f"Requires-Dist: {text}" for text in requires]
+    info = f"{name}-{version}.dist-info"
+    content = BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr(f"{info}/METADATA", "\n".join(lines) + "\n\n")
+        archive.writestr(f"{info}/LICENSE", "MIT License\n\nCopyright (c) 2020-2026 The Makers\n")
+        for file in files:
+            archive.writestr(file, "")
+    return f"{name}-{version}-{tags}.whl", content.getvalue()
+
+
+def good_wheels():
+    """Return the wheels of a package for Linux with both Pythons, by name."""
+    return dict(
+        [
+            wheel("fast", "cp311-cp311-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
+            wheel("fast", "cp312-abi3-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
+            wheel("plain", "py3-none-any", requires=["deep~=1.0", "extra_only; extra == 'x'"]),
+            wheel("deep", "py2.py3-none-any"),
+        ]
+    )
+
+
+def lock_of(wheels):
+    """Return the lock with exactly these wheels."""
+    locked = {}
+    for file, content in wheels.items():
+        locked.setdefault(file.split("-")[0], ("1.0", set()))[1].add(sha256(content))
+    return locked
+
+
+def sha256(content):
+    return hashlib.sha256(content).hexdigest()
+
+
+def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), bill=None, **fields):
+    """Write a package with these wheels; the manifest and the bill may list others."""
+    listed = wheels if listed is None else listed
+    manifest = {
+        "id": "cubic_craft",
+        "version": "1.2.3",
+        "blender_version_min": "4.2.0",
+        "platforms": list(platforms),
+        "wheels": [f"./wheels/{name}" for name in listed],
+        **fields,
+    }
+    billed = wheels if bill is None else bill
+    parts = [{"hashes": [{"content": sha256(content)}]} for content in billed.values()]
+    texts = {"THIRD_PARTY.md": "", "sbom.cdx.json": json.dumps({"components": parts})}
+    texts |= {f"licences/{name.split('-')[0]}/LICENSE": "" for name in wheels}
+    texts["blender_manifest.toml"] = "".join(
+        f"{name} = {json.dumps(value)}\n" for name, value in manifest.items()
+    )
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in texts.items():
+            if name not in without:
+                archive.writestr(name, content)
+        for name, content in wheels.items():
+            archive.writestr(f"wheels/{name}", content)
+    return path
