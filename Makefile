@@ -9,8 +9,9 @@ PYTHON313 ?= $(call find_python,3.13)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
-# Whole files go to as many processes as there are cores, but not to so many that Blenders fill the memory.
-PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile
+# Whole files go to as many processes as there are cores, in the order given: the longest are named
+# first. Not more than four, as each Blender takes its memory.
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 ZIP := dist/cubic_craft.zip
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name '*.py')
@@ -42,7 +43,7 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 test: test-solver test-blender ## All tests that need no window
 
 test-solver: setup ## The solver, what decides in Live, packages, and the documentation, without Blender
-	$(PY) $(PYTEST) tests/solver tests/live tests/hostile tests/packages tests/docs
+	$(PY) $(PYTEST) tests/hostile tests/solver tests/live tests/packages tests/docs
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
