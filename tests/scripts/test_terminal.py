@@ -2,6 +2,7 @@
 """What a terminal shows: names as they are, and after Ctrl-C a cursor again."""
 
 import os
+import signal
 import sys
 import time
 
@@ -23,6 +24,8 @@ def in_terminal(*arguments, cwd, interrupt_at=None):
     process, terminal = pty.fork()
     if process == 0:
         os.chdir(cwd)
+        # A test run in the background may have it ignored, which children would inherit.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
         environment = os.environ | {"TERM": "xterm-256color", "COLUMNS": "200"}
         command = [sys.executable, str(SCRIPT), *map(str, arguments)]
         os.execve(sys.executable, command, environment)
