@@ -62,5 +62,7 @@ def _wait_for_end_of_input() -> None:
 def _end(code: int, words: bytes) -> None:
     for duty in _duties:
         duty()
-    os.write(terminal(), words)
+    last_words = os.dup(terminal())
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
+    os.write(last_words, words)
     os._exit(code)
