@@ -6,6 +6,7 @@ took, how long each change took to be seen, and how many iterations were done. B
 is not part of the ticks.
 """
 
+import importlib
 import json
 import os
 import pathlib
@@ -60,8 +61,9 @@ class Counter:
     """Counts the iterations of the extension's solver."""
 
     def __init__(self):
-        [name] = [name for name in sys.modules if name.endswith("cubic_craft.solver.stylization")]
-        solver = sys.modules[name].Stylization
+        # The extension imports it at its first use, which is later.
+        [package] = [name for name in sys.modules if name.endswith(".cubic_craft.solver")]
+        solver = importlib.import_module(f"{package}.stylization").Stylization
         self.iterations = 0
         self._global_step = solver.global_step
         solver.global_step = lambda stylization: self.count(stylization)
