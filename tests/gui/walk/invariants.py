@@ -30,6 +30,9 @@ _IN_LIVE = (
     ("frame_change_post", "_on_frame"),
     ("depsgraph_update_post", "_on_update"),
 )
+_OF_BLENDER = ("'NoneType' object has no attribute 'sculpt_capabilities'\n",)
+"""How errors end that happen without the extension: Debian's 4.3 has no brushes, which the menu of
+a right click in Sculpt Mode takes for granted."""
 
 
 class _Errors(logging.Handler):
@@ -56,7 +59,8 @@ class Invariants:
 
     def check(self, action):
         """Check everything after an action; AssertionError says what is wrong."""
-        assert not gui.python_errors, gui.python_errors[-1]
+        ours = [text for text in gui.python_errors if not text.endswith(_OF_BLENDER)]
+        assert not ours, ours[-1]
         assert not self._errors.texts, self._errors.texts[-1]
         self._check_handlers()
         self._check_timers()
