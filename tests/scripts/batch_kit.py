@@ -2,13 +2,11 @@
 
 import json
 import os
-import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
-from headless import SCRIPT, headless
+from headless import headless, start_headless
 
 CUBE = """o part
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
@@ -26,14 +24,7 @@ def batch(*arguments, cwd, options=MESHES):
 
 def start(*arguments, cwd, options=MESHES):
     """Start a batch into the folder ``out``."""
-    return subprocess.Popen(
-        [sys.executable, str(SCRIPT), *arguments, "--output-folder", "out", *options],
-        cwd=cwd,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
+    return start_headless(*arguments, "--output-folder", "out", *options, cwd=cwd)
 
 
 def children(process):

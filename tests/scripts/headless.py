@@ -1,6 +1,7 @@
 """Run the script as a user does, in a process of its own."""
 
 import pickle
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -18,6 +19,32 @@ def headless(*arguments, cwd):
         timeout=300,
         check=False,
     )
+
+
+def start_headless(*arguments, cwd, script=(str(SCRIPT),)):
+    """Start headless_render.py, or what stands in for it, and return the process."""
+    return subprocess.Popen(
+        [sys.executable, *script, *arguments],
+        cwd=cwd,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A test run in the background may have SIGINT ignored, which children would inherit.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
+def headless_refused(*arguments, words, cwd):
+    """Run headless_render.py, which must say these words in one line and leave all files alone."""
+    before = sorted(cwd.rglob("*"))
+    process = headless(*arguments, cwd=cwd)
+    assert process.returncode == 2, process.stderr
+    assert process.stdout == ""
+    lines = process.stderr.splitlines()
+    assert len(lines) == 1, process.stderr
+    for word in words:
+        assert word in lines[0]
+    assert sorted(cwd.rglob("*")) == before
 
 
 def headless_ok(*arguments, cwd):

@@ -6,12 +6,11 @@
 
 import os
 import signal
-import subprocess
 import sys
 import time
 
 import pytest
-from headless import SCRIPT, headless_ok
+from headless import SCRIPT, headless_ok, start_headless
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
@@ -31,15 +30,7 @@ PATIENCE = 120
 
 
 def start(folder, *arguments, script=(str(SCRIPT),)):
-    return subprocess.Popen(
-        [sys.executable, *script, *QUICK, *arguments],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        # A test run in the background may have SIGINT ignored, which children would inherit.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
+    return start_headless(*QUICK, *arguments, cwd=folder, script=script)
 
 
 def temporaries(folder):
