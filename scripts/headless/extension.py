@@ -25,13 +25,12 @@ class Extension:
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.settings = _room("cubic_craft_addon.settings")
         self.solver = _room("solver")
+        self._taichi_news = _room("cubic_craft_addon.taichi_news").taichi_news
         self.version = read_version(root)
 
     def notices(self) -> list[str]:
         """Return what there is to say about this machine after a run, one line each."""
-        if problem := self.solver.problem_with_taichi():
-            return [f"Taichi does not work here ({problem}): NumPy has computed, which is slower"]
-        return []
+        return self._taichi_news()
 
 
 @contextlib.contextmanager
