@@ -22,10 +22,12 @@ def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MI
     info = f"{name}-{version}.dist-info"
     content = BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
-        archive.writestr(f"{info}/METADATA", "\n".join(lines) + "\n\n")
-        archive.writestr(f"{info}/LICENSE", "MIT License\n\nCopyright (c) 2020-2026 The Makers\n")
-        for file in files:
-            archive.writestr(file, "")
+        texts = dict.fromkeys(files, "")
+        texts[f"{info}/METADATA"] = "\n".join(lines) + "\n\n"
+        texts[f"{info}/LICENSE"] = "MIT License\n\nCopyright (c) 2020-2026 The Makers\n"
+        for file, text in texts.items():
+            # The date of ZipInfo is fixed: that of a plain name is now, and changes the hash.
+            archive.writestr(zipfile.ZipInfo(file), text)
     return f"{name}-{version}-{tags}.whl", content.getvalue()
 
 
