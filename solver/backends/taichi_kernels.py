@@ -34,16 +34,12 @@ from .compile_time_algebra import (
     transposed_times,
     turn,
 )
+from .kernel_types import kernel_types
 
 
 def make_kernels(real):
     """Return the kernels `local_step` and `right_hand_side` for the type ti.f64 or ti.f32."""
-    vec3 = ti.types.vector(3, real)
-    mat3 = ti.types.matrix(3, 3, real)
-    scalars = ti.types.ndarray(dtype=real, ndim=1)
-    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
-    vectors = ti.types.ndarray(dtype=vec3, ndim=1)
-    matrices = ti.types.ndarray(dtype=mat3, ndim=1)
+    vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     tolerances = DOUBLE if real == ti.f64 else SINGLE
     angle, slack, aligned = tolerances.angle, tolerances.slack, tolerances.aligned
 

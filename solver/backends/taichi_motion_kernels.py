@@ -12,18 +12,15 @@ from types import SimpleNamespace
 
 import taichi as ti
 
+from .kernel_types import kernel_types
+
 
 def make_motion_kernels(real):
     """Return the kernels for the type ti.f64 or ti.f32."""
-    vec3 = ti.types.vector(3, real)
-    mat3 = ti.types.matrix(3, 3, real)
+    vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     vec4 = ti.types.vector(4, ti.f32)
-    scalars = ti.types.ndarray(dtype=real, ndim=1)
     singles = ti.types.ndarray(dtype=ti.f32, ndim=1)
-    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
-    vectors = ti.types.ndarray(dtype=vec3, ndim=1)
     vectors4 = ti.types.ndarray(dtype=vec4, ndim=1)
-    matrices = ti.types.ndarray(dtype=mat3, ndim=1)
 
     @ti.func
     def moved(point, correction, scale):

@@ -13,6 +13,8 @@ from types import SimpleNamespace
 import numpy as np
 import taichi as ti
 
+from .kernel_types import kernel_types
+
 
 class DeviceRows:
     """As `HostRows`.
@@ -48,12 +50,7 @@ class DeviceRows:
 @cache
 def _kernels(precision):
     real = ti.f64 if precision == "f64" else ti.f32
-    vec3 = ti.types.vector(3, real)
-    mat3 = ti.types.matrix(3, 3, real)
-    scalars = ti.types.ndarray(dtype=real, ndim=1)
-    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
-    vectors = ti.types.ndarray(dtype=vec3, ndim=1)
-    matrices = ti.types.ndarray(dtype=mat3, ndim=1)
+    vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
 
     @ti.kernel
     def take(
