@@ -35,12 +35,22 @@ def exponent(sizes, seconds):
     return float(power), float(np.exp(logarithm))
 
 
-def fit_of(cases):
-    """Return power and factor of the time to gap 1 %, or None twice if fewer than two are known."""
-    points = []
-    for case in cases:
-        if case["best"] is not None and FIT_FROM <= case["vertices"] <= FIT_TO:
-            seconds = summary.seconds_to_gap(case, "ours", FITTED_GAP)
-            if seconds is not None:
-                points.append((case["vertices"], seconds))
+def seconds_to_fitted_gap(case):
+    """Return the seconds of one size to gap 1 %, or None where that is not known."""
+    return summary.seconds_to_gap(case, "ours", FITTED_GAP) if case["best"] is not None else None
+
+
+def fit_of(cases, value=seconds_to_fitted_gap):
+    """Return power and factor of a value of each size, or None twice if fewer than two are known.
+
+    Parameters
+    ----------
+    cases : list of dict
+        The sizes of the scaling run; those from `FIT_FROM` to `FIT_TO` vertices count.
+    value : callable
+        Maps one of them to a positive number, or to None where it is not known.
+    """
+    fitted = [case for case in cases if FIT_FROM <= case["vertices"] <= FIT_TO]
+    points = [(case["vertices"], value(case)) for case in fitted]
+    points = [point for point in points if point[1] is not None]
     return exponent(*zip(*points, strict=True)) if len(points) > 1 else (None, None)
