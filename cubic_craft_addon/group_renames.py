@@ -5,6 +5,9 @@ Settings know a vertex group by its name, and Blender tells nobody what the old 
 names are compared after each update of an object: one that has changed while all others stayed in
 place is a rename. What is not clearly one is left alone, and the panel says what is missing.
 
+A group that has got the name of an attribute of ours gets another one first, before Blender acts
+on that (`mesh_bridge.set_groups_aside`).
+
 The names are kept in memory only. Renames are remembered, because an undo may bring the old name
 back into the settings: Blender has saved the step before we could follow.
 """
@@ -12,6 +15,7 @@ back into the settings: Blender has saved the step before we could follow.
 import bpy
 from bpy.app.handlers import persistent
 
+from . import mesh_bridge
 from .object_properties import has_properties, object_properties
 
 _names: dict[str, tuple[str, ...]] = {}
@@ -24,7 +28,7 @@ _renames: dict[str, dict[str, str]] = {}
 def _follow_updates(_scene, depsgraph):
     for update in depsgraph.updates:
         if isinstance(update.id, bpy.types.Object) and update.id.type == "MESH":
-            _follow(update.id.original)
+            _look_at(update.id.original)
 
 
 @persistent
@@ -33,7 +37,12 @@ def _start_anew(*_):
     _renames.clear()
     for obj in bpy.data.objects:
         if obj.type == "MESH":
-            _follow(obj)
+            _look_at(obj)
+
+
+def _look_at(obj):
+    mesh_bridge.set_groups_aside(obj)
+    _follow(obj)
 
 
 def _follow(obj):

@@ -7,6 +7,7 @@ Restore and Apply remove without a trace.
 """
 
 from .checks import check_editable, check_usable, mesh_of
+from .group_names import set_groups_aside
 from .new_object import write_new_object
 from .original import has_original, original_positions, read_positions
 from .preview import Preview
@@ -31,6 +32,7 @@ __all__ = (
     "original_positions",
     "read_positions",
     "restore",
+    "set_groups_aside",
     "triangles",
     "write_mesh",
     "write_new_object",

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...solver.errors import CubicCraftError
 from .arrays import check_fits, read_key, read_position
+from .attributes import check_names
 from .note import check_note
 
 
@@ -28,7 +29,8 @@ def check_usable(obj: bpy.types.Object) -> None:
     ------
     CubicCraftError
         Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
-        vertices, no faces, shape keys that do not fit, or a property in the way of our note.
+        vertices, no faces, shape keys that do not fit, or something in the way of our note or
+        attributes.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -46,6 +48,7 @@ def check_usable(obj: bpy.types.Object) -> None:
     for key in mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ():
         check_fits(mesh, key)
     check_note(mesh)
+    check_names(mesh)
 
 
 def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:

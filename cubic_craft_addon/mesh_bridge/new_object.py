@@ -6,6 +6,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
+from .attributes import check_names
 from .checks import check_writable, mesh_of
 from .note import check_note
 from .results import write_mesh
@@ -42,6 +43,7 @@ def write_new_object(
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
     check_note(mesh)
+    check_names(mesh)
     new_mesh, new = mesh.copy(), obj.copy()
     assert new_mesh is not None and new is not None
     try:

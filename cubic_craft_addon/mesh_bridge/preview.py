@@ -12,7 +12,7 @@ import numpy as np
 
 from ...solver.errors import CubicCraftError
 from .arrays import loose_vertices
-from .attributes import LIVE
+from .attributes import LIVE, check_names
 from .checks import check_writable
 from .cubic_key import find_cubic_key
 from .note import check_note, read_note
@@ -37,11 +37,12 @@ class Preview:
         Raises
         ------
         CubicCraftError
-            A mesh that cannot be written, or a property in the way of our note; the mesh is then
-            as it was before.
+            A mesh that cannot be written, or something in the way of our note or attributes; the
+            mesh is then as it was before.
         """
         check_writable(mesh, mesh.name)
         check_note(mesh)
+        check_names(mesh)
         end_preview(mesh)
         cubic_key = find_cubic_key(mesh)
         self._cubic_key = cubic_key.name if cubic_key is not None else None

@@ -19,14 +19,15 @@ from .preview_store import (
     shapes_before,
     write_live_part,
 )
-from .shapes import read_shapes, write_shapes
+from .shapes import Shapes, read_shapes, write_shapes
 
 _ended_in_edit_mode: dict[str, dict[str, Any]] = {}
 """parts "live" of the note by the fingerprint of what was shown
 
-The undo steps of Edit Mode hold positions and attributes, but not the note. Entering Edit Mode
-pushes one with the preview still on; an undo to that brings all of the preview back but its part
-of the note. Like the undo steps, this lasts until Blender ends.
+Ended in Edit Mode, a preview is no longer in the note, but still in the mesh outside, and in the
+undo steps of Edit Mode: entering it pushes one with the preview still on. An undo to such a step,
+or out of Edit Mode, may bring all of the preview back but its part of the note. Like the undo
+steps, this lasts until Blender ends.
 """
 
 
@@ -48,18 +49,17 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
         return False
     edited = EditedMesh(mesh) if mesh.is_editmode else None
-    part = read_note(mesh).get("live") or (edited and _part_of_undone(edited))
+    try:
+        present = edited.read_shapes() if edited else read_shapes(mesh)
+    except CubicCraftError:  # a script has left shape keys that do not fit: not what we showed
+        present = None
+    part = read_note(mesh).get("live") or _part_of_undone(present)
     if not part:
         return False
     if edited and part["fingerprint"]:
         _ended_in_edit_mode[part["fingerprint"]] = part
-    try:
-        present = edited.read_shapes() if edited else read_shapes(mesh)
-    except CubicCraftError:  # a script has left shape keys that do not fit: not what we showed
-        before = None
-    else:
-        read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
-        before = shapes_before(present, part, read)
+    read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
+    before = shapes_before(present, part, read) if present is not None else None
     if before is not None:
         write_live_part(mesh, marked(part, None))
         if edited:
@@ -84,14 +84,12 @@ def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str
 
 
 def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether an undo in Edit Mode may have brought back a preview without its note."""
-    return mesh.is_editmode and bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
+    """Tell whether an undo may have brought back a preview without its note."""
+    return bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
 
 
-def _part_of_undone(edited: EditedMesh) -> dict[str, Any] | None:
+def _part_of_undone(present: Shapes | None) -> dict[str, Any] | None:
     """Find the part of the note by the shape that is there; None where we have not shown it."""
-    try:
-        base = edited.read_shapes().base
-    except CubicCraftError:
+    if present is None:
         return None
-    return _ended_in_edit_mode.get(fingerprint_of_values(base))
+    return _ended_in_edit_mode.get(fingerprint_of_values(present.base))

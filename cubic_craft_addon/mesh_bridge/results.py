@@ -10,6 +10,7 @@ import numpy as np
 
 from ...solver.errors import CubicCraftError
 from .arrays import loose_vertices, mark_moved
+from .attributes import check_names
 from .checks import check_writable, mesh_of
 from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .original import drop_stored, original_shapes, store_original, stored_result
@@ -32,10 +33,11 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
     Raises
     ------
     CubicCraftError
-        Wrong number of vertices, values that are not finite, or a mesh that cannot be written.
-        The mesh is then as it was before.
+        Wrong number of vertices, values that are not finite, a mesh that cannot be written, or
+        something in the way of our note or attributes. The mesh is then as it was before.
     """
     check_writable(mesh, mesh.name)
+    check_names(mesh)
     end_preview(mesh)
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh)

@@ -65,6 +65,26 @@ def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
     check_gone(live)
 
 
+def test_a_step_of_live_comes_back_sound_out_of_edit_mode(live, begin):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    original = bits(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    bpy.ops.ed.undo_push(message="Select")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    session.tick(bpy.context)
+    assert session.is_ended
+    # The mesh has not changed from step to step, so Blender keeps the one that it has: with the
+    # preview, as Edit Mode works on a copy, but without the note, of which there is no copy.
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Suzanne"]
+    assert obj.mode == "OBJECT"
+    assert bits(obj) == original
+    check_gone(live)
+
+
 def test_undo_of_the_object_ends_it(live, begin):
     bpy.ops.ed.undo_push(message="Empty")
     obj = add_monkey()

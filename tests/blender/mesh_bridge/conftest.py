@@ -19,6 +19,13 @@ def no_healing(extension):
     healing.register()
 
 
+@pytest.fixture(autouse=True)
+def no_memory(extension, monkeypatch):
+    """Forget the previews that other tests have ended in Edit Mode, of the same shapes."""
+    name = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.preview_end"
+    monkeypatch.setattr(importlib.import_module(name), "_ended_in_edit_mode", {})
+
+
 @pytest.fixture
 def error(extension):
     return importlib.import_module(f"{extension.__name__}.solver.errors").CubicCraftError

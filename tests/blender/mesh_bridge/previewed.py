@@ -32,7 +32,8 @@ def show_some(bridge: Any, mesh: Any, seeds: Any = (1, 2)) -> Any:
 
 def live_attributes(mesh: Any) -> list[str]:
     """List what a preview has left on a mesh."""
-    return [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_live")]
+    points = [a.name for a in mesh.attributes if a.domain == "POINT"]
+    return [name for name in points if name.startswith("cubic_craft_live")]
 
 
 def mesh_named(name: str) -> Any:

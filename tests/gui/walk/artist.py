@@ -23,6 +23,9 @@ _PRIMITIVES = (
     ("mesh.primitive_grid_add", {"x_subdivisions": 6, "y_subdivisions": 6}),
 )
 
+# Attributes of ours are called so, and vertex groups may be, too.
+_NAMES_OF_OURS = ("cubic_craft_original", "cubic_craft_rotation", "cubic_craft_live")
+
 
 def _small(rng):
     return tuple(round(rng.uniform(-0.4, 0.4), 3) for _ in range(3))
@@ -178,7 +181,7 @@ def vertex_groups(rng):
         return call("object.vertex_group_remove")
     group = obj.vertex_groups[rng.randrange(len(obj.vertex_groups))]
     if kind == "rename":
-        group.name = rng.choice(["Handle", "Ear", "Eye", "cubic_craft_original"])
+        group.name = rng.choice(["Handle", "Ear", *_NAMES_OF_OURS])
     elif obj.mode == "EDIT":
         return call("object.vertex_group_assign")
     else:

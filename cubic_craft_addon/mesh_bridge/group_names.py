@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertex groups that are called as attributes of ours are.
+
+To Blender they are attributes of one name. Blender 5.2 keeps only the group when it writes a mesh
+back on leaving Edit Mode, or joins meshes, and drops our attribute with the original.
+"""
+
+import itertools
+
+import bpy
+
+from .attributes import is_our_name, our_attributes
+from .checks import is_linked
+
+
+def set_groups_aside(obj: bpy.types.Object) -> None:
+    """Give vertex groups on a mesh with attributes of ours a number, if they are called so.
+
+    It does what Blender does with attributes of the same name. Works in Edit Mode, too. Cheap: it
+    may be called after each update of the object.
+
+    Parameters
+    ----------
+    obj : an object with a mesh
+    """
+    clashing = [group for group in obj.vertex_groups if is_our_name(group.name)]
+    mesh = obj.data
+    if not clashing or not isinstance(mesh, bpy.types.Mesh) or is_linked(mesh):
+        return
+    if not our_attributes(mesh):
+        return
+    for group in clashing:
+        taken = {*obj.vertex_groups.keys(), *mesh.attributes.keys()}
+        names = (f"{group.name}.{number:03}" for number in itertools.count(1))
+        group.name = next(name for name in names if name not in taken)
