@@ -8,7 +8,8 @@ import threading
 from pathlib import Path
 
 import pytest
-from batch_kit import CUBE, PATIENCE
+from batch_kit import CUBE
+from headless import PATIENCE
 
 from scripts.headless.arguments import as_arguments, parse
 from scripts.headless.batch.plan import FORWARDED, plan
