@@ -149,7 +149,8 @@ def test_killed_at_any_moment(tmp_path):
         time.sleep(length * (number + 0.5) / count)
         process.send_signal(SIGNALS[number % 3])
         _, errors = process.communicate(timeout=PATIENCE)
-        assert "Traceback" not in errors
+        # Before the script has its own answer to Ctrl-C, that of Python is this one.
+        assert "Traceback" not in errors or errors.endswith("KeyboardInterrupt\n"), errors
         for path in outputs:
             content = path.read_bytes()
             end = {".png": b"IEND\xaeB`\x82", ".json": b"}\n", ".obj": b"\n"}[path.suffix]
