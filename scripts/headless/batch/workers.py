@@ -67,7 +67,7 @@ class Workers:
         return process.returncode, words
 
     def end(self) -> None:
-        """End all that run and wait until they are gone; those started after it end by themselves."""
+        """End all that run and wait until they are gone; later ones end by themselves."""
         with self._starting:  # or one that is being started would be left behind
             self._is_ending = True
             os.close(self._lifeline)
