@@ -92,7 +92,8 @@ def write_third_party(folder, wheels):
         for name, text in credit(wheel).texts.items():
             target = folder / "licences" / wheel.name / name
             if target.exists() and target.read_text() != text:  # the wheels bundle other libraries
-                target = target.with_stem(f"{target.stem}-{next(iter(wheel.tags)).interpreter}")
+                first = min(tag.interpreter for tag in wheel.tags)
+                target = target.with_stem(f"{target.stem}-{first}")
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text)
     for entry in credits.values():

@@ -65,6 +65,12 @@ def live(extension):
 
 
 @pytest.fixture
+def one_phase(live, monkeypatch):
+    """Let a tick end after one phase of the solver: else a fast machine does all in the first."""
+    monkeypatch.setattr(f"{live.__name__}.session.SLICE", 0.0)
+
+
+@pytest.fixture
 def begin(live):
     """Return a function that begins Live on objects, the first with these settings."""
 

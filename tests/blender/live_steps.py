@@ -24,6 +24,15 @@ def tick_to_rest(session):
     raise AssertionError("Live does not come to rest")
 
 
+def tick_to_sight(session):
+    """Tick until all runs are seen, which takes more ticks the slower the machine is."""
+    for _ in range(STEPS):
+        session.tick(bpy.context)
+        if all(mesh.is_seen for mesh in session.meshes):
+            return
+    raise AssertionError("Live shows nothing")
+
+
 def confirm(live, session):
     session.on(live.Event.CONFIRM)
     tick_to_rest(session)

@@ -5,7 +5,7 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest
+from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from scene import add_monkey, select
 
 
@@ -14,7 +14,7 @@ from scene import add_monkey, select
 def test_deleting_the_object_ends_it(live, begin, how, is_at_rest):
     obj = add_monkey()
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     if is_at_rest:
         tick_to_rest(session)
     if how == "operator":
@@ -33,7 +33,7 @@ def test_deleting_one_of_two_goes_on_with_the_other(live, begin):
     original = bits(a)
     session = begin(a, b)
     mesh = b.data
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.data.objects.remove(b)
     session.tick(bpy.context)
     assert not session.is_ended
@@ -46,7 +46,7 @@ def test_deleting_one_of_two_goes_on_with_the_other(live, begin):
 def test_renaming_does_not_matter(live, begin):
     obj = add_monkey()
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     obj.name, obj.data.name = "Other", "Mesh"
     confirm(live, session)
     assert session.summary
@@ -56,7 +56,7 @@ def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
     obj = add_monkey()
     old, original = obj.data, bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     obj.data = bpy.data.meshes.new("Another")
     session.tick(bpy.context)
     assert session.is_ended
@@ -70,7 +70,7 @@ def test_another_mode_cancels_it(live, begin, mode):
     obj = add_monkey()
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.ops.object.mode_set(mode=mode)
     session.tick(bpy.context)
     assert session.is_ended and not session.error
@@ -115,7 +115,7 @@ def test_disabling_the_extension_ends_it(live, begin, extension):
     obj = add_monkey()
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     try:
         assert session.is_ended and bits(obj) == original
@@ -127,12 +127,12 @@ def test_disabling_the_extension_ends_it(live, begin, extension):
 @pytest.mark.parametrize("error", [RuntimeError("broken"), MemoryError("no memory")])
 @pytest.mark.parametrize("phase", ["local_step", "global_step", "finish", "placed_positions"])
 def test_an_exception_in_the_solver_loses_nothing(
-    live, begin, extension, monkeypatch, caplog, phase, error
+    live, begin, one_phase, extension, monkeypatch, caplog, phase, error
 ):
     obj = add_monkey()
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     solver = importlib.import_module(f"{extension.__name__}.solver")
 
     def fail(*_args, **_options):
@@ -146,10 +146,12 @@ def test_an_exception_in_the_solver_loses_nothing(
     check_gone(live)
 
 
-def test_a_run_that_is_lost_on_the_gpu_can_be_started_again(live, begin, extension, monkeypatch):
+def test_a_run_that_is_lost_on_the_gpu_can_be_started_again(
+    live, begin, one_phase, extension, monkeypatch
+):
     obj = add_monkey()
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     solver = importlib.import_module(f"{extension.__name__}.solver")
 
     def fail(*_args):
@@ -183,11 +185,11 @@ def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkey
     check_gone(live)
 
 
-def test_another_add_on_that_resets_taichi_does_no_harm(live, begin):
+def test_another_add_on_that_resets_taichi_does_no_harm(live, begin, one_phase):
     ti = pytest.importorskip("taichi")
     twin, obj = add_monkey("Twin"), add_monkey()
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     ti.init(arch=ti.cpu, default_fp=ti.f32, log_level=ti.WARN)
     session.tick(bpy.context)
     ti.reset()

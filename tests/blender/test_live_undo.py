@@ -3,7 +3,7 @@
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest
+from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from mathutils import Matrix
 from scene import add_monkey, add_triangles, select
 
@@ -15,7 +15,7 @@ def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
     bpy.ops.ed.undo_push(message="Moved")
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     assert bits(obj) != original
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Suzanne"]
@@ -33,7 +33,7 @@ def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
     bpy.ops.ed.undo_push(message="Monkey")
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.data.objects["Suzanne"].location.x = 1.0
     bpy.ops.ed.undo_push(message="Moved in the middle of Live")
     session.tick(bpy.context)
@@ -51,7 +51,7 @@ def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
     bpy.ops.ed.undo_push(message="Monkey")
     original = bits(obj)
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.ops.object.mode_set(mode="EDIT")
     # It holds the preview, and the attributes, but not the note: that is Edit Mode's way.
     bpy.ops.ed.undo_push(message="Toggle Edit Mode")
@@ -90,7 +90,7 @@ def test_undo_of_the_object_ends_it(live, begin):
     obj = add_monkey()
     bpy.ops.ed.undo_push(message="Monkey")
     session = begin(obj)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     bpy.ops.ed.undo()
     assert "Suzanne" not in bpy.data.objects
     session.tick(bpy.context)
@@ -119,7 +119,7 @@ def test_taking_back_goes_through_the_settings_first(live, begin):
     obj = add_monkey()
     original = bits(obj)
     session = begin(obj, cubeness=0.4)
-    session.tick(bpy.context)
+    tick_to_sight(session)
     live.live_properties().cubeness = 0.9
     session.tick(bpy.context)
     assert session.take_back()
@@ -133,7 +133,7 @@ def test_taking_back_goes_through_the_settings_first(live, begin):
 def test_taking_back_leaves_moved_objects_to_blender(live, begin):
     obj = add_monkey()
     session = begin(obj, space="WORLD")
-    session.tick(bpy.context)
+    tick_to_sight(session)
     obj.rotation_euler.x = 0.5
     bpy.context.view_layer.update()
     session.tick(bpy.context)

@@ -72,8 +72,8 @@ def start_live():
     name = bpy.context.view_layer.objects.active.name
     before = positions(name)
     yield from gui.click((yield from button("cubic_craft.live")))
-    yield from gui.wait_until(lambda: live().current(), timeout=120.0, what="Live")
-    yield from gui.wait_until(lambda: positions(name) != before, timeout=120.0, what="a change")
+    yield from gui.wait_until(lambda: live().current(), what="Live")
+    yield from gui.wait_until(lambda: positions(name) != before, what="a change")
 
 
 def press(*keys):
@@ -88,7 +88,7 @@ def is_idle():
 
 
 def wait_idle():
-    yield from gui.wait_until(is_idle, timeout=120.0, what="the end of the computing")
+    yield from gui.wait_until(is_idle, what="the end of the computing")
 
 
 def is_over():
@@ -96,7 +96,7 @@ def is_over():
 
 
 def wait_over():
-    yield from gui.wait_until(is_over, timeout=120.0, what="the end of Live")
+    yield from gui.wait_until(is_over, what="the end of Live")
     check_clean()
 
 
@@ -118,12 +118,12 @@ def end_by(*keys):
 def wait_settled():
     """Wait until Live has nothing left to compute, or has ended."""
     yield
-    yield from gui.wait_until(lambda: is_over() or is_idle(), timeout=120.0, what="rest")
+    yield from gui.wait_until(lambda: is_over() or is_idle(), what="rest")
 
 
 def wait_idle_with(changed, what):
     """Wait until a condition holds and Live has done all that there is to compute."""
-    yield from gui.wait_until(changed, timeout=60.0, what=what)
+    yield from gui.wait_until(changed, what=what)
     yield from wait_idle()
 
 

@@ -34,7 +34,7 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     button = yield from gui.find_button("cubic_craft.auto_orient")
     yield from gui.click(button)
-    yield from gui.wait_until(lambda: any(orientation()), timeout=60.0, what="an orientation")
+    yield from gui.wait_until(lambda: any(orientation()), what="an orientation")
     assert max(abs(a - b) for a, b in zip(orientation(), TURN, strict=True)) < 1e-3
     before = pixels((yield from gui.screenshot("oriented.png")))
     switch = yield from gui.find_button("cubic_craft_overlay")

@@ -12,7 +12,6 @@ import numpy as np
 
 NAME = "Suzanne"  # of the monkey and of its mesh
 SETTINGS = "cubic_craft"  # the property of objects
-SOLVE_SECONDS = 120.0  # far above a solve: Taichi also compiles in the first
 
 
 def cubic_craft():
@@ -53,7 +52,6 @@ def cubify(previous):
     yield from gui.click(button)
     yield from gui.wait_until(
         lambda: not is_bitwise(positions(), previous) and not gui.running_operators(),
-        timeout=SOLVE_SECONDS,
         what="a new shape",
     )
     result = positions()

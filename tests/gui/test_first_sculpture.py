@@ -33,7 +33,7 @@ def test():
     yield from gui.screenshot("first_1_panel.png")
 
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
-    yield from gui.wait_until(lambda: scene.positions() != original, timeout=120.0, what="Cubify")
+    yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")
     assert scene.settings().status
     yield from gui.screenshot("first_2_cubify.png")
 
@@ -47,10 +47,8 @@ def test():
     yield from gui.click((yield from gui.find_button("cubic_craft_overlay")))
     turn = yield from gui.find_button("cubic_craft_live.orientation[2]")
     yield from gui.enter_value(turn, 30)
-    yield from gui.wait_until(lambda: not scene.is_idle(), what="the restart")
-    yield from scene.wait_idle()
+    yield from scene.wait_idle_with(lambda: scene.positions() != strong, "the turned shape")
     yield from gui.screenshot("first_4_orientation.png")
-    assert scene.positions() != strong
 
     yield from scene.press("RET")
     yield from gui.wait_until(scene.is_over, what="the end")

@@ -60,7 +60,6 @@ def cubify(previous):
     yield from click("cubic_craft.cubify")
     yield from gui.wait_until(
         lambda: (positions() != previous).any() and not gui.running_operators(),
-        timeout=120.0,
         what="a new shape",
     )
     return positions()

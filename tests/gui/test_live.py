@@ -34,7 +34,7 @@ def test():
     scene.settings().cubeness = cubeness
     button = yield from gui.find_button("cubic_craft.cubify")
     yield from gui.click(button)
-    yield from gui.wait_until(lambda: scene.positions() != before, timeout=120, what="Cubify")
+    yield from gui.wait_until(lambda: scene.positions() != before, what="Cubify")
     assert scene.positions() == confirmed, "Live leaves other bits than Cubify"
 
     yield from scene.start_live()

@@ -53,7 +53,7 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     assert bpy.context.view_layer.objects.active.name == EMPTY
     yield from gui.click((yield from gui.find_button("cubic_craft.live")))
-    yield from gui.wait_until(lambda: scene.live().current(), timeout=120.0, what="Live")
+    yield from gui.wait_until(lambda: scene.live().current(), what="Live")
     yield from scene.wait_idle()
     at_rest = array()
     np.testing.assert_array_equal(at_rest[ear], original[ear])
@@ -72,7 +72,7 @@ def test():
 
     yield from lift()
     yield from scene.press("RET")
-    yield from gui.wait_until(scene.is_over, timeout=120.0, what="the end")
+    yield from gui.wait_until(scene.is_over, what="the end")
     scene.check_clean()
     confirmed = scene.positions()
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))

@@ -100,6 +100,7 @@ def does_not_cancel(original):
     yield from gui.keys("ESC")
     for _ in range(5):
         yield
+    yield from scene.wait_settled()
     assert scene.is_idle()
 
     # So is typing into the field of a menu: F3 searches, Esc closes it.
@@ -113,6 +114,7 @@ def does_not_cancel(original):
         yield from gui.keys("ESC")
     for _ in range(5):
         yield
+    yield from scene.wait_settled()
     assert scene.is_idle(), "Esc has closed more than the search"
     yield from scene.end_by("RET")
     assert scene.positions() == shape

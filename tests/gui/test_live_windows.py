@@ -102,7 +102,7 @@ def confirmed_there(original):
     window = yield from open_window()
     yield from start_in(window)
     yield from gui.click((yield from scene.button("cubic_craft.live")))
-    yield from gui.wait_until(lambda: not operators(), timeout=60.0, what="the end of Live")
+    yield from gui.wait_until(lambda: not operators(), what="the end of Live")
     scene.check_clean()
     yield from close(window)
     scene.check_bits_of_cubify()

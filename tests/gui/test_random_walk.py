@@ -22,4 +22,4 @@ def test():
     yield from gui.screenshot("end.png")
 
 
-gui.run(test, timeout=540.0 + 4.0 * ACTIONS)
+gui.run(test, timeout=660.0 + 9.0 * ACTIONS)

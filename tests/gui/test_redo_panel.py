@@ -31,7 +31,7 @@ def cubify():
     button = yield from gui.find_button("cubic_craft.cubify")
     before = positions()
     yield from gui.click(button)
-    yield from gui.wait_until(lambda: positions() != before, timeout=120.0, what="a new shape")
+    yield from gui.wait_until(lambda: positions() != before, what="a new shape")
 
 
 def test():
@@ -51,7 +51,7 @@ def test():
     top = panel.y + panel.height - 44
     slider = gui.Button("cubeness", row.left, top - 10, row.right, top + 10)
     yield from gui.enter_value(slider, 0.9)
-    yield from gui.wait_until(lambda: positions() != first, timeout=120.0, what="another shape")
+    yield from gui.wait_until(lambda: positions() != first, what="another shape")
     yield from gui.screenshot("redone.png")
     assert abs(settings().cubeness - 0.9) < 1e-6
     redone = positions()

@@ -153,7 +153,7 @@ def picture_of_redo():
     """Cubify, and open the panel of the last operator by its header."""
     before = scene.positions()
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
-    yield from gui.wait_until(lambda: scene.positions() != before, timeout=120.0, what="Cubify")
+    yield from gui.wait_until(lambda: scene.positions() != before, what="Cubify")
     panel = gui.region("HUD")
     yield from gui.click((panel.x + panel.width // 2, round(panel.y + panel.height - 14 * SCALE)))
     yield from gui.wait_until(lambda: gui.region("HUD").height > 200, what="the open panel")

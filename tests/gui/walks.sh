@@ -24,7 +24,7 @@ for suite in "${SUITES[@]}"; do
     for seed in "${NUMBERS[@]}"; do
         folder=$OUTPUT/$suite/$seed
         mkdir -p "$folder" || exit 2
-        options=(-e "$ZIP" -d "$folder" -t $((600 + 5 * STEPS)))
+        options=(-e "$ZIP" -d "$folder" -t $((1800 + 10 * STEPS)))
         options+=(-v "WALK_SEED=$seed" -v "WALK_ACTIONS=$STEPS")
         if [ "$suite" = blender ]; then
             run=("$HERE/kit/run_with_blender.sh")

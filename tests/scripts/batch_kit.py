@@ -6,7 +6,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from headless import headless, start_headless
+from headless import PATIENCE, headless, start_headless
 
 CUBE = """o part
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
@@ -14,7 +14,6 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8
 """
 QUICK = ("--device", "numpy", "--max-iterations", "2")
 MESHES = (*QUICK, "--no-render", "--save-mesh", ".obj")
-PATIENCE = 120  # seconds
 
 
 def batch(*arguments, cwd, options=MESHES):

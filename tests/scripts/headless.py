@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "headless_render.py"
+PATIENCE = 900
+"""seconds: what takes longer on the slowest and busiest machine does not come at all"""
 
 
 def headless(*arguments, cwd):
@@ -16,7 +18,7 @@ def headless(*arguments, cwd):
         cwd=cwd,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=PATIENCE,
         check=False,
     )
 

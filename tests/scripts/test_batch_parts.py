@@ -2,11 +2,14 @@
 """Parts of batches, without Blender."""
 
 import json
+import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 from batch_kit import CUBE
+from headless import PATIENCE
 
 from scripts.headless.arguments import as_arguments, parse
 from scripts.headless.batch.plan import FORWARDED, plan
@@ -133,6 +136,31 @@ def python_workers(threads=None):
 def test_workers_share_the_processor():
     code = "import os, sys; sys.stderr.write(os.environ['OMP_NUM_THREADS'])"
     assert python_workers(3).run([code]) == (0, "3")
+
+
+def test_a_worker_that_is_just_being_started_ends_with_the_others(monkeypatch):
+    is_started, may_go_on = threading.Event(), threading.Event()
+    started = []
+
+    class SlowlyStarted(subprocess.Popen):
+        def __init__(self, *arguments, **options):
+            super().__init__(*arguments, **options)
+            started.append(self)
+            is_started.set()
+            may_go_on.wait(PATIENCE)
+
+    monkeypatch.setattr(subprocess, "Popen", SlowlyStarted)
+    workers = python_workers()
+    code = "import sys; sys.stdin.read()"  # ends when it is told to
+    threading.Thread(target=workers.run, args=([code],), daemon=True).start()
+    assert is_started.wait(PATIENCE)
+    ending = threading.Thread(target=workers.end, daemon=True)
+    ending.start()
+    ending.join(0.5)  # as long as it is not known of
+    may_go_on.set()
+    ending.join(PATIENCE)
+    assert not ending.is_alive()
+    assert started[0].returncode is not None, "it is left behind"
 
 
 def test_why_a_worker_failed():

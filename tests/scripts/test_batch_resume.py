@@ -9,7 +9,6 @@ import time
 import pytest
 from batch_kit import (
     CUBE,
-    PATIENCE,
     batch,
     children,
     files_in,
@@ -18,6 +17,7 @@ from batch_kit import (
     statuses,
     wait_for_children,
 )
+from headless import PATIENCE
 
 on_posix = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 CALM = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}

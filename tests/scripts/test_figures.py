@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from headless import read_files
+from headless import PATIENCE, read_files
 
 ROOT = Path(__file__).resolve().parents[2]
 WIDTH = 120
@@ -31,7 +31,7 @@ def figures(*arguments):
         capture_output=True,
         text=True,
         env=environment,
-        timeout=300,
+        timeout=PATIENCE,
         check=False,
     )
 

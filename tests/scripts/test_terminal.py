@@ -7,8 +7,8 @@ import sys
 import time
 
 import pytest
-from batch_kit import CUBE, MESHES, PATIENCE, QUICK
-from headless import SCRIPT
+from batch_kit import CUBE, MESHES, QUICK
+from headless import PATIENCE, SCRIPT
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals on this system")
 pytest.importorskip("rich", reason="without it there is no progress bar")

@@ -36,8 +36,14 @@ def test_free_memory_is_that_of_this_machine():
     free = memory.free_memory()
     assert free is not None
     assert 1e7 < free < 1e14
-    taken = np.ones(1 << 26)  # 512 MiB
-    assert memory.free_memory() < free - taken.nbytes / 2
+    assert any(is_taking_seen() for _ in range(20)), "what is taken is still free"
+
+
+def is_taking_seen(size=1 << 29):
+    """Take so many bytes; tell whether they are missed. Other programs may give some back then."""
+    before = memory.free_memory()
+    taken = np.ones(size, np.uint8)
+    return memory.free_memory() < before - taken.nbytes / 2
 
 
 @pytest.mark.parametrize("content", ["", "MemTotal: 5 kB\n", "nonsense\n"])

@@ -4,6 +4,7 @@ They share the reading end of a pipe as standard input. It ends when this proces
 end, or is gone for whatever reason: that is how they are told to end, on every system.
 """
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -40,21 +41,23 @@ class Workers:
         self._environment = os.environ | (thread_variables(threads) if threads else {})
         self._input, self._lifeline = os.pipe()
         self._running: set[subprocess.Popen[str]] = set()
+        self._starting = threading.Lock()
         self._is_ending = False
 
     def run(self, arguments: list[str]) -> tuple[int, str]:
         """Run one worker to its end; return its exit code and what it wrote to standard error."""
-        process = subprocess.Popen(
-            [*self._command, *arguments],
-            stdin=self._input,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            env=self._environment,
-            encoding="utf-8",
-            errors="replace",
-            **_apart(),
-        )
-        self._running.add(process)
+        with self._starting:
+            process = subprocess.Popen(
+                [*self._command, *arguments],
+                stdin=self._input,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                env=self._environment,
+                encoding="utf-8",
+                errors="replace",
+                **_apart(),
+            )
+            self._running.add(process)
         try:
             _, words = process.communicate()
         finally:
@@ -64,15 +67,19 @@ class Workers:
         return process.returncode, words
 
     def end(self) -> None:
-        """End all that run, and those that may be started after it."""
-        self._is_ending = True
-        os.close(self._lifeline)
-        running = list(self._running)
+        """End all that run and wait until they are gone; later ones end by themselves."""
+        with self._starting:  # or one that is being started would be left behind
+            self._is_ending = True
+            os.close(self._lifeline)
+            running = list(self._running)
         deadline = time.monotonic() + PATIENCE
         while any(process.poll() is None for process in running) and time.monotonic() < deadline:
             time.sleep(0.02)
         for process in running:
             process.kill()
+        for process in running:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(PATIENCE)
 
 
 def _apart() -> dict[str, Any]:

@@ -7,7 +7,7 @@
 #     -u DIR    keep Blender's user folder (preferences, extensions) in DIR (default: a new one,
 #               so your own preferences and extensions are neither used nor changed)
 #     -g WxH    size of Blender's window (default 1000x700)
-#     -t SECS   time limit for Blender (default 600)
+#     -t SECS   time limit for Blender (default 1800)
 #     -v A=B    set this environment variable for Blender; may be given several times
 #     -o        let Blender go online, if its preferences do (default: its offline mode)
 #     -x        real X events (xdotool) in place of Blender's simulated ones; needs Xvfb
@@ -24,7 +24,7 @@ die() {
     exit 2
 }
 
-SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=600 REAL_EVENTS='' OFFLINE=(--offline-mode) EXTENSIONS=()
+SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=1800 REAL_EVENTS='' OFFLINE=(--offline-mode) EXTENSIONS=()
 while getopts e:d:u:g:t:v:oxh option; do
     case $option in
         e) EXTENSIONS+=("$OPTARG") ;;

@@ -42,7 +42,7 @@ def confirm_live(rng):
     session = scene.live().current()
     if session is not None:
         yield from gui.wait_until(
-            lambda: not (is_live() and session.is_finishing), timeout=60.0, what="the end of Live"
+            lambda: not (is_live() and session.is_finishing), what="the end of Live"
         )
         assert not is_live() or session.all_problems, "Live goes on and does not say why"
     return key

@@ -63,6 +63,5 @@ def _settle():
     yield from turns(2)
     yield from gui.wait_until(
         lambda: is_live() == ("CUBIC_CRAFT_OT_live" in gui.running_operators()),
-        timeout=10.0,
         what="the operator of Live to end with it",
     )

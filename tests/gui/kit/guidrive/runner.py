@@ -24,11 +24,11 @@ def log(*values):
     print(f"[gui {time.monotonic() - _start:7.3f}]", *values, flush=True)
 
 
-def run(test, timeout=540.0):
+def run(test, timeout=1740.0):
     """Start the test, a generator function: passed when it ends, failed when it raises.
 
     It also fails when Blender has caught a Python error, after `timeout` seconds, or 30 seconds
-    later with all stack traces if Blender hangs; keep the run script's -t (600) above that.
+    later with all stack traces if Blender hangs; keep the run script's -t (1800) above that.
     """
     faulthandler.dump_traceback_later(timeout + 30, exit=True)
     _quiet_preferences()

@@ -12,7 +12,7 @@ from .screen import area
 counts = collections.Counter()  # draws of the viewport's regions, and undo steps taken back
 
 
-def wait_until(condition, timeout=30.0, what=None):
+def wait_until(condition, timeout=300.0, what=None):
     """Wait until condition() is true and return its value; TimeoutError names `what`."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
