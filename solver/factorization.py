@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
 
+import weakref
+
 import numpy as np
 
 from .optional_packages import optional_package
@@ -43,4 +45,8 @@ def _cholesky(cholespy, A):
         solver.solve(np.ascontiguousarray(B), X)
         return X
 
+    # cholespy 2.2 keeps what a solve has needed, as long as B, even when the solver is gone. To
+    # solve for no column at all makes it take less instead.
+    free = weakref.finalize(solve, solver.solve, np.empty((n, 0)), np.empty((n, 0)))
+    free.atexit = False
     return solve

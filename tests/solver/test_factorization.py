@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Both factorisations against a dense solve."""
 
+import gc
+import os
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -24,3 +28,25 @@ def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
     X = solve(B)
     np.testing.assert_allclose(X, np.linalg.solve(A.toarray(), B), rtol=1e-7, atol=1e-8)
     np.testing.assert_array_equal(X, solve(B))
+
+
+def resident_bytes():
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+@needs("cholespy")
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is asked of Linux")
+def test_nothing_is_left_of_a_factorisation():
+    n, rounds = 5000, 300
+    A = sp.diags([-np.ones(n - 1), 3.0 * np.ones(n), -np.ones(n - 1)], [-1, 0, 1]).tocsr()
+    B = np.ones((n, 3))
+
+    def factorize_and_solve(times):
+        for _ in range(times):
+            factorization.factorize(A)(B)
+
+    factorize_and_solve(50)
+    before = resident_bytes()
+    factorize_and_solve(rounds)
+    assert resident_bytes() - before < rounds * B.nbytes / 3
