@@ -18,7 +18,7 @@ def factorize(A):
     """
     cholespy = optional_package("cholespy")  # about twice as fast as SciPy's LU at solving
     if cholespy is not None:
-        return _cholesky(cholespy, A)
+        return _Cholesky(cholespy, A)
     from scipy.sparse.linalg import splu  # takes a tenth of a second to import
 
     lu = splu(
@@ -30,23 +30,29 @@ def factorize(A):
     return lu.solve
 
 
-def _cholesky(cholespy, A):
-    n = A.shape[0]
-    solver = cholespy.CholeskySolverD(
-        n,
-        A.indptr.astype(np.int32),
-        A.indices.astype(np.int32),
-        A.data,
-        cholespy.MatrixType.CSR,
-    )
+class _Cholesky:
+    def __init__(self, cholespy, A):
+        self._solver = cholespy.CholeskySolverD(
+            A.shape[0],
+            A.indptr.astype(np.int32),
+            A.indices.astype(np.int32),
+            A.data,
+            cholespy.MatrixType.CSR,
+        )
+        self._has_solved = False
 
-    def solve(B):
+    def __call__(self, B):
         X = np.empty_like(B, order="C")
-        solver.solve(np.ascontiguousarray(B), X)
+        self._solver.solve(np.ascontiguousarray(B), X)
+        if not self._has_solved:
+            self._has_solved = True
+            self._free_at_end(len(B))
         return X
 
-    # cholespy 2.2 keeps what a solve has needed, as long as B, even when the solver is gone. To
-    # solve for no column at all makes it take less instead.
-    free = weakref.finalize(solve, solver.solve, np.empty((n, 0)), np.empty((n, 0)))
-    free.atexit = False
-    return solve
+    def _free_at_end(self, n):
+        """Let go of what cholespy 2.2 keeps of a solve, as long as B, when its solver is gone.
+
+        A solve for no column makes it take less instead. As the first one it would crash.
+        """
+        nothing, result = np.empty((n, 0)), np.empty((n, 0))
+        weakref.finalize(self, self._solver.solve, nothing, result).atexit = False

@@ -46,6 +46,7 @@ def test_nothing_is_left_of_a_factorisation():
         for _ in range(times):
             factorization.factorize(A)(B)
 
+    factorization.factorize(A)  # and never solve
     factorize_and_solve(50)
     before = resident_bytes()
     factorize_and_solve(rounds)
