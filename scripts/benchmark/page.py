@@ -139,7 +139,7 @@ and the kernels.""",
         """\
 What bounds an iteration on 50,000 vertices: the Cholesky factor of the horse has at least 1.7
 million entries of 12 bytes, and a solve reads all of them twice. One core of the machine above
-reads 13 to 18 GB a second, which makes 2.5 to 3 ms; a solve takes 5 to 8, on one core. The local
+reads 13 to 18 GB a second, which makes 2.5 to 3 ms; a solve takes 5 to 9, on one core. The local
 step and the right-hand side run on all cores.
 
 What has been tried to get below that, each beside the present way in one process (horse):
@@ -147,7 +147,7 @@ What has been tried to get below that, each beside the present way in one proces
 - CHOLMOD's supernodal factorisation with the ordering of minimum degree, by cvxopt: 0.11 s in place
   of 0.4 s, but 21 ms in place of 7 ms for each solve, since it solves column by column.
 - Its factor taken out and solved by kernels of our own on both cores, after a nested dissection:
-  10 ms in 64 bit and 6.6 ms in 32 bit, and with what that takes to prepare 0.3 s. It would pay on
+  10 ms in 64 bit and 6.6 ms in 32 bit, and with what that takes to prepare 0.3 s. It may pay on
   more cores than two.
 - Anderson acceleration (5 and 10 steps back) in place of momentum: 134 and 138 iterations in place
   of 34 to a gap of 5 %, and no gap of 1 % within 300.""",

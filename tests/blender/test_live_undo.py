@@ -8,6 +8,13 @@ from mathutils import Matrix
 from scene import add_monkey, add_triangles, select
 
 
+def add_monkey_and_step():
+    """Return a monkey that an undo leads back to, and its bits."""
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    return obj, bits(obj)
+
+
 def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
     obj = add_monkey()
     bpy.ops.ed.undo_push(message="Monkey")
@@ -29,9 +36,7 @@ def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
 
 
 def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
-    obj = add_monkey()
-    bpy.ops.ed.undo_push(message="Monkey")
-    original = bits(obj)
+    obj, original = add_monkey_and_step()
     session = begin(obj)
     tick_to_sight(session)
     bpy.data.objects["Suzanne"].location.x = 1.0
@@ -47,9 +52,7 @@ def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
 
 
 def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
-    obj = add_monkey()
-    bpy.ops.ed.undo_push(message="Monkey")
-    original = bits(obj)
+    obj, original = add_monkey_and_step()
     session = begin(obj)
     tick_to_sight(session)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -66,9 +69,7 @@ def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
 
 
 def test_a_step_of_live_comes_back_sound_out_of_edit_mode(live, begin):
-    obj = add_monkey()
-    bpy.ops.ed.undo_push(message="Monkey")
-    original = bits(obj)
+    obj, original = add_monkey_and_step()
     session = begin(obj)
     tick_to_rest(session)
     bpy.ops.ed.undo_push(message="Select")

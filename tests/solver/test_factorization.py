@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Both factorisations against a dense solve."""
 
-import gc
-import os
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +9,7 @@ import scipy.sparse as sp
 import shapes
 from optional_marks import needs
 
+from scripts.benchmark.memory import resident_bytes
 from solver import factorization
 from solver.cotangents import cotangents
 from solver.spokes_and_rims import spokes_and_rims
@@ -28,11 +27,6 @@ def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
     X = solve(B)
     np.testing.assert_allclose(X, np.linalg.solve(A.toarray(), B), rtol=1e-7, atol=1e-8)
     np.testing.assert_array_equal(X, solve(B))
-
-
-def resident_bytes():
-    gc.collect()
-    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 @needs("cholespy")
