@@ -59,6 +59,7 @@ def _clusters(F, n, collapses):
     if not is_used.any():
         return None
     # What has lost all its triangles goes to a neighbour.
+    F = F[~is_used[F].all(axis=1)]  # few
     edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
     edges = np.concatenate([edges, edges[:, ::-1]])
     edges = edges[~is_used[edges[:, 0]] & is_used[edges[:, 1]]]

@@ -16,7 +16,7 @@ from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .unit_box import UnitBox, unit_box
 from .vertex_order import vertex_order
 
-COARSENING = 4
+COARSENING = 16
 """triangles of a mesh for each triangle of its coarser mesh"""
 
 _CHUNK = 256

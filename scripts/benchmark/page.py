@@ -81,11 +81,12 @@ shapes are not after so few.""",
         tables.ten_iterations(results),
         """\
 From 40,000 vertices on, about half of the time is one sparse Cholesky factorisation ("Where the
-time goes", below). One cycle of multigrid in place of the exact solve would be set up in 0.1 s, but
-ten such iterations come only as far as four to seven exact ones, and a run to the end needs 1.4 to
-2.4 times as many of them (horse, owl, armadillo): the table would look better, and the artist would
-wait longer. With multigrid in the first eight to twelve iterations only, and the factorisation
-after them, a gap of 5 % comes four to nine iterations later, and both have to be set up. So
+time goes", below). Without it the table would look better, and the artist would wait longer. With
+two steps of conjugate gradients in its place, each with a V-cycle of multigrid, ten iterations of
+the horse took 0.69 s in place of 0.93 s, side by side, and 106 came as far as 104 with the exact
+solution; but on two cores each took 10 ms more, and the gap of 1 % came after 3.9 s in place of
+3.1 s (armadillo, 0.2: 2.3 s and 1.9 s; owl: 1.9 s and 1.6 s). To begin with the one and go on with
+the other, both have to be set up. So
 meshes of up to 60,000 vertices are factorised at once.""",
     ]
 
@@ -137,20 +138,33 @@ Peak memory is that of the whole process; "for the run" is what it takes above P
 and the kernels.""",
         tables.phases(results),
         """\
-What bounds an iteration on 50,000 vertices: the Cholesky factor of the horse has at least 1.7
-million entries of 12 bytes, and a solve reads all of them twice. One core of the machine above
-reads 13 to 18 GB a second, which makes 2.5 to 3 ms; a solve takes 5 to 9, on one core. The local
-step and the right-hand side run on all cores.
+What bounds an iteration on 50,000 vertices:
+
+- The Cholesky factor of the horse has at least 1.7 million entries of 12 bytes, and a solve reads
+  all of them twice. One core of the machine above reads 13 to 18 GB a second, which makes 2.5 to
+  3 ms; a solve takes 5 to 9, on one core.
+- The local step reads and writes about 560 bytes per vertex, 27 MB for the horse: 1 ms on both
+  cores. It takes 6 to 10, since it is bound by its arithmetic: about 600 operations per vertex in
+  64 bit, one after the other, with a root and divisions between them, in 800 to 1,100 cycles of a
+  core. Vector instructions for four vertices at once could do with a quarter; Taichi makes none.
+- To wake both cores for a loop takes 0.14 ms, twice in an iteration.
+
+What bounds set-up: 0.4 s of 0.6 s is the factorisation, and most of that is the ordering by nested
+dissection. The numbers themselves are not the limit: CHOLMOD's supernodal code orders by minimum
+degree and factorises in 0.11 s together.
 
 What has been tried to get below that, each beside the present way in one process (horse):
 
-- CHOLMOD's supernodal factorisation with the ordering of minimum degree, by cvxopt: 0.11 s in place
-  of 0.4 s, but 21 ms in place of 7 ms for each solve, since it solves column by column.
+- That supernodal factorisation, by cvxopt: 21 ms in place of 7 ms for each solve, column by column,
+  and 11 ms to 18 ms for the three columns at once. Its simplicial one: 0.2 s to 0.3 s, and 9 ms
+  each.
 - Its factor taken out and solved by kernels of our own on both cores, after a nested dissection:
   10 ms in 64 bit and 6.6 ms in 32 bit, and with what that takes to prepare 0.3 s. It may pay on
   more cores than two.
+- Conjugate gradients with multigrid: see "Ten iterations".
 - Anderson acceleration (5 and 10 steps back) in place of momentum: 134 and 138 iterations in place
-  of 34 to a gap of 5 %, and no gap of 1 % within 300.""",
+  of 34 to a gap of 5 %, and no gap of 1 % within 300. L-BFGS in the metric of the Laplacian (5, 10
+  and 20 steps back): 48, 52 and 49 iterations to 5 %, 250 and more to 1 %.""",
     ]
 
 
@@ -162,9 +176,7 @@ def _scaling(cases, power):
             f" grows as vertices^{power:.2f} (least squares of the logarithms), set-up as"
             f" vertices^{fit_of(cases, _setup)[0]:.2f} and one iteration as"
             f" vertices^{fit_of(cases, summary.milliseconds_per_iteration)[0]:.2f}. What is left is"
-            " that a larger mesh needs more iterations: the finer it is, the further the whole has"
-            " to move in units of its edges, and the start from a coarser mesh makes up for a part"
-            " of that only."
+            " that a larger mesh needs more iterations."
         )
     return [
         "## Time over size",
@@ -173,6 +185,13 @@ One shape, the {cases[0]["mesh"]}, simplified or subdivided to each size, at cub
 {cases[0]["cubeness"]}; each size in a process of its own. A dash means that no best energy is known
 yet, or that the gap was not reached.{fit}""",
         tables.scaling(cases),
+        """\
+Why more: the least energy of a finer mesh belongs to another shape, for more of it can be flat. The
+shapes of the bunny with 98,722 and with 394,882 vertices, both solved to their ends, lie 2.2 % of
+the unit box apart (root mean square, rotations taken out), 9 edges of the finer mesh, and no start
+from a coarser mesh saves that way. To solve the coarse one to its end, to extrapolate from two of
+them, to begin with up to ten times the momentum, or to solve each global step almost exactly saves
+0 to 20 % of the iterations of the fine mesh, and costs more than that elsewhere.""",
         f"![Time over size](images/{SCALING_IMAGE})",
     ]
 

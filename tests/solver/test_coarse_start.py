@@ -14,7 +14,8 @@ pytestmark = needs("fast_simplification")
 
 @pytest.fixture
 def large(monkeypatch):
-    """Let a test's meshes count as large."""
+    """Let a test's meshes count as large; a sixteenth of them would be too few."""
+    monkeypatch.setattr("solver.rest.COARSENING", 4)
 
     def count_as_large(is_large=True):
         monkeypatch.setattr("solver.coarse_start.LEAST_VERTICES", 500 if is_large else 10**9)

@@ -64,6 +64,15 @@ def test_a_rotation_is_recovered_exactly():
     np.testing.assert_allclose(fit_rotations(M, guess), R, atol=1e-12)
 
 
-def test_orthonormalize_takes_rounding_away():
-    R = random_rotations(50) + 1e-7 * RANDOM.normal(size=(50, 3, 3))
-    assert_rotations(orthonormalize(R))
+@pytest.mark.parametrize("count", [0, 50, 5000])
+def test_orthonormalize_takes_rounding_away(count):
+    exact = random_rotations(count)
+    R = orthonormalize(exact + 1e-7 * RANDOM.normal(size=exact.shape))
+    assert_rotations(R)
+    np.testing.assert_allclose(R, exact, atol=1e-6)
+
+
+def test_orthonormalize_finds_the_nearest_rotation_in_steps():
+    R = random_rotations(100) + 0.1 * RANDOM.normal(size=(100, 3, 3))
+    nearest = svd_rotations(R.swapaxes(1, 2))  # the greatest tr(X R')
+    np.testing.assert_allclose(orthonormalize(R, 6), nearest, atol=1e-12)
