@@ -37,7 +37,7 @@ class _Cholesky:
             A.indptr.astype(np.int32),
             A.indices.astype(np.int32),
             A.data,
-            cholespy.MatrixType.CSR,
+            cholespy.MatrixType.CSR,  # of columns it would take the arrays as its own, and crash
         )
         self._has_solved = False
 

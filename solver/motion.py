@@ -65,10 +65,18 @@ class Motion:
         U = self._setup.global_step.positions(self._local.right_hand_side(), self.point)
         if keep_rotation:
             U = turn_back(rest, U, self._setup.has_pin)
-        way = U - self._U
-        displacement = float(np.abs(way).max())
+        way, point = U - self._U, U - self.point
+        displacement = _largest(way)
         if rest.component_count > 1:
             momentum, further = (share[rest.component][:, None] for share in (momentum, further))
-        self.point = U + momentum * way + further * (U - self.point)
-        self._U = U
-        return displacement, float(np.abs(U - rest.V).max())
+        way *= momentum
+        point *= further
+        point += way
+        point += U
+        self.point, self._U = point, U
+        return displacement, _largest(U - rest.V)
+
+
+def _largest(values):
+    """Return the largest size of any value."""
+    return float(max(values.max(), -values.min()))

@@ -149,9 +149,9 @@ What bounds an iteration on 50,000 vertices:
   core. Vector instructions for four vertices at once could do with a quarter; Taichi makes none.
 - To wake both cores for a loop takes 0.14 ms, twice in an iteration.
 
-What bounds set-up: 0.4 s of 0.6 s is the factorisation, and most of that is the ordering by nested
-dissection. The numbers themselves are not the limit: CHOLMOD's supernodal code orders by minimum
-degree and factorises in 0.11 s together.
+What bounds set-up: 0.4 s of 0.6 s is the factorisation, by CHOLMOD's simplicial code as cholespy
+has it. The numbers themselves are not the limit: its supernodal code needs 0.11 s, with an ordering
+by minimum degree.
 
 What has been tried to get below that, each beside the present way in one process (horse):
 

@@ -141,7 +141,7 @@ class TaichiLocalStep:
         rows = self._uncertified()
         if len(rows):
             self._solve_by_admm(U, rows)
-        quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64)
+        quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64, copy=False)
         arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
         return arap, self._rest.sum_parts(self._cubic_weight * l1)
 
