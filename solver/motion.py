@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The positions of a run and how a global step moves them."""
 
-import numpy as np
-
 from .placement import turn_back
 
 
