@@ -8,6 +8,7 @@ from optional_marks import needs
 from procrustes import best_rotation
 
 from solver import Run, Setup, Stylization, rest_mesh, stylize
+from solver.rest import COARSENING
 
 pytestmark = needs("fast_simplification")
 
@@ -50,18 +51,33 @@ def test_it_ends_no_higher_and_is_sooner_near_the_end(pins, large, device):
     np.testing.assert_array_equal(from_coarse.positions[pinned], targets[pinned])
 
 
+def gaps_of_first_iterations(V, F, tolerance, large, device):
+    """Return how far from the end the first iteration is from rest, and from a coarser mesh."""
+    options = {"device": device, "keep_rotation": True}
+    large(False)
+    end = stylize(V, F, 0.5, tolerance=tolerance, **options).energy.total
+    gaps = []
+    for is_large in (False, True):
+        large(is_large)
+        gaps.append(stylize(V, F, 0.5, max_iterations=1, **options).energy.total - end)
+    return gaps
+
+
 @pytest.mark.parametrize("is_ordered", [False, True])
 def test_the_first_iteration_is_near_the_end(is_ordered, large, device, monkeypatch):
     if is_ordered:  # the vertices of a coarser mesh have then another order than it was made in
         monkeypatch.setattr("solver.vertex_order.LEAST_VERTICES", 300)
-    V, F = shapes.blob(4)
-    gaps = []
-    end = stylize(V, F, 0.5, device=device, tolerance=1e-5, keep_rotation=True)
-    for is_large in (False, True):
-        large(is_large)
-        first = stylize(V, F, 0.5, device=device, max_iterations=1, keep_rotation=True)
-        gaps.append(first.energy.total - end.energy.total)
-    assert gaps[1] < 0.4 * gaps[0]
+    from_rest, from_coarse = gaps_of_first_iterations(*shapes.blob(4), 1e-5, large, device)
+    assert from_coarse < 0.4 * from_rest
+
+
+def test_so_it_is_from_as_coarse_a_mesh_as_artists_get(large, device, monkeypatch):
+    monkeypatch.setattr("solver.rest.COARSENING", COARSENING)
+    V, F = shapes.blob(5)
+    coarse = rest_mesh(V, F).coarse.rest
+    assert len(coarse.F) == pytest.approx(len(F) / COARSENING, rel=0.01)
+    from_rest, from_coarse = gaps_of_first_iterations(V, F, 1e-3, large, device)
+    assert from_coarse < 0.6 * from_rest
 
 
 def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
