@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .auto_orientation import auto_orient, nearest_to_identity
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .progress import Progress
+    from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
     from .rest_measures import triangle_areas_and_normals
     from .rotation_fit import svd_rotations
@@ -24,9 +25,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DEVICES",
+    "PAPER",
     "CubicCraftError",
     "Energy",
     "Progress",
+    "ProxyOptions",
     "RestMesh",
     "Result",
     "Run",
@@ -47,7 +50,9 @@ __all__ = [
 _MODULES = {
     "DEVICES": "backends",
     "Energy": "stylization",
+    "PAPER": "proxy.options",
     "Progress": "progress",
+    "ProxyOptions": "proxy.options",
     "RestMesh": "rest",
     "Result": "runner",
     "Run": "runner",

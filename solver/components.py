@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Connected components: parts that share no triangle."""
+"""Connected components: what shares no triangle, and is not linked."""
 
 import numpy as np
 
 
-def components(F, n):
+def components(F, n, pairs=None):
     """Return the number of components and the component of each vertex, ``(n,)`` int32.
 
     Components are numbered by their first vertex.
 
     F : (m,3) int array of triangles. A vertex in no triangle is a component of its own.
+    pairs : (p,2) int array of further connections, optional.
 
     Notes
     -----
@@ -22,6 +23,8 @@ def components(F, n):
     label = np.arange(n)
     corners = F.astype(label.dtype)  # unless all are of one type, minimum.at is slow
     a, b = corners[:, :2].ravel(), corners[:, 1:].ravel()
+    if pairs is not None:
+        a, b = np.concatenate([a, pairs[:, 0]]), np.concatenate([b, pairs[:, 1]])
     while len(a):
         np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
         label = _ends(label)

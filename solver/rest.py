@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All that is computed once per mesh, whatever the cubeness, orientation or pins."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,10 +11,14 @@ from .cotangents import cotangents
 from .decimation import decimate
 from .memory import check_memory
 from .mesh_checks import check_mesh
+from .proxy import PAPER, InputMap, Links, no_links, surface_of
+from .proxy.boxes import box_frames
+from .proxy.creases import smoothness
+from .proxy.neighbours import neighbour_links
+from .proxy.thickness import thickness_links
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
-from .unit_box import UnitBox, unit_box
-from .vertex_order import vertex_order
+from .unit_box import UnitBox
 
 COARSENING = 16
 """triangles of a mesh for each triangle of its coarser mesh"""
@@ -24,16 +28,15 @@ _CHUNK = 256
 
 @dataclass(frozen=True)
 class RestMesh:
-    """The rest shape in the unit box, without its loose vertices.
+    """The rest shape in the unit box: the proxy of the input, without its loose vertices.
 
-    The arrays are indexed by the `n` vertices that lie in a triangle; `used` maps them to the
-    vertices of the input.
+    The arrays are indexed by the `n` vertices that are solved; `input_map` leads to them from the
+    vertices of the input, and back.
     """
 
     input_positions: np.ndarray
     """(N,3) float64 rest positions as given, loose vertices included"""
-    used: np.ndarray
-    """(n,) int vertices of the input that lie in a triangle; ascending, unless the mesh is large"""
+    input_map: InputMap
     box: UnitBox
     V: np.ndarray
     """(n,3) float64 rest positions in the unit box"""
@@ -43,10 +46,52 @@ class RestMesh:
     """(n,) barycentric areas a_i"""
     normals: np.ndarray
     """(n,3) unit normals n_i, zero where undefined"""
+    smoothness: np.ndarray
+    """(n,) factors of the cubeness: 0 in creases, where there is no normal"""
+    part: np.ndarray
+    """(n,) int connected part of each vertex, links left aside"""
+    to_neighbours: Links
+    to_other_side: Links | None
+    """of solidity 1; None where they have not been looked for"""
+    solidity: float
+    is_refined: bool
     matrices: SpokesAndRims
     component_count: int
     component: np.ndarray
-    """(n,) int component of each vertex"""
+    """(n,) int component of each vertex: parts that are linked are one"""
+
+    @cached_property
+    def used(self):
+        """(n,) int vertex of the input that stands for each that is solved."""
+        return self.input_map.source
+
+    @cached_property
+    def place(self):
+        """Vertices of the input that are solved, and which solved vertex each of them is."""
+        return self.input_map.place()
+
+    @cached_property
+    def box_frames(self):
+        """(n,3,3) frames of parts that are boxes already, see `proxy/boxes.py`, or None."""
+        return box_frames(self.V, self.F, self.part) if self.is_refined else None
+
+    @property
+    def links(self):
+        """All links, with their weights."""
+        if self.to_other_side is None:
+            return self.to_neighbours
+        return self.to_neighbours.joined(self.to_other_side.scaled(self.solidity))
+
+    def with_solidity(self, solidity):
+        """Return the RestMesh of another solidity; links are not looked for again."""
+        if solidity == self.solidity:
+            return self
+        to_other_side = self.to_other_side
+        if to_other_side is None:
+            to_other_side = thickness_links(self.V, self.F, self.normals, self.areas, self.part)
+        changed = replace(self, to_other_side=to_other_side, solidity=solidity)
+        skin = spokes_and_rims(self.V, self.F, cotangents(self.V, self.F))
+        return replace(changed, matrices=skin.with_links(self.V, changed.links))
 
     @cached_property
     def edge_sums(self):
@@ -69,7 +114,22 @@ class RestMesh:
         if decimated is None:
             return None
         V, F, cluster = decimated
-        return Coarsening(rest_mesh(V, F), cluster)
+        coarse = rest_mesh(V, F)
+        at = cluster if coarse.input_map.order is None else coarse.place[1][cluster]
+        return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
+
+    def _linked(self, links):
+        """Return the mesh with links in place of its own."""
+        if not len(links):
+            return self
+        count, component = components(self.F, len(self.V), links.pairs())
+        return replace(
+            self,
+            to_neighbours=links,
+            matrices=self.matrices.with_links(self.V, links),
+            component_count=count,
+            component=component,
+        )
 
     @cached_property
     def chunks(self):
@@ -105,8 +165,14 @@ class Coarsening:
     """(n,) int vertex of the coarser mesh that each vertex has been merged into"""
 
 
-def rest_mesh(V, F):
+def rest_mesh(V, F, proxy=PAPER):
     """Build the RestMesh of positions V (N,3), any unit, and triangles F (m,3).
+
+    Parameters
+    ----------
+    V, F
+    proxy : ProxyOptions
+        How the surface is prepared; by default not at all, as in the paper.
 
     Raises
     ------
@@ -115,34 +181,35 @@ def rest_mesh(V, F):
     """
     input_positions, F = check_mesh(V, F)
     check_memory(len(input_positions), len(F))
-    used, F = _ordered(*_used_vertices(F, len(input_positions)))
-    V = input_positions[used]
-    box = unit_box(V)
-    V = box.to_unit(V)
+    surface = surface_of(input_positions, F, proxy)
+    V, F = surface.V, surface.F
     areas, normals = areas_and_normals(V, F)
-    matrices = spokes_and_rims(V, F, cotangents(V, F))
-    component_count, component = components(F, len(V))
-    return RestMesh(
-        input_positions, used, box, V, F, areas, normals, matrices, component_count, component
+    C = cotangents(V, F)
+    part_count, part = components(F, len(V))
+    to_neighbours, to_other_side = no_links(), None
+    if proxy.together:
+        to_neighbours = neighbour_links(V, F, normals, areas, part, part_count)
+    if proxy.solidity > 0.0:
+        to_other_side = thickness_links(V, F, normals, areas, part)
+    count, component = part_count, part
+    if len(to_neighbours):
+        count, component = components(F, len(V), to_neighbours.pairs())
+    rest = RestMesh(
+        input_positions,
+        surface.input_map,
+        surface.box,
+        V,
+        F,
+        areas,
+        normals,
+        smoothness(V, F, C) if proxy.refine else np.ones(len(V)),
+        part,
+        to_neighbours,
+        to_other_side,
+        proxy.solidity,
+        proxy.refine,
+        spokes_and_rims(V, F, C),
+        count,
+        component,
     )
-
-
-def _used_vertices(F, count):
-    """Return the vertices that lie in a triangle, ascending, and F as indices into them."""
-    is_used = np.zeros(count, dtype=bool)
-    is_used[F.ravel()] = True
-    used = np.flatnonzero(is_used)
-    if len(used) == count:
-        return used, F.copy()  # it may be the caller's
-    number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
-    return used, number[F]
-
-
-def _ordered(used, F):
-    """Put the vertices that are used, and F, in the order of `vertex_order`."""
-    order = vertex_order(F, len(used))
-    if order is None:
-        return used, F
-    number = np.empty(len(order), dtype=np.int32)
-    number[order] = np.arange(len(order), dtype=np.int32)
-    return used[order], number[F]
+    return replace(rest, matrices=rest.matrices.with_links(V, rest.links))

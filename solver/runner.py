@@ -8,6 +8,7 @@ import numpy as np
 
 from .coarse_start import MAX_ITERATIONS, TOLERANCE, carry_up, coarse_stylization, glance_up
 from .errors import CubicCraftError
+from .proxy import PAPER
 from .rest import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
@@ -46,6 +47,7 @@ def stylize(
     max_iterations=1000,
     tolerance=1e-3,
     on_iteration=None,
+    proxy=PAPER,
     **options,
 ):
     """Return the cubic version of a mesh (Liu and Jacobson, "Cubic Stylization", 2019).
@@ -64,6 +66,9 @@ def stylize(
         See `run`, also for the next two.
     tolerance : float
     on_iteration : callable, optional
+    proxy : ProxyOptions
+        How the surface is prepared: welded, refined, linked to its neighbours and its other side.
+        By default not at all, as in the paper; ``ProxyOptions()`` is what artists get.
     **options
         See `Stylization`: orientation, targets, device, precision, keep_rotation and more.
 
@@ -85,7 +90,7 @@ def stylize(
     >>> stylize(V, F, 0.4, device="numpy").converged
     True
     """
-    stylization = Stylization(Setup(rest_mesh(V, F), pinned), cubeness, **options)
+    stylization = Stylization(Setup(rest_mesh(V, F, proxy), pinned), cubeness, **options)
     return run(stylization, max_iterations, tolerance, on_iteration)
 
 

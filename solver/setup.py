@@ -17,6 +17,10 @@ class Setup:
     rest : RestMesh
     pinned : (k,) array_like of int, optional
         Vertices of the input that are held exactly.
+    still : (N,) array_like of bool, optional
+        Vertices of the input that are asked to stay where they are. Those are held that have only
+        such vertices around them: next to what moves, one ring is left free, so that the surface
+        bends there without a crease.
 
     Raises
     ------
@@ -33,7 +37,7 @@ class Setup:
         Components with a pinned vertex.
     """
 
-    def __init__(self, rest, pinned=()):
+    def __init__(self, rest, pinned=(), still=None):
         pinned = np.asarray(pinned)
         if pinned.size and not np.issubdtype(pinned.dtype, np.integer):
             raise CubicCraftError(f"pinned must list vertices by number, not be {pinned.dtype}")
@@ -45,7 +49,10 @@ class Setup:
         self.pinned_input = pinned
         is_pinned = np.zeros(count, dtype=bool)
         is_pinned[pinned] = True
-        self.pinned = np.flatnonzero(is_pinned[rest.used])
+        if still is not None:
+            self.pinned_input = np.union1d(pinned, _surrounded(rest, np.asarray(still)))
+            is_pinned[self.pinned_input] = True
+        self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
         self.has_pin = np.zeros(rest.component_count, dtype=bool)
         self.has_pin[rest.component[self.pinned]] = True
         self.global_step = GlobalStep(rest, self.pinned)
@@ -60,3 +67,12 @@ class Setup:
         if len(pinned) == len(coarsening.rest.V):
             return None
         return Setup(coarsening.rest, pinned)
+
+
+def _surrounded(rest, still):
+    """Return the vertices of the input whose neighbours on the proxy are all still, too."""
+    is_still = rest.input_map.spread_mask(still)
+    is_moving_face = ~is_still[rest.F].all(axis=1)
+    is_still[rest.F[is_moving_face].ravel()] = False
+    used, place = rest.place
+    return used[still[used] & is_still[place]]

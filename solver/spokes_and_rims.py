@@ -47,6 +47,39 @@ class SpokesAndRims:
         n = len(self.indptr) - 1
         return sp.csr_matrix((values, self.indices, self.indptr), shape=(n, n))
 
+    def with_links(self, V, links):
+        """Return the matrices with what links (`proxy.Links`) add, from rest positions V (n,3)."""
+        if not len(links):
+            return self
+        n = len(self.indptr) - 1
+        row, column, laplacian, gather = links.entries(V)
+        key = row.astype(np.int64) * n + column
+        order = np.argsort(key, kind="stable")
+        ordered = key[order]
+        starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
+        own = np.repeat(np.arange(n), np.diff(self.indptr)) * n + self.indices
+        keys = ordered[starts]
+        at = np.searchsorted(own, keys)
+        is_new = own[np.minimum(at, len(own) - 1)] != keys
+        merged = np.insert(own, at[is_new], keys[is_new])
+        place = np.searchsorted(merged, keys)
+        kept = np.ones(len(merged), dtype=bool)
+        kept[place[is_new]] = False
+
+        def added(values, more):
+            result = np.zeros((len(merged), *values.shape[1:]))
+            result[kept] = values
+            result[place] += np.add.reduceat(more[order], starts, axis=0)
+            return result
+
+        indices = (merged % n).astype(np.int32)
+        indptr = np.searchsorted(merged, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
+        gather = added(self.gather, gather)
+        transposed = np.argsort(merged % n * n + merged // n)
+        return SpokesAndRims(
+            indptr, indices, added(self.laplacian, laplacian), gather, gather[transposed]
+        )
+
     def covariances(self, U, rows=slice(None)):
         """Return S_i of the positions U (n,3), for some vertices (k,): (k,3,3)."""
         return np.stack([self.matrix(self.gather[:, c])[rows] @ U for c in range(3)], axis=1)

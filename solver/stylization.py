@@ -85,15 +85,16 @@ class Stylization:
         self._keep_rotation = keep_rotation
         self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
-        lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))[rest.used].copy()
+        lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))
+        lam = rest.input_map.spread(lam) * rest.smoothness
         lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
-        self._lam, self._Q = lam, _orientation(orientation, rest)
+        Q = _orientation(orientation, rest)
+        self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q
         make_local_step = local_step_class(device, precision)
         self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         self._targets = _targets(targets, setup)
         U = rest.V.copy()
-        held = rest.used[setup.pinned]
-        U[setup.pinned] = rest.box.to_unit(self._targets[held])
+        U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
         self._motion = self._local.motion(setup, U)
         self._acceleration = Momentum(rest.component_count) if is_accelerated else None
         self.iteration = 0
@@ -198,8 +199,8 @@ class Stylization:
         steps : int
             Local steps; each starts from the rotations of the one before, and the best counts.
         """
-        used = np.asarray(positions, dtype=np.float64)[self.rest.used]
-        self._motion.put(self.rest.box.to_unit(used))
+        solved = self.rest.input_map.spread(np.asarray(positions, dtype=np.float64))
+        self._motion.put(self.rest.box.to_unit(solved))
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
     def placed(self, R=None, U=None):
@@ -209,14 +210,16 @@ class Stylization:
         state, if its rotations (n,3,3) and positions (n,3) in the unit box are given.
         """
         rotations = np.tile(np.eye(3), (len(self.rest.input_positions), 1, 1))
-        rotations[self.rest.used] = self.rotations if R is None else R
+        used, place = self.rest.place
+        rotations[used] = (self.rotations if R is None else R)[place]
         return self.placed_positions(U), rotations
 
     def placed_positions(self, U=None):
         """Return the positions alone, for those who look on while it runs."""
         rest = self.rest
         positions = rest.input_positions.copy()
-        positions[rest.used] = rest.box.from_unit(self.positions if U is None else U)
+        used, place = rest.place
+        positions[used] = rest.box.from_unit(self.positions if U is None else U)[place]
         held = self.setup.pinned_input
         positions[held] = self._targets[held]
         return positions
@@ -250,3 +253,26 @@ def _targets(targets, setup):
     if not np.isfinite(targets[setup.pinned_input]).all():
         raise CubicCraftError("the targets of pinned vertices must be finite")
     return targets
+
+
+def _moved(setup, targets):
+    """Return how far the targets of the solved vertices that are pinned are from rest, (k,3)."""
+    rest = setup.rest
+    moved = np.zeros_like(rest.input_positions)
+    share = np.zeros(len(moved))
+    share[setup.pinned_input] = 1.0
+    moved[setup.pinned_input] = (targets - rest.input_positions)[setup.pinned_input]
+    # of vertices that are welded, only those count that are pinned
+    moved, share = (rest.input_map.spread(x)[setup.pinned] for x in (moved, share))
+    return moved / share[:, None]
+
+
+def _with_boxes(Q, frames):
+    """Return orientations with those of parts that are boxes but stand askew, see `proxy/boxes`."""
+    if frames is None:
+        return Q
+    turn = np.abs(Q @ frames.swapaxes(1, 2))
+    is_askew = frames.any(axis=(1, 2)) & (np.minimum(turn, 1.0 - turn).max(axis=(1, 2)) > 1e-9)
+    if not is_askew.any():
+        return Q
+    return np.where(is_askew[:, None, None], frames, Q)

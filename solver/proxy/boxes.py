@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts that are boxes already, however they stand.
+
+A box that stands askew is as cubic as a shape can be: only turned. Where parts keep their rotation
+it cannot turn to the cube, and the cubic term would skew it. So each such part, also an L or a
+stair, is given a cube of its own, along its own sides.
+"""
+
+import numpy as np
+
+from ..edge_vectors import double_area_vectors, edge_vectors
+
+TOLERANCE = np.cos(np.radians(1.0))
+"""between a side and the axes"""
+SHARE = 0.999
+"""of the area of a part that has to face along three axes at right angles"""
+
+
+def box_frames(V, F, part):
+    """Return the frame (n,3,3) along the sides of each part, zero where it is no box.
+
+    None if there is no such part. The rows of a frame are its axes.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+    F : (m,3) int array
+    part : (n,) int array
+    """
+    count = int(part.max()) + 1
+    vectors = np.empty((len(F), 3))
+    for block, edges in edge_vectors(V, F):
+        vectors[block] = double_area_vectors(edges).T
+    area = np.linalg.norm(vectors, axis=1)
+    unit = vectors / np.where(area > 0.0, area, 1.0)[:, None]
+    of_face = part[F[:, 0]]
+    total = np.bincount(of_face, area, count)
+    first = _largest(of_face, area, unit, count)
+    cosine = np.abs((unit * first[of_face]).sum(axis=1))
+    second = _largest(of_face, area * (cosine < np.sqrt(1.0 - TOLERANCE**2)), unit, count)
+    second -= (second * first).sum(axis=1)[:, None] * first
+    length = np.linalg.norm(second, axis=1)
+    second /= np.where(length > 0.0, length, 1.0)[:, None]
+    frames = np.stack([first, second, np.cross(first, second)], axis=1)
+    along = np.abs(np.einsum("fij,fj->fi", frames[of_face], unit)).max(axis=1)
+    boxed = np.bincount(of_face, area * (along > TOLERANCE), count)
+    is_box = (boxed >= SHARE * total) & (length > 0.0) & (total > 0.0)
+    if not is_box.any():
+        return None
+    frames[~is_box] = 0.0
+    return frames[part]
+
+
+def _largest(of_face, area, unit, count):
+    """Return the direction (count,3) of the largest triangle of each part."""
+    order = np.lexsort((area, of_face))
+    last = np.searchsorted(of_face[order], np.arange(count), side="right") - 1
+    is_there = (last >= 0) & (of_face[order[last]] == np.arange(count))
+    chosen = order[last]
+    return np.where((is_there & (area[chosen] > 0.0))[:, None], unit[chosen], 0.0)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The way from the vertices of the input to those that are solved, and back."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class InputMap:
+    """How `n` solved vertices come from the `N` vertices of the input.
+
+    First some vertices of the input become one, then midpoints are added, then all are put in
+    another order.
+    """
+
+    group: np.ndarray
+    """(N,) int which welded vertex each vertex of the input has become; -1 for loose ones"""
+    first: np.ndarray
+    """(w,) int vertex of the input from which each welded vertex has its position"""
+    parents: np.ndarray
+    """(n-w,2) int between which two of those before it each midpoint lies"""
+    rounds: np.ndarray
+    """(r+1,) int where in `parents` each round of midpoints begins, and the end"""
+    order: np.ndarray | None = None
+    """(n,) int which of them each solved vertex is; None for the same order"""
+
+    def ordered(self, order):
+        """Return the map to the same vertices in another order (n,)."""
+        return InputMap(self.group, self.first, self.parents, self.rounds, order)
+
+    @property
+    def is_plain(self):
+        """Whether each solved vertex is one vertex of the input."""
+        return not len(self.parents) and len(self.first) == np.count_nonzero(self.group >= 0)
+
+    @property
+    def source(self):
+        """(n,) int a vertex of the input that stands for each solved vertex."""
+        return self._with_midpoints(self.first, lambda one, other: one)
+
+    def place(self):
+        """Return the vertices of the input that are solved, and which solved vertex each is."""
+        used = np.flatnonzero(self.group >= 0)
+        welded = self.group[used]
+        if self.order is None:
+            return used, welded
+        number = np.empty(len(self.order), dtype=np.intp)
+        number[self.order] = np.arange(len(self.order))
+        return used, number[welded]
+
+    def spread(self, values):
+        """Return values (N,...) of the input at the solved vertices (n,...), averaged."""
+        if self.is_plain:
+            return values[self.source]
+        used = np.flatnonzero(self.group >= 0)
+        flat = values[used].reshape(len(used), -1)
+        count = np.bincount(self.group[used], minlength=len(self.first))
+        columns = [np.bincount(self.group[used], x, len(self.first)) / count for x in flat.T]
+        welded = np.stack(columns, axis=1).reshape(-1, *values.shape[1:])
+        return self._with_midpoints(welded, lambda one, other: 0.5 * (one + other))
+
+    def spread_mask(self, mask):
+        """Return where a mask (N,) holds at the solved vertices (n,).
+
+        At a welded vertex it does if it holds for any of those that it was made of, at a midpoint
+        if it does at both ends.
+        """
+        welded = np.zeros(len(self.first), dtype=bool)
+        welded[self.group[(self.group >= 0) & mask]] = True
+        return self._with_midpoints(welded, np.logical_and)
+
+    def _with_midpoints(self, welded, combine):
+        """Add the values of the midpoints to those of the welded vertices, and order them."""
+        values = welded
+        if len(self.parents):
+            count = len(self.first) + len(self.parents)
+            values = np.empty((count, *welded.shape[1:]), welded.dtype)
+            values[: len(welded)] = welded
+            for begin, end in zip(self.rounds[:-1], self.rounds[1:], strict=True):
+                one, other = self.parents[begin:end].T
+                new = combine(values[one], values[other])
+                values[len(welded) + begin : len(welded) + end] = new
+        return values if self.order is None else values[self.order]

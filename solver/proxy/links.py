@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spokes between vertices that share no triangle.
+
+A link ties a vector d = sum_k c_k v_k at rest, whose coefficients c sum to zero, to the rotations
+of its vertices, as an edge of a triangle is tied:
+
+    E = sum_k w_k/2 |R_k d - d~|^2,    d~ = sum_k c_k u_k
+
+Between two vertices c is (-1, 1); from a vertex to a point of a triangle it is (-1, b_1, b_2, b_3)
+with the barycentric coordinates of the point. In the normalisation of `spokes_and_rims.py`
+
+    L += W/3 c c',    H[k,l] += w_k d c_l,    W = sum_k w_k
+
+so that neither step, nor the proof that the energy falls, knows of links.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Links:
+    """`k` links between up to four vertices each; what is not used has coefficient 0."""
+
+    vertices: np.ndarray
+    """(k,4) int"""
+    coefficients: np.ndarray
+    """(k,4) float64, each row sums to 0"""
+    weights: np.ndarray
+    """(k,4) float64 weight of the rotation at each vertex, not negative"""
+
+    def __len__(self):
+        return len(self.vertices)
+
+    def scaled(self, factor):
+        """Return the same links with other weights; none for a factor of 0."""
+        return replace(self, weights=factor * self.weights) if factor > 0.0 else no_links()
+
+    def mapped(self, number):
+        """Return the links between the vertices that number (n,) maps theirs to."""
+        return replace(self, vertices=number[self.vertices])
+
+    def joined(self, other):
+        """Return these links and others."""
+        return Links(
+            np.concatenate([self.vertices, other.vertices]),
+            np.concatenate([self.coefficients, other.coefficients]),
+            np.concatenate([self.weights, other.weights]),
+        )
+
+    def pairs(self):
+        """Return pairs (p,2) of vertices that connect all that is linked."""
+        used = self.coefficients[:, 1:] != 0.0
+        first = np.broadcast_to(self.vertices[:, :1], used.shape)
+        return np.stack([first[used], self.vertices[:, 1:][used]], axis=1)
+
+    def entries(self, V):
+        """Return what the links add to the matrices of `spokes_and_rims`.
+
+        Parameters
+        ----------
+        V : (n,3) float array
+            Rest positions.
+
+        Returns
+        -------
+        row, column : (e,) int arrays
+        laplacian : (e,) array
+        gather : (e,3) array
+        """
+        c, w = self.coefficients, self.weights
+        d = np.einsum("kj,kjx->kx", c, V[self.vertices])
+        row = np.repeat(self.vertices, 4, axis=1).ravel()
+        column = np.tile(self.vertices, 4).ravel()
+        products = c[:, :, None] * c[:, None, :]
+        laplacian = (w.sum(axis=1) / 3.0)[:, None, None] * products
+        pull = w[:, :, None] * c[:, None, :]
+        gather = pull[..., None] * d[:, None, None, :]
+        is_used = ((c[:, :, None] != 0.0) & (c[:, None, :] != 0.0)).ravel()
+        return (
+            row[is_used],
+            column[is_used],
+            laplacian.ravel()[is_used],
+            gather.reshape(-1, 3)[is_used],
+        )
+
+
+def no_links():
+    """Return a set of no links."""
+    return Links(np.empty((0, 4), np.int64), np.empty((0, 4)), np.empty((0, 4)))
+
+
+def links_between(i, j, weights):
+    """Return links between vertices i (k,) and j (k,), with the weight (k,) at each of both ends."""
+    zeros = np.zeros(len(i))
+    return Links(
+        np.stack([i, j, i, i], axis=1),
+        np.stack([zeros - 1.0, zeros + 1.0, zeros, zeros], axis=1),
+        np.stack([weights, weights, zeros, zeros], axis=1),
+    )
+
+
+def links_to_triangles(i, corners, barycentric, weights):
+    """Return links from vertices i (k,) to points of triangles with corners (k,3).
+
+    Half of the weight (k,) is that of the vertex, half is shared by the corners by their
+    barycentric coordinates (k,3).
+    """
+    return Links(
+        np.concatenate([i[:, None], corners], axis=1),
+        np.concatenate([np.full((len(i), 1), -1.0), barycentric], axis=1),
+        0.5 * weights[:, None] * np.concatenate([np.ones((len(i), 1)), barycentric], axis=1),
+    )

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Links between parts that lie near each other, so that they stay together.
+
+From a vertex the nearest point on any other part is linked, by the triangle that it lies in. As it
+is the nearest one, no third part lies between. A link is accepted
+
+- where parts touch, lie in each other or almost touch: within `CONTACT`;
+- within `LAYER`, where one part lies over the other like a shirt on a body: both face the same way,
+  and the link is upright on them.
+
+Both are shorter for small parts, by `OF_PART`. What is further apart, or merely lies side by side at
+a distance, is not linked; and vertices of one part never are, however near two of its fingers lie.
+"""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .closest_point import closest_points
+from .links import links_to_triangles, no_links
+from .samples import surface_samples
+
+CONTACT = 0.01
+LAYER = 0.03
+"""of the largest extent of the mesh"""
+OF_PART = 0.25
+"""of the largest extent of the smaller part"""
+SAMPLES = 30_000
+"""about as many vertices are linked"""
+
+_CANDIDATES = 6  # triangles, by their middle, among which the nearest is looked for
+_UPRIGHT = 0.7  # cosine between a link within LAYER and the normal of the triangle
+_PARALLEL = 0.5  # cosine between the normals of layers
+
+
+def neighbour_links(V, F, normals, areas, part, count):
+    """Return links between neighbours of different parts.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Rest positions in the unit box.
+    F : (m,3) int array
+    normals : (n,3) float array
+        Unit normals, or zero.
+    areas : (n,) float array
+    part : (n,) int array
+        Connected part of each vertex, of `count` parts.
+    """
+    if count < 2 or not len(F):
+        return no_links()
+    corners = F.astype(np.int64)
+    middles = V[corners].mean(axis=1)
+    size = float(np.linalg.norm(V[corners] - middles[:, None], axis=2).max())
+    near = _near_others(V, part, count, LAYER)
+    face = np.flatnonzero(_near_others(middles, part[corners[:, 0]], count, LAYER + 2 * size))
+    if not near.any() or not len(face):
+        return no_links()
+    spacing, chosen, area = surface_samples(V, normals, areas, part, near, SAMPLES)
+    i, triangle = _nearest_middles(V, chosen, part, middles, face, corners, LAYER + size)
+    if not len(i):
+        return no_links()
+    share = np.zeros(len(V))
+    share[chosen] = area
+    i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
+    is_kept = _is_accepted(V, corners, normals, part, i, triangle, d)
+    i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
+    squared = (d[is_kept] ** 2).sum(axis=1)
+    weights = share[i] / np.maximum(squared, np.maximum(share[i], spacing**2))
+    return links_to_triangles(i, corners[triangle], barycentric, weights)
+
+
+def _near_others(points, label, count, reach):
+    """Return which points (n,3) may be within reach of a part that is not theirs, by boxes."""
+    if count > 64:
+        return np.ones(len(points), dtype=bool)
+    boxes = [points[label == k] for k in range(count)]
+    is_near = np.zeros(len(points), dtype=bool)
+    for k, own in enumerate(boxes):
+        if len(own):
+            inside = (points >= own.min(axis=0) - reach) & (points <= own.max(axis=0) + reach)
+            is_near |= inside.all(axis=1) & (label != k)
+    return is_near
+
+
+def _nearest_middles(V, chosen, part, middles, face, corners, reach):
+    """Return pairs of a vertex and a triangle of another part that may be the nearest.
+
+    Two different numbers differ in at least one bit. So for each bit the vertices of parts that
+    have it are compared with the triangles of parts that do not, and the other way round.
+    """
+    of_vertex, of_face = part[chosen], part[corners[face, 0]]
+    vertices, triangles = [], []
+    for bit in range(int(part.max()).bit_length()):
+        vertex_bit, face_bit = of_vertex >> bit & 1, of_face >> bit & 1
+        for value in (0, 1):
+            asking, asked = chosen[vertex_bit == value], face[face_bit != value]
+            if not len(asking) or not len(asked):
+                continue
+            tree = cKDTree(middles[asked], balanced_tree=False, compact_nodes=False)
+            k = min(_CANDIDATES, len(asked))
+            _, found = tree.query(V[asking], k=k, distance_upper_bound=reach, workers=-1)
+            found = found.reshape(len(asking), k)
+            is_found = found < len(asked)
+            vertices.append(np.repeat(asking, k)[is_found.ravel()])
+            triangles.append(asked[found[is_found]])
+    if not vertices:
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def _nearest_triangles(V, corners, i, triangle):
+    """Of pairs, keep the one with the nearest triangle of each vertex.
+
+    Returns
+    -------
+    i, triangle : (k,) int arrays
+    barycentric : (k,3) array
+        Of the nearest point.
+    d : (k,3) array
+        From the vertex to it.
+    """
+    a, b, c = (V[corners[triangle, k]] for k in range(3))
+    barycentric = closest_points(V[i], a, b, c)
+    points = barycentric[:, :1] * a + barycentric[:, 1:2] * b + barycentric[:, 2:] * c
+    d = points - V[i]
+    order = np.lexsort((triangle, (d * d).sum(axis=1), i))
+    is_first = np.ones(len(order), dtype=bool)
+    is_first[1:] = i[order][1:] != i[order][:-1]
+    best = order[is_first]
+    return i[best], triangle[best], barycentric[best], d[best]
+
+
+def _is_accepted(V, corners, normals, part, i, triangle, d):
+    """Return which links there shall be; see the module."""
+    extents = _extents(V, part)
+    smaller = np.minimum(extents[part[i]], extents[part[corners[triangle, 0]]])
+    distance = np.linalg.norm(d, axis=1)
+    a, b, c = (V[corners[triangle, k]] for k in range(3))
+    upright = np.cross(b - a, c - a)
+    upright /= np.maximum(np.linalg.norm(upright, axis=1), 1e-300)[:, None]
+    is_layer = np.abs((upright * d).sum(axis=1)) > _UPRIGHT * distance
+    is_layer &= (upright * normals[i]).sum(axis=1) > _PARALLEL
+    reach = np.where(is_layer, LAYER, CONTACT)
+    return distance <= np.minimum(reach, OF_PART * smaller)
+
+
+def _extents(V, part):
+    """Return the largest extent of each part."""
+    count = int(part.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, part, V)
+    np.maximum.at(high, part, V)
+    return (high - low).max(axis=1)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface of a proxy: welded, and fine enough."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..components import components
+from ..unit_box import UnitBox, unit_box
+from ..vertex_order import vertex_order
+from .input_map import InputMap
+from .refinement import longest_edges, refine
+from .weld import weld
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What is solved in place of the input, without its loose vertices."""
+
+    input_map: InputMap
+    box: UnitBox
+    V: np.ndarray
+    """(n,3) float64 rest positions in the unit box"""
+    F: np.ndarray
+    """(m,3) int32 triangles"""
+
+
+def surface_of(V, F, options):
+    """Return the Surface of positions V (N,3), any unit, and triangles F (m,3).
+
+    options : ProxyOptions
+    """
+    used, F = _used_vertices(F, len(V))
+    box = unit_box(V[used])
+    at = box.to_unit(V[used])
+    group, first = np.arange(len(used)), np.arange(len(used))
+    if options.together:
+        group, first, F = _welded(at, F)
+    at = at[first]
+    parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
+    if options.refine:
+        _, part = components(F, len(at))
+        at, F, parents, rounds = refine(at, F, longest_edges(at, F, part)[part])
+    of_input = np.full(len(V), -1)
+    of_input[used] = group
+    input_map = InputMap(of_input, used[first], parents, rounds)
+    order = vertex_order(F, len(at))
+    if order is not None:
+        number = np.empty(len(order), dtype=np.int32)
+        number[order] = np.arange(len(order), dtype=np.int32)
+        input_map, at, F = input_map.ordered(order), at[order], number[F]
+    return Surface(input_map, box, at, F)
+
+
+def _welded(V, F):
+    """Weld, unless nothing would be left of the triangles."""
+    group, first, triangles = weld(V, F)
+    if not len(triangles):
+        return np.arange(len(V)), np.arange(len(V)), F
+    return group, first, triangles
+
+
+def _used_vertices(F, count):
+    """Return the vertices that lie in a triangle, ascending, and F as indices into them."""
+    is_used = np.zeros(count, dtype=bool)
+    is_used[F.ravel()] = True
+    used = np.flatnonzero(is_used)
+    if len(used) == count:
+        return used, F.copy()  # it may be the caller's
+    number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
+    return used, number[F]

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Links to the other side of a part, so that limbs, walls and necks keep their thickness.
+
+From a vertex the largest ball inside the surface that touches it there also touches the other side.
+It is found by shrinking (Ma, Bae and Choi, "3D medial axis point approximation using nearest
+neighbors and the normal field", 2012): the vertex nearest to the centre of a ball gives the radius
+of the next one.
+
+A link is accepted between a vertex and the vertex that its ball ends at, if
+
+- the part encloses a volume: the holes in it are small, its triangles agree on what is outside, and
+  edges of more than two triangles are few. Open sheets have no other side;
+- the ball lies inside: normals that point inward (a part of negative volume) are turned around
+  first, so nothing is linked across the gap between the fingers of an inverted hand;
+- both contacts are seen from the centre of the ball under more than `LEAST_ANGLE`: else the ball
+  has ended at its own neighbourhood, as in every convex corner;
+- the surfaces face away from each other.
+
+As no vertex of the part lies inside the ball, a link never crosses another wall of it.
+"""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .links import links_between, no_links
+from .samples import surface_samples
+
+LEAST_ANGLE = np.radians(40.0)
+SAMPLES = 6000
+"""about as many vertices are linked; each stands for the area around it"""
+MOST_POINTS = 200_000
+"""that the balls are measured against"""
+MOST_HOLES = 0.1
+"""of the area of a part; more is an open sheet"""
+MOST_FAULTS = 0.05
+"""share of edges at which triangles disagree, or are more than two"""
+
+_ROUNDS = 12
+_FACING = 0.3  # cosine between a link and the normal at either end
+_SETTLED = 0.99  # a ball that shrinks by less has come to its end
+
+
+def thickness_links(V, F, normals, areas, part):
+    """Return links of solidity 1 to the other side.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Rest positions in the unit box.
+    F : (m,3) int array
+    normals : (n,3) float array
+        Unit normals, or zero.
+    areas : (n,) float array
+    part : (n,) int array
+        Connected part of each vertex.
+    """
+    outward = outward_sign(V, F, part)[part]
+    is_solid = (outward != 0.0) & normals.any(axis=1)
+    points = np.flatnonzero(is_solid)
+    if len(points) < 4:
+        return no_links()
+    points = points[:: -(-len(points) // MOST_POINTS)]
+    spacing, chosen, area = surface_samples(V, normals, areas, part, is_solid, SAMPLES)
+    normals = outward[:, None] * normals
+    i, j = _opposite(V, normals, part, chosen, points)
+    is_facing = _are_facing(V, normals, i, j)
+    i, j = i[is_facing], j[is_facing]
+    share = np.zeros(len(V))
+    share[chosen] = area
+    distance = np.linalg.norm(V[j] - V[i], axis=1)
+    return links_between(i, j, share[i] / np.maximum(distance, spacing) ** 2)
+
+
+def _opposite(V, normals, part, chosen, points):
+    """Return the vertices whose balls end at another side, and where they do."""
+    # parts are kept apart by a coordinate of their own
+    place = np.column_stack([V, 10.0 * part])
+    tree = cKDTree(place[points], balanced_tree=False, compact_nodes=False)
+    p, n = V[chosen], normals[chosen]
+    radius = np.full(len(chosen), 0.5)
+    end = np.full(len(chosen), -1)
+    todo = np.arange(len(chosen))
+    for _ in range(_ROUNDS):
+        centre = place[chosen[todo]]
+        centre[:, :3] -= radius[todo, None] * n[todo]
+        _, nearest = tree.query(centre, workers=-1)
+        q = points[nearest]
+        d = V[q] - p[todo]
+        squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
+        is_other = (q != chosen[todo]) & (depth > 0.0)
+        shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
+        # half the angle between both contacts, from the centre: |d| / 2r
+        sine = np.sqrt(squared) / np.maximum(2.0 * shrunk, 1e-300)
+        is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
+        goes_on = is_seen & (shrunk < _SETTLED * radius[todo])
+        end[todo[is_seen]] = q[is_seen]
+        radius[todo[is_seen]] = np.minimum(shrunk, radius[todo])[is_seen]
+        todo = todo[goes_on]
+        if not len(todo):
+            break
+    has_end = end >= 0
+    return chosen[has_end], end[has_end]
+
+
+def _are_facing(V, normals, i, j):
+    """Return where the normals at both ends point away from the other end."""
+    d = V[j] - V[i]
+    least = _FACING * np.linalg.norm(d, axis=1)
+    return ((normals[j] * d).sum(axis=1) > least) & (-(normals[i] * d).sum(axis=1) > least)
+
+
+def outward_sign(V, F, part):
+    """Return for each part 1 if its normals point outward, -1 if inward, 0 if it has no inside.
+
+    Holes are closed by triangles to the middle of their borders, parts that are mostly hole, or
+    whose triangles do not agree, have no inside.
+    """
+    count = int(part.max(initial=-1)) + 1
+    corners = F.astype(np.int64)
+    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    key = low * len(V) + high
+    edge, inverse, uses = np.unique(key, return_inverse=True, return_counts=True)
+    balance = np.bincount(inverse.ravel(), np.where(start < end, 1.0, -1.0))
+    owner = part[edge // len(V)]
+    is_border = uses == 1
+    is_fault = ~is_border & ((uses > 2) | (balance != 0.0))
+    faults = np.bincount(owner, is_fault, count) / np.maximum(
+        np.bincount(owner, minlength=count), 1
+    )
+    is_open = is_border[inverse.ravel()]
+    holes, volume_of_holes = _holes(V, start[is_open], end[is_open], part, count)
+    a, b, c = V[corners[:, 0]], V[corners[:, 1]], V[corners[:, 2]]
+    normal = np.cross(b - a, c - a)
+    of_face = part[corners[:, 0]]
+    area = np.bincount(of_face, np.linalg.norm(normal, axis=1), count) / 2.0
+    volume = np.bincount(of_face, (a * np.cross(b, c)).sum(axis=1), count) / 6.0 + volume_of_holes
+    is_solid = (holes < MOST_HOLES * area) & (faults < MOST_FAULTS) & (area > 0.0)
+    return np.where(is_solid, np.sign(volume), 0.0)
+
+
+def _holes(V, start, end, part, count):
+    """Return area and volume (count,) of the fans that close the borders of each part.
+
+    Parameters
+    ----------
+    start, end : (b,) int arrays
+        Ends of the border edges, in the direction of their triangles.
+    """
+    if not len(start):
+        return np.zeros(count), np.zeros(count)
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    n = len(V)
+    graph = coo_matrix((np.ones(len(start)), (start, end)), shape=(n, n))
+    _, loop = connected_components(graph, directed=False)
+    loop = np.unique(loop[start], return_inverse=True)[1].ravel()
+    sizes = np.bincount(loop)
+    middle = np.stack([np.bincount(loop, x) / sizes for x in V[start].T], axis=1)[loop]
+    a, b = V[end], V[start]  # against the direction of the triangles
+    area = np.linalg.norm(np.cross(b - a, middle - a), axis=1) / 2.0
+    volume = (a * np.cross(b, middle)).sum(axis=1) / 6.0
+    return tuple(np.bincount(part[start], values, count) for values in (area, volume))
