@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The cases by name, and what is done with one: made, cubified by the operator, measured."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+
+import art_character
+import art_coarse
+import art_figure
+import art_meshes
+import art_seams
+import art_sheets
+import art_solids
+import bpy
+import measures
+import numpy as np
+from art_objects import Surface, select, surface_of
+
+PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
+"""the settings of the paper, as far as the operator knows them"""
+
+
+@dataclass(frozen=True)
+class Case:
+    """How a mesh is made, and what is special about it."""
+
+    make: Callable[[], list[bpy.types.Object]]
+    is_dressed: bool = False
+    """the first object is a closed body, and the others are around it"""
+    options: dict = field(default_factory=dict)
+    """of the operator"""
+
+
+def _glb(make, cut):
+    return lambda: cut(make())
+
+
+CASES = {
+    "monkey": Case(art_meshes.monkey),
+    "teapot": Case(art_meshes.teapot),
+    "character": Case(art_character.character),
+    "clothes": Case(art_figure.dressed, is_dressed=True),
+    "body": Case(art_figure.body),
+    "painted": Case(art_figure.painted, options={"map_group": "Head"}),
+    "painted_soft": Case(partial(art_figure.painted, border=0.1), options={"map_group": "Head"}),
+    "monkey_seams": Case(_glb(art_meshes.monkey, art_seams.with_seams)),
+    "monkey_flat": Case(_glb(partial(art_meshes.monkey, 1), art_seams.flat_shaded)),
+    "teapot_seams": Case(_glb(art_meshes.teapot, art_seams.with_seams)),
+    "character_seams": Case(_glb(art_character.character, art_seams.with_seams)),
+    "monkey_507": Case(partial(art_meshes.monkey, 0)),
+    "sphere": Case(art_coarse.sphere),
+    "torus": Case(art_coarse.torus),
+    "cylinder": Case(art_coarse.cylinder),
+    "cone": Case(art_coarse.cone),
+    "car": Case(art_coarse.car),
+    "text": Case(art_coarse.text),
+    "cube": Case(art_coarse.cuboid),
+    "box_long": Case(partial(art_coarse.cuboid, (6, 1, 0.5))),
+    "box_thin": Case(partial(art_coarse.cuboid, (2, 1, 0.02))),
+    "box_10": Case(partial(art_coarse.cuboid, (2, 1.5, 1), degrees=10)),
+    "box_30": Case(partial(art_coarse.cuboid, (2, 1.5, 1), degrees=30)),
+    "box_45": Case(partial(art_coarse.cuboid, (2, 1.5, 1), degrees=45)),
+    "box_skew": Case(partial(art_coarse.cuboid, (2, 1.5, 1), (1, 2, 3), 35)),
+    "house": Case(art_coarse.house),
+    "house_30": Case(partial(art_coarse.house, 30)),
+    "waves": Case(art_sheets.wavy_plane),
+    "bowl": Case(art_sheets.bowl),
+    "pipe": Case(art_sheets.pipe),
+    "cape": Case(art_sheets.cape_at_wall),
+    "cubes_at_sheet": Case(art_sheets.cubes_at_sheet),
+    "two_sheets": Case(art_sheets.two_sheets),
+    "hand": Case(art_solids.hand),
+    "hand_inverted": Case(partial(art_solids.hand, is_inverted=True)),
+    "cup": Case(art_solids.cup),
+    "pinched": Case(art_solids.pinched_torus),
+    "mixed": Case(art_solids.mixed_winding),
+    "fin": Case(art_solids.with_fin),
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A case before and after, in world space."""
+
+    rest: Surface
+    after: Surface
+    seconds: float
+    V: np.ndarray = field(init=False)
+    """(n,3) positions at rest"""
+    U: np.ndarray = field(init=False)
+    """(n,3) positions after"""
+    F: np.ndarray = field(init=False)
+    """(m,3) triangles, those of rest"""
+
+    def __post_init__(self):
+        for name, value in (("V", self.rest.V), ("U", self.after.V), ("F", self.rest.F)):
+            object.__setattr__(self, name, value)
+
+    def angle(self):
+        """Return the angle to the axes in degrees, at rest and after."""
+        return measures.angle_to_axes(self.V, self.F), measures.angle_to_axes(self.U, self.F)
+
+    def angle_ratio(self):
+        """Return the angle to the axes after, divided by that at rest."""
+        rest, after = self.angle()
+        return after / rest
+
+    def drift(self, is_welded=True):
+        """Return the drift of parts; see `measures.drift`."""
+        return measures.drift(self.V, self.U, self.F, is_welded)
+
+    def volume_ratio(self):
+        """Return the volume after, divided by that at rest."""
+        return measures.volume(self.U, self.F) / measures.volume(self.V, self.F)
+
+    def crossings(self):
+        """Return the number of crossing pairs of triangles, at rest and after."""
+        return tuple(measures.crossings(self.V, X, self.F) for X in (self.V, self.U))
+
+    def inside(self):
+        """Return the share of the clothes' vertices inside the body, at rest and after."""
+        clothes = self.rest.owner > 0
+        return tuple(
+            measures.share_inside(surface.V[clothes], *surface.of(0))
+            for surface in (self.rest, self.after)
+        )
+
+
+def cubified(objects, **options):
+    """Run Cubify on objects and return the Outcome; what the operator does not know is left out."""
+    rest = surface_of(objects)
+    select(objects)
+    begin = time.perf_counter()
+    done = bpy.ops.cubic_craft.cubify(**known(options))
+    seconds = time.perf_counter() - begin
+    assert done == {"FINISHED"}
+    return Outcome(rest, surface_of(objects), seconds)
+
+
+def known(options):
+    """Return those of the options that this version of the operator has, with that value."""
+    properties = bpy.ops.cubic_craft.cubify.get_rna_type().properties
+    return {
+        name: value
+        for name, value in options.items()
+        if name in properties
+        and (properties[name].type != "ENUM" or value in properties[name].enum_items)
+    }

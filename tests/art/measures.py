@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures of a result as a sculpture.
+
+V, U: (n,3) positions at rest and after, in world space; F: (m,3) triangles of everything together.
+Lengths are relative to the size: the largest side of the bounding box at rest.
+"""
+
+import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+SAME_PLACE = 1e-6
+"""of the size, within which vertices are at one place"""
+REACH = 0.01
+"""of the size, within which vertices of different parts are neighbours"""
+RAYS = ((0.31, 0.22, 0.925), (-0.57, 0.74, 0.36), (0.13, -0.83, -0.54))
+"""skew directions, so that a ray rarely meets an edge of a mesh that follows the axes"""
+
+
+def size_of(V):
+    """Return the largest side of the bounding box."""
+    return float(np.ptp(V, axis=0).max())
+
+
+def welded(V, F):
+    """Return F (m,3) with the first vertex at each place in place of all that are there."""
+    pairs = cKDTree(V).query_pairs(SAME_PLACE * size_of(V), output_type="ndarray")
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), (len(V), len(V)))
+    _, place = connected_components(graph, directed=False)
+    _, first = np.unique(place, return_index=True)
+    return first[place][F]
+
+
+def part_of(V, F, is_welded=True):
+    """Return the number of parts and the part (n,) of each vertex, -1 without a triangle.
+
+    Triangles with a common edge are of one part; a common vertex alone does not join parts.
+
+    Parameters
+    ----------
+    is_welded : bool
+        A seam, where edges are doubled, does not end a part.
+    """
+    corners = welded(V, F) if is_welded else F
+    edges = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2), axis=2)
+    _, edge = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+    triangle = np.repeat(np.arange(len(F)), 3)
+    side = len(F) + edge.ravel()
+    count = side.max() + 1
+    graph = coo_matrix((np.ones(len(side)), (triangle, side)), (count, count))
+    number, label = connected_components(graph, directed=False)
+    part = np.full(len(V), -1)
+    part[F] = label[: len(F), None]
+    return number, part
+
+
+def drift(V, U, F, is_welded=True):
+    """Return how far neighbours of different parts moved against each other: 99th percentile.
+
+    The neighbour of a vertex is the nearest one of another part. 0 where there are no neighbours.
+    """
+    size, (_, part) = size_of(V), part_of(V, F, is_welded)
+    pairs = cKDTree(V).query_pairs(REACH * size, output_type="ndarray")
+    a, b = part[pairs].T
+    pairs = pairs[(a != b) & (a >= 0) & (b >= 0)]
+    if not len(pairs):
+        return 0.0
+    pairs = np.concatenate([pairs, pairs[:, ::-1]])
+    distance = np.linalg.norm(V[pairs[:, 0]] - V[pairs[:, 1]], axis=1)
+    pairs = pairs[np.lexsort([distance, pairs[:, 0]])]
+    i, j = pairs[np.unique(pairs[:, 0], return_index=True)[1]].T
+    moved = U - V
+    return float(np.percentile(np.linalg.norm(moved[i] - moved[j], axis=1), 99) / size)
+
+
+def tear(V, U):
+    """Return how far vertices at one place came apart at most."""
+    size = size_of(V)
+    pairs = cKDTree(V).query_pairs(SAME_PLACE * size, output_type="ndarray")
+    gap = np.linalg.norm(U[pairs[:, 0]] - U[pairs[:, 1]], axis=1)
+    return float(gap.max(initial=0.0) / size)
+
+
+def angle_to_axes(U, F):
+    """Return the mean angle in degrees of normals to the nearest axis, each counted by its area."""
+    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
+    doubled_area = np.linalg.norm(normal, axis=1)
+    cosine = np.abs(normal).max(axis=1) / np.maximum(doubled_area, 1e-300)
+    return float(np.degrees(np.arccos(np.minimum(cosine, 1)) @ doubled_area / doubled_area.sum()))
+
+
+def turn(V, U):
+    """Return the angle in degrees by which the whole has turned."""
+    rotation, _ = Rotation.align_vectors(U - U.mean(axis=0), V - V.mean(axis=0))
+    return float(np.degrees(rotation.magnitude()))
+
+
+def shift(V, U):
+    """Return how far the mean of the vertices has moved."""
+    return float(np.linalg.norm(U.mean(axis=0) - V.mean(axis=0)) / size_of(V))
+
+
+def volume(U, F):
+    """Return the signed volume: positive where the normals point out."""
+    a, b, c = (U[F[:, k]] - U.mean(axis=0) for k in range(3))
+    return float(np.sum(a * np.cross(b, c)) / 6)
+
+
+def is_closed(V, F):
+    """Tell whether each edge has a triangle at both of its sides, seams welded."""
+    corners = welded(V, F)
+    ways = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    there, count = np.unique(ways, axis=0, return_counts=True)
+    back, count_back = np.unique(ways[:, ::-1], axis=0, return_counts=True)
+    return np.array_equal(there, back) and np.array_equal(count, count_back)
+
+
+def share_inside(points, V, F):
+    """Return the share of points (k,3) inside a closed surface, which may cross itself.
+
+    A point is inside where the surface winds around it; rays count how often it is left.
+    """
+    tree = BVHTree.FromPolygons(V.tolist(), F.tolist())
+    step, rays = 1e-6 * size_of(V), [Vector(ray).normalized() for ray in RAYS]
+    inside = [
+        np.median([_winding(tree, Vector(point), ray, step) for ray in rays]) > 0
+        for point in points.tolist()
+    ]
+    return float(np.mean(inside))
+
+
+def _winding(tree, point, ray, step):
+    """Return how often more the ray leaves the surface than it enters."""
+    winding = 0
+    while True:
+        place, normal, index, _ = tree.ray_cast(point, ray)
+        if index is None:
+            return winding
+        winding += 1 if normal.dot(ray) > 0 else -1
+        point = place + step * ray
+
+
+def movement(V, U, of=slice(None)):
+    """Return how far the vertices of a subset moved at most."""
+    return float(np.linalg.norm(U[of] - V[of], axis=1).max() / size_of(V))
+
+
+def crossings(V, U, F):
+    """Return how many pairs of triangles cross that do not meet in a vertex at rest."""
+    tree = BVHTree.FromPolygons(U.tolist(), F.tolist())
+    pairs = np.array(tree.overlap(tree))
+    if not len(pairs):
+        return 0
+    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    corners = welded(V, F)
+    meets = (corners[pairs[:, 0], :, None] == corners[pairs[:, 1], None, :]).any(axis=(1, 2))
+    return int((~meets).sum())
