@@ -25,7 +25,9 @@ from scipy.spatial import cKDTree
 from .links import links_between, no_links
 from .samples import surface_samples
 
-LEAST_ANGLE = np.radians(40.0)
+LEAST_ANGLE = np.radians(90.0)
+STRENGTH = 1.15
+"""of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """about as many vertices are linked; each stands for the area around it"""
 MOST_POINTS = 200_000
@@ -36,7 +38,7 @@ MOST_FAULTS = 0.05
 """share of edges at which triangles disagree, or are more than two"""
 
 _ROUNDS = 12
-_FACING = 0.3  # cosine between a link and the normal at either end
+_FACING = 0.85  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
@@ -68,7 +70,7 @@ def thickness_links(V, F, normals, areas, part):
     share = np.zeros(len(V))
     share[chosen] = area
     distance = np.linalg.norm(V[j] - V[i], axis=1)
-    return links_between(i, j, share[i] / np.maximum(distance, spacing) ** 2)
+    return links_between(i, j, STRENGTH * share[i] / np.maximum(distance, spacing) ** 2)
 
 
 def _opposite(V, normals, part, chosen, points):
