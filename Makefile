@@ -46,7 +46,7 @@ test-solver: setup ## The solver, what decides in Live, packages, and the docume
 	$(PY) $(PYTEST) tests/hostile tests/solver tests/live tests/packages tests/docs
 
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
-	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts
+	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts tests/art
 
 test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in each run
 	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) $(PY) $(PYTEST) tests/hostile
@@ -54,7 +54,7 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 		$(PY) $(PYTEST) tests/blender/hostile
 
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
-	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts tests/art
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest

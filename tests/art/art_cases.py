@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cases by name, and what is done with one: made, cubified by the operator, measured."""
 
+import functools
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -43,12 +44,14 @@ CASES = {
     "character": Case(art_character.character),
     "clothes": Case(art_figure.dressed, is_dressed=True),
     "body": Case(art_figure.body),
+    "skin": Case(art_character.skin),
     "painted": Case(art_figure.painted, options={"map_group": "Head"}),
     "painted_soft": Case(partial(art_figure.painted, border=0.1), options={"map_group": "Head"}),
     "monkey_seams": Case(_glb(art_meshes.monkey, art_seams.with_seams)),
     "monkey_flat": Case(_glb(partial(art_meshes.monkey, 1), art_seams.flat_shaded)),
     "teapot_seams": Case(_glb(art_meshes.teapot, art_seams.with_seams)),
     "character_seams": Case(_glb(art_character.character, art_seams.with_seams)),
+    "monkey_2012": Case(partial(art_meshes.monkey, 1)),
     "monkey_507": Case(partial(art_meshes.monkey, 0)),
     "sphere": Case(art_coarse.sphere),
     "torus": Case(art_coarse.torus),
@@ -111,6 +114,10 @@ class Outcome:
         """Return the drift of parts; see `measures.drift`."""
         return measures.drift(self.V, self.U, self.F, is_welded)
 
+    def seat(self):
+        """Return the drift of vertices against the surface of other parts; see `measures.seat`."""
+        return measures.seat(self.V, self.U, self.F)
+
     def volume_ratio(self):
         """Return the volume after, divided by that at rest."""
         return measures.volume(self.U, self.F) / measures.volume(self.V, self.F)
@@ -137,6 +144,15 @@ def cubified(objects, **options):
     seconds = time.perf_counter() - begin
     assert done == {"FINISHED"}
     return Outcome(rest, surface_of(objects), seconds)
+
+
+@functools.cache
+def outcome_of(name, cubeness=0.4, is_paper=False):
+    """Cubify a case in an empty file, once however often it is asked for."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    case = CASES[name]
+    settings = PAPER if is_paper else {}
+    return cubified(case.make(), cubeness=cubeness, **case.options, **settings)
 
 
 def known(options):

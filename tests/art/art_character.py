@@ -40,12 +40,17 @@ SINGLE = (
 )
 
 
+def skin(voxel=VOXEL):
+    """Return the skin alone: short, with a big head, fingers, and arms that hang half down."""
+    trunk = [part for bone in TRUNK for part in limb(*bone)] + [ball(HEAD, HEAD_RADII)]
+    return [melted("Skin", trunk + both_sides(LIMBS) + both_sides(FINGERS), voxel)]
+
+
 def character(voxel=VOXEL):
     """Return one mesh of 22 parts: skin, eyes, pupils, ears, finger nails, nose, teeth, hat."""
-    trunk = [part for bone in TRUNK for part in limb(*bone)] + [ball(HEAD, HEAD_RADII)]
-    skin = melted("Skin", trunk + both_sides(LIMBS) + both_sides(FINGERS), voxel)
-    parts = [part_of(skin)]
-    bpy.data.objects.remove(skin)
+    (obj,) = skin(voxel)
+    parts = [part_of(obj)]
+    bpy.data.objects.remove(obj)
     tree = BVHTree.FromPolygons(parts[0][0].tolist(), parts[0][1])
     for (x, y, z), radii in PAIRS:
         parts += [_seated(tree, (side * x, y, z), radii) for side in (1, -1)]

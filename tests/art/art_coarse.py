@@ -43,7 +43,7 @@ def car(sides=14):
     wheel = revolved([(0, -0.14), (0.42, -0.14), (0.42, 0.14), (0, 0.14)], sides)
     sideways = Matrix.Rotation(np.pi / 2, 3, "X")
     for x in (1.2, -1.25):
-        for y in (0.75, -0.75):
+        for y in (0.9, -0.9):
             parts.append(moved(wheel, sideways, (x, y, 0.42)))
     return [add("Car", *parts, is_smooth=False)]
 

@@ -8,6 +8,7 @@ Lengths are relative to the size: the largest side of the bounding box at rest.
 import numpy as np
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
+from mathutils.geometry import barycentric_transform
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -77,6 +78,25 @@ def drift(V, U, F, is_welded=True):
     return float(np.percentile(np.linalg.norm(moved[i] - moved[j], axis=1), 99) / size)
 
 
+def seat(V, U, F):
+    """Return the drift of vertices against the nearest place of another part, on its triangles.
+
+    The 99th percentile, as `drift`; for coarse parts, whose vertices are far from each other.
+    """
+    size, (_, part) = size_of(V), part_of(V, F)
+    moves = []
+    for number in np.unique(part[F]):
+        own = F[part[F[:, 0]] == number]
+        tree = BVHTree.FromPolygons(V.tolist(), own.tolist())
+        for i in np.flatnonzero((part != number) & (part >= 0)):
+            place, _, index, _ = tree.find_nearest(Vector(V[i]), REACH * size)
+            if index is not None:
+                a, b, c = map(Vector, V[own[index]])
+                after = barycentric_transform(place, a, b, c, *map(Vector, U[own[index]]))
+                moves.append(np.linalg.norm(U[i] - after - (V[i] - place)))
+    return float(np.percentile(moves, 99) / size) if moves else 0.0
+
+
 def tear(V, U):
     """Return how far vertices at one place came apart at most."""
     size = size_of(V)
@@ -142,6 +162,16 @@ def _winding(tree, point, ray, step):
             return winding
         winding += 1 if normal.dot(ray) > 0 else -1
         point = place + step * ray
+
+
+def share_behind(points, V, F):
+    """Return the share of points (k,3) behind an open sheet: where its normals do not point."""
+    tree = BVHTree.FromPolygons(V.tolist(), F.tolist())
+    behind = []
+    for point in map(Vector, points.tolist()):
+        place, normal, *_ = tree.find_nearest(point)
+        behind.append(normal.dot(point - place) < 0)
+    return float(np.mean(behind))
 
 
 def movement(V, U, of=slice(None)):

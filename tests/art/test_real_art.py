@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes as artists have them hold together in Cubify at its default settings.
+
+Cubeness is 0.4 unless a test says otherwise; lengths are shares of the largest side.
+"""
+
+import measures
+import numpy as np
+import pytest
+from art_cases import outcome_of
+from art_figure import NECK
+
+TOUCHING = ("monkey", "teapot", "character")
+CUT_OPEN = (
+    # as imported from a .glb, and what it was before
+    ("monkey_seams", "monkey"),
+    ("teapot_seams", "teapot"),
+    ("character_seams", "character"),
+    ("monkey_flat", "monkey_2012"),
+)
+CHARACTERS = ("body", "skin", "character", "monkey", "clothes")
+DENSE = ("body", "skin")
+COARSE = (
+    ("sphere", 0.75),
+    ("torus", 0.75),
+    ("monkey_507", 0.75),
+    ("car", 0.75),
+    ("text", 0.75),
+    ("cylinder", 0.85),
+)
+
+
+@pytest.mark.parametrize("name", [*TOUCHING, "car", "monkey_507"])
+def test_parts_that_touch_stay_together(name):
+    outcome = outcome_of(name)
+    assert outcome.drift() <= 0.01
+    assert outcome.seat() <= 0.01
+
+
+@pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
+def test_a_mesh_that_is_cut_open_does_not_tear(name, whole):
+    outcome = outcome_of(name)
+    assert outcome.drift(is_welded=False) <= 0.01
+    assert measures.tear(outcome.V, outcome.U) <= 1e-5
+
+
+@pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
+def test_a_mesh_that_is_cut_open_becomes_as_cubic_as_the_whole(name, whole):
+    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.01)
+
+
+@pytest.mark.parametrize("cubeness", [0.2, 0.4, 1.0])
+def test_clothes_stay_outside_the_body(cubeness):
+    rest, after = outcome_of("clothes", cubeness).inside()
+    assert rest == 0
+    assert after <= 0.005
+
+
+@pytest.mark.parametrize("name", DENSE)
+def test_a_dense_mesh_becomes_nearly_as_cubic_as_in_the_paper(name):
+    paper = outcome_of(name, is_paper=True)
+    assert outcome_of(name).angle_ratio() <= 1.15 * paper.angle_ratio()
+
+
+@pytest.mark.parametrize("name", DENSE)
+def test_a_dense_mesh_keeps_its_volume(name):
+    assert outcome_of(name).volume_ratio() >= 0.85
+
+
+@pytest.mark.parametrize(("name", "bound"), COARSE)
+def test_a_coarse_mesh_becomes_cubic(name, bound):
+    assert outcome_of(name).angle_ratio() <= bound
+
+
+@pytest.mark.parametrize("name", ["painted", "painted_soft"])
+def test_what_is_not_painted_stays(name):
+    outcome = outcome_of(name)
+    is_painted = outcome.V[:, 2] > NECK - 0.1 * (name == "painted_soft")
+    assert measures.movement(outcome.V, outcome.U, ~is_painted) <= 0.01
+
+
+def test_what_is_painted_becomes_cubic():
+    outcome = outcome_of("painted")
+    V, U, F = outcome.V, outcome.U, outcome.F
+    is_head = F[(V[F, 2] > NECK + 0.1).all(axis=1)]
+    assert measures.angle_to_axes(U, is_head) <= 0.6 * measures.angle_to_axes(V, is_head)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_the_whole_neither_turns_nor_drifts(name):
+    outcome = outcome_of(name)
+    assert measures.turn(outcome.V, outcome.U) <= 1
+    assert measures.shift(outcome.V, outcome.U) <= 0.01
+
+
+@pytest.mark.parametrize("name", [*DENSE, "cup", "pinched", "hand", "text"])
+def test_no_more_triangles_cross_than_in_the_paper(name):
+    assert outcome_of(name).crossings()[1] <= outcome_of(name, is_paper=True).crossings()[1]
+
+
+@pytest.mark.parametrize("name", [*TOUCHING, "car"])
+def test_few_triangles_of_touching_parts_cross_that_did_not_before(name):
+    rest, after = outcome_of(name).crossings()
+    assert after <= rest + 0.01 * len(outcome_of(name).F)
+
+
+@pytest.mark.parametrize("name", ["character", "clothes", "monkey_507"])
+def test_a_second_run_has_the_same_bits(name):
+    again = outcome_of.__wrapped__(name)
+    assert np.array_equal(outcome_of(name).U, again.U)
