@@ -15,7 +15,7 @@ from ..solver import CubicCraftError
 from .handles import Handle
 from .handles.pose import posed_handles
 from .object_properties import object_properties
-from .properties import RunProperties, settings_of
+from .properties import RunProperties, settings_of, value_of
 from .settings import Settings
 
 ALL = tuple(RunProperties.__annotations__)
@@ -65,13 +65,13 @@ class Choice:
             # A click on the new object is to change it, not to copy it again.
             values["result"] = "MESH"
         for name, value in values.items():
-            if _plain(getattr(properties, name)) != value:
+            if value_of(properties, name) != value:
                 setattr(properties, name, value)
 
 
 def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:
     """Return properties of a property group, or of an operator, as plain values."""
-    return {name: _plain(getattr(properties, name)) for name in names}
+    return {name: value_of(properties, name) for name in names}
 
 
 def find_frame(name: str, active: bpy.types.Object) -> bpy.types.Object | None:
@@ -91,7 +91,3 @@ def find_frame(name: str, active: bpy.types.Object) -> bpy.types.Object | None:
     if frame is None:
         raise CubicCraftError(f'there is no object "{name}"; pick another frame')
     return frame
-
-
-def _plain(value):
-    return value if isinstance(value, str | int | float | bpy.types.ID | None) else tuple(value)

@@ -2,6 +2,7 @@
 """From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
 
 import math
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -13,6 +14,97 @@ from .settings import Settings
 
 _SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How an object stands in the coordinates that it is solved in.
+
+    Those are its own, stretched as it is seen, where it is solved alone: nothing changes then while
+    it is moved or turned. Objects that are solved together meet in world space.
+    """
+
+    linear: np.ndarray
+    """(3,3) A of p = A v + t, invertible"""
+    offset: np.ndarray
+    """(3,) t"""
+    turn: np.ndarray
+    """(3,3) rotation or mirroring T of A = T S"""
+    stretch: np.ndarray
+    """(3,3) symmetric stretch S of A = T S, up to rounding"""
+    orientation: np.ndarray
+    """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame"""
+
+    @property
+    def is_mirrored(self):
+        """Whether triangles face the other way there."""
+        return bool(np.linalg.det(self.linear) < 0.0)
+
+    @property
+    def key(self):
+        """All of it, for comparisons bit for bit."""
+        return self.shape_key, self.orientation.tobytes()
+
+    @property
+    def shape_key(self):
+        """All that decides where the vertices are."""
+        return self.linear.tobytes(), self.offset.tobytes()
+
+    def place(self, points):
+        """Return points (n,3) of the object where it is solved, float64."""
+        placed = points.astype(np.float64) @ self.linear.T
+        return placed + self.offset if self.offset.any() else placed
+
+    def read_back(self, placed):
+        """Return what `place` gave, or what has become of it, in object coordinates."""
+        centred = placed - self.offset if self.offset.any() else placed
+        return centred @ np.linalg.inv(self.linear).T
+
+    def read_rotations_back(self, rotations):
+        """Return the rotations (n,3,3) of surroundings of vertices in object coordinates.
+
+        On an object that is scaled unevenly they are the nearest rotations to what happens to a
+        vertex's surroundings; they turn the offsets of shape keys, and must not distort them.
+        """
+        if not np.array_equal(self.turn, np.eye(3)):
+            rotations = self.turn.T @ rotations @ self.turn
+        stretch = self.stretch
+        if np.allclose(stretch, stretch[0, 0] * np.eye(3), rtol=1e-6, atol=0.0):
+            return rotations
+        maps = np.linalg.inv(stretch) @ rotations @ stretch
+        return solver.svd_rotations(maps.swapaxes(1, 2))
+
+
+def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
+    """Return the placement of an object that is solved for itself: its coordinates, stretched.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    stretch, orientation = stretch_and_orientation(obj, settings)
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation)
+
+
+def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
+    """Return the placement of an object in world space.
+
+    None where it has none: an object that is scaled flat is solved as if it were not scaled, and
+    would be in the wrong place beside others.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    world = np.array(obj.matrix_world, dtype=np.float64)
+    linear, offset = np.ascontiguousarray(world[:3, :3]), world[:3, 3].copy()
+    turn, stretch = _turn_and_stretch(obj)
+    if _is_flat(linear) or not np.isfinite(offset).all():
+        return None
+    orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
+    return Placement(linear, offset, turn, stretch, orientation)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -36,8 +128,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
     turn, stretch = _turn_and_stretch(obj)
-    axes = np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
-    return stretch, _proper(axes.T @ _into_space(obj, settings, turn))
+    return stretch, _proper(_axes(settings).T @ _into_space(obj, settings, turn))
 
 
 def world_axes(obj: bpy.types.Object, settings: Settings):
@@ -67,10 +158,20 @@ def _turn_and_stretch(obj):
     world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
     if not np.isfinite(world).all():
         raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
+    if _is_flat(world):
+        return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
     U, sizes, Vt = np.linalg.svd(world)
-    if sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30):
-        return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
-    return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
+    return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
+
+
+def _is_flat(world):
+    sizes = np.linalg.svd(world, compute_uv=False)
+    return not sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30)
+
+
+def _axes(settings):
+    """Return the matrix of the settings' Euler angles."""
+    return np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
 
 
 def _rounded(stretch):

@@ -99,7 +99,12 @@ def _draw_orientation(layout, obj):
             layout.prop(properties, "frame")
     layout.prop(properties, "orientation")
     layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
-    layout.prop(properties, "rotation")
+
+
+def _draw_shape(layout, obj):
+    properties = live.shared_properties(obj)
+    for name in ("together", "solidity", "refine", "rotation"):
+        layout.prop(properties, name)
 
 
 def _draw_map(layout, obj):
@@ -122,6 +127,7 @@ def _draw_solver(layout, obj):
 
 
 _SECTIONS = (
+    ("CUBIC_PT_shape", "Shape", _draw_shape, False),
     ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
     (handles_panel.SECTION, "Handles", handles_panel.draw, False),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets of the settings, in the header of the panel: kept by Blender in the user's folder."""
+"""Presets of the settings, in the header of the panel: ours, and those in the user's folder."""
+
+from contextlib import suppress
+from pathlib import Path
 
 import bpy
 from bl_ui.utils import PresetPanel
 
 SUBFOLDER = "cubic_craft"
 ADD_OPERATOR = "cubic_craft.preset_add"
+OWN_FOLDER = Path(__file__).parent / "assets"
+"""holds the presets that come with the extension, in ``presets/cubic_craft``"""
 
 
 class CUBIC_PT_presets(PresetPanel, bpy.types.Panel):
@@ -16,5 +21,30 @@ class CUBIC_PT_presets(PresetPanel, bpy.types.Panel):
     preset_operator = "script.execute_preset"
     preset_add_operator = ADD_OPERATOR
 
+    @staticmethod
+    def reset_cb(_context, filepath):
+        """Bring a preset up to date before Blender executes it, which would stop half-way.
 
-register, unregister = bpy.utils.register_classes_factory((CUBIC_PT_presets,))
+        *Rotation* once had the value AUTO.
+        """
+        path = Path(filepath)
+        with suppress(OSError, UnicodeError):  # then Blender says what is wrong with it
+            text = path.read_text(encoding="utf-8")
+            today = text.replace(".rotation = 'AUTO'", ".rotation = 'KEEP'")
+            if today != text:
+                path.write_text(today, encoding="utf-8")
+
+
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory((CUBIC_PT_presets,))
+
+
+def register():
+    """Add the list, with our own presets."""
+    _register_classes()
+    bpy.utils.register_preset_path(str(OWN_FOLDER))
+
+
+def unregister():
+    """Remove both."""
+    bpy.utils.unregister_preset_path(str(OWN_FOLDER))
+    _unregister_classes()

@@ -2,6 +2,7 @@
 """The settings as Blender properties: on every object, and on the operator."""
 
 import math
+from dataclasses import fields
 from typing import Any
 
 import bpy
@@ -32,10 +33,28 @@ _RESULTS = (
     ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be dialled and keyed'),
     ("NEW_OBJECT", "New Object", "Leave the object as it is and make a cubic copy of it"),
 )
+_TOGETHER = (
+    ("OFF", "Off", "Every part becomes cubic for itself, whatever it touches"),
+    ("PARTS", "Parts", "The parts of a mesh stay on each other, such as eyes in their sockets"),
+    (
+        "SELECTION",
+        "Selection",
+        "Also meshes that are selected together stay on each other, such as clothes on a body",
+    ),
+)
+_REFINEMENTS = (
+    (
+        "AUTO",
+        "Auto",
+        "A coarse mesh is worked on as if it were finer, so that few vertices get as cubic as many;"
+        " it keeps its own vertices",
+    ),
+    ("OFF", "Off", "The mesh is taken as it is"),
+)
+# The numbers are in files. 0 was Auto, which Blender reads as the default.
 _ROTATIONS = (
-    ("AUTO", "Auto", "Keep where there are several parts, so that they stay together, else Free"),
-    ("KEEP", "Keep", "Each part stands as before, and the sides of the cube are as asked for"),
-    ("FREE", "Free", "A part may turn as a whole, and fits the cube a little better"),
+    ("KEEP", "Keep", "Each part stands as before, and the sides of the cube are as asked for", 1),
+    ("FREE", "Free", "A part may turn as a whole, and fits the cube a little better", 2),
 )
 _DEVICES = (
     ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
@@ -105,6 +124,33 @@ class RunProperties:
         default=Settings.result,
         options=_OPTIONS,
     )
+    solidity: FloatProperty(
+        name="Solidity",
+        description="How firmly limbs, necks and walls keep their thickness, and bodies their"
+        " volume. 0 is a hollow skin, which may fold flat; more is less cubic",
+        default=Settings.solidity,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
+    together: EnumProperty(
+        name="Keep Together",
+        description="What moves along with what it touches: eyes with the head, buttons with the"
+        " coat",
+        items=_TOGETHER,
+        default=Settings.together,
+        options=_OPTIONS,
+    )
+    refine: EnumProperty(
+        name="Refine",
+        description="How meshes of few vertices are treated",
+        items=_REFINEMENTS,
+        default=Settings.refine,
+        options=_OPTIONS,
+    )
     rotation: EnumProperty(
         name="Rotation",
         description="A part may turn by some degrees as a whole to fit the cube, unless it is held;"
@@ -169,6 +215,17 @@ class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
     )
 
 
+def value_of(properties: Any, name: str) -> Any:
+    """Return a property of a property group, or of an operator, as a plain value.
+
+    An enum that holds a number which has no item any more, from an older file, is at its default.
+    """
+    value = getattr(properties, name)
+    if value == "" and isinstance(getattr(Settings, name, None), str):
+        return getattr(Settings, name)
+    return value if isinstance(value, str | int | float | bpy.types.ID | None) else tuple(value)
+
+
 def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None) -> Settings:
     """Return the object's settings as plain values.
 
@@ -184,20 +241,9 @@ def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None
         The object's own handles cannot be used, see `object_handles`.
     """
     p = object_properties(obj)
-    return Settings(
-        cubeness=p.cubeness,
-        orientation=tuple(p.orientation),
-        space=p.space,
-        frame=p.frame,
-        handles=object_handles(obj) if handles is None else handles,
-        map_group=p.map_group,
-        map_invert=p.map_invert,
-        result=p.result,
-        rotation=p.rotation,
-        device=p.device,
-        max_iterations=p.max_iterations,
-        tolerance=p.tolerance,
-    )
+    own = object_handles(obj) if handles is None else handles
+    names = [field.name for field in fields(Settings) if field.name != "handles"]
+    return Settings(handles=own, **{name: value_of(p, name) for name in names})
 
 
 def register():

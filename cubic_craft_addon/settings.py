@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of one run as plain values, wherever they come from."""
 
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
 from dataclasses import dataclass
 
 import bpy
 
+from .. import solver
 from .handles import Handle
 
 
@@ -26,9 +29,24 @@ class Settings:
     map_invert: bool = False
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
-    rotation: str = "AUTO"
-    """KEEP turns each free part back as a whole at the end, FREE does not; AUTO: several parts"""
+    solidity: float = 0.1
+    """how far limbs, walls and the volume keep their thickness; 0 is a hollow skin"""
+    together: str = "SELECTION"
+    """what follows its neighbours: OFF nothing, PARTS those of a mesh, SELECTION those of all"""
+    refine: str = "AUTO"
+    """AUTO solves coarse meshes on a finer copy, OFF as they are"""
+    rotation: str = "KEEP"
+    """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
     device: str = "AUTO"
     """AUTO, CPU, GPU or NUMPY"""
     max_iterations: int = 1000
     tolerance: float = 1e-3
+
+    @property
+    def proxy(self) -> solver.ProxyOptions:
+        """What is asked of the mesh that is solved in place of the bare one."""
+        return solver.ProxyOptions(
+            solidity=self.solidity,
+            together=self.together != "OFF",
+            refine=self.refine == "AUTO",
+        )

@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What there is to solve: one task per mesh, or per new object. And how all results are written."""
 
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
 import logging
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import accumulate
 
 import bpy
 import numpy as np
 
 from ..solver import CubicCraftError
 from . import cubify, mesh_bridge
+from .assembly import Member, Prepared, prepare, read_member
 from .choice import Choice
 from .failures import UNFORESEEN, in_words
 from .handles.baked_pose import remember_pose
-from .object_frame import stretch_and_orientation
+from .object_frame import placement_alone, placement_in_world
 from .object_properties import object_properties
 from .settings_rollback import settings_kept
 from .taichi_news import taichi_news
@@ -26,22 +29,35 @@ class Task:
 
     def __init__(self, obj: bpy.types.Object, choice: Choice):
         self.obj, self.mesh = obj, mesh_bridge.mesh_of(obj)
+        self.uid = obj.session_uid
         self.settings = choice.settings_for(obj)
         self.solution: cubify.Solution | None = None
-        self._frame = stretch_and_orientation(obj, self.settings)
+        self._alone = placement_alone(obj, self.settings)
+        self._in_world = placement_in_world(obj, self.settings)
+
+    @property
+    def can_be_joined(self):
+        """Whether it is to be solved together with others."""
+        return self.settings.together == "SELECTION" and self._in_world is not None
 
     @property
     def key(self):
         """All that decides the solution beside the mesh; free of references to Blender's data."""
-        return replace(self.settings, frame=None), *(part.tobytes() for part in self._frame)
+        return replace(self.settings, frame=None), self._alone.key
 
-    def is_like(self, other: "Task") -> bool:
-        """Tell whether both have the same solution."""
-        frames = zip(self._frame, other._frame, strict=True)
+    @property
+    def key_in_world(self):
+        """The same for a task that is solved with others."""
+        return self.key, self._in_world and self._in_world.key
+
+    def is_like(self, other: Task) -> bool:
+        """Tell whether both have the same solution, each being solved alone."""
+        one, two = self._alone, other._alone
         return (
             self.mesh == other.mesh
             and self.settings == other.settings
-            and all(np.allclose(a, b) for a, b in frames)
+            and np.allclose(one.linear, two.linear)
+            and np.allclose(one.orientation, two.orientation)
         )
 
 
@@ -69,6 +85,62 @@ def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], l
     return tasks, problems
 
 
+def assemblies(tasks: Sequence[Task]) -> list[list[Task]]:
+    """Return the tasks by what is solved at once, in the order of the first of each."""
+    joined = [task for task in tasks if task.can_be_joined]
+    return [
+        joined if task.can_be_joined else [task]
+        for task in tasks
+        if not task.can_be_joined or task is joined[0]
+    ]
+
+
+def key_of(tasks: Sequence[Task]) -> tuple:
+    """Return all that decides the solutions of an assembly beside the meshes."""
+    if len(tasks) == 1:
+        return ((tasks[0].uid, tasks[0].key),)
+    return tuple((task.uid, task.key_in_world) for task in tasks)
+
+
+def prepare_all(
+    tasks: Sequence[Task],
+    known: Mapping[int, Member] | None = None,
+    earlier: Sequence[Prepared] = (),
+    *,
+    weights_changed: bool = False,
+) -> tuple[Prepared | None, list[str]]:
+    """Read and factorise an assembly, without the objects that cannot be used.
+
+    Parameters
+    ----------
+    tasks
+    known : mapping of int to Member, optional
+        What earlier runs have read, by the ``session_uid`` of the object.
+    earlier, weights_changed
+        As for `prepare` and `read_member`.
+
+    Returns
+    -------
+    prepared : Prepared or None
+    problems : list of str
+    """
+    members, problems = [], []
+    for task in tasks:
+        before = known.get(task.uid) if known else None
+        try:
+            member = read_member(task.obj, task.settings, before, weights_changed=weights_changed)
+        except CubicCraftError as error:
+            problems.append(str(error))
+        else:
+            members.append(member)
+    if not members:
+        return None, problems
+    try:
+        return prepare(members, earlier), problems
+    except CubicCraftError as error:
+        return None, [*problems, str(error)]
+
+
 def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     """Write the solutions of all tasks.
 
@@ -83,7 +155,6 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     # All texts come before the first write: what follows a write must not fail.
     solutions = [task.solution for task in tasks if task.solution is not None]
     statuses = [_status(solution) for solution in solutions]
-    ends = list(accumulate(solution.total_seconds for solution in solutions))
     written, problems = 0, taichi_news() if tasks else []
     try:
         for task, status in zip(tasks, statuses, strict=True):
@@ -96,7 +167,9 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     if written == 1:
         return f"Cubified: {statuses[0]}", problems
     if written:
-        return f"Cubified {written} meshes in {ends[written - 1]:.2f} s", problems
+        # What was solved at once has been waited for once.
+        waits = {id(s.result): s.total_seconds for s in solutions[:written]}
+        return f"Cubified {written} meshes in {sum(waits.values()):.2f} s", problems
     return "", problems
 
 
@@ -117,7 +190,8 @@ def _write(choice, task, status):
 def _status(solution):
     r = solution.result
     end = "converged" if r.converged else "not converged, raise Max Iterations"
+    of_what = f" of {solution.objects} objects" if solution.objects > 1 else ""
     return (
-        f"{len(solution.positions):,} vertices, {r.iterations} iterations, energy"
+        f"{solution.vertices:,} vertices{of_what}, {r.iterations} iterations, energy"
         f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"
     )

@@ -5,11 +5,12 @@ import bpy
 
 from .. import solver
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.cubify import read_shape, stretched_rest
-from ..cubic_craft_addon.object_frame import angles_of, stretch_and_orientation
+from ..cubic_craft_addon.assembly import read_shape
+from ..cubic_craft_addon.object_frame import angles_of, placement_alone
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import settings_of
 from ..solver import CubicCraftError
+from ..solver.unit_box import unit_box
 from .selection import poll_usable, report_all, selected_meshes
 from .unforeseen import reporting
 
@@ -36,16 +37,16 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         session = live.current()
         if session is not None:
             for task in session.tasks[:1]:  # one orientation for all, that of the active object
-                rest = session.mesh_of(task.obj).rest
-                live.live_properties().orientation = _best_angles(task.obj, task.settings, rest)
+                member = session.mesh_of(task.obj).member
+                if member is not None:
+                    angles = _best_angles(task.obj, task.settings, member.shape)
+                    live.live_properties().orientation = angles
             return {"CANCELLED"}  # no undo step in the middle of Live
         found, problems = [], []
         for obj in selected_meshes(context):
             try:
                 settings = settings_of(obj, handles=())
-                stretch, _ = stretch_and_orientation(obj, settings)
-                rest = stretched_rest(obj, read_shape(obj), stretch)
-                found.append((obj, _best_angles(obj, settings, rest)))
+                found.append((obj, _best_angles(obj, settings, read_shape(obj))))
             except CubicCraftError as error:
                 problems.append(str(error))
         for obj, angles in found:
@@ -54,6 +55,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         return report_all(self, f"Oriented {names}" if names else "", problems)
 
 
-def _best_angles(obj, settings, rest):
-    areas, normals = solver.triangle_areas_and_normals(rest.V, rest.F)
+def _best_angles(obj, settings, shape):
+    V = placement_alone(obj, settings).place(shape.original)
+    areas, normals = solver.triangle_areas_and_normals(unit_box(V).to_unit(V), shape.triangles)
     return angles_of(obj, settings, solver.auto_orient(normals, areas))

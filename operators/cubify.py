@@ -20,7 +20,7 @@ from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties
 from ..cubic_craft_addon.settings_rollback import settings_kept
-from ..cubic_craft_addon.tasks import plan, write_all
+from ..cubic_craft_addon.tasks import assemblies, plan, prepare_all, write_all
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
 from .unforeseen import reporting
@@ -81,7 +81,8 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
-        layout.prop(self, "rotation")
+        for name in ("together", "solidity", "refine", "rotation"):
+            layout.prop(self, name)
         layout.prop(self, "use_handles")
         groups = panel_object(context)
         if groups is not None:
@@ -95,11 +96,11 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
 def _adopt_settings(operator, objects):
     """Take what the caller has not set from the active object, so that the redo panel shows it."""
     source = object_properties(objects[0])
-    for name in ALL:
+    for name, value in values_of(source).items():
         if name in OF_EACH_OBJECT and len(objects) > 1:
             continue
         if not operator.properties.is_property_set(name):
-            setattr(operator, name, getattr(source, name))
+            setattr(operator, name, value)
     is_framed = operator.space == "FRAME" and source.frame is not None
     if is_framed and not operator.properties.is_property_set("frame"):
         operator.frame = source.frame.name
@@ -132,30 +133,44 @@ def _affine(item):
 
 def _solve_all(tasks, manager):
     """Return the tasks that could be solved, and the problems as texts."""
-    solved, problems = [], []
-    manager.progress_begin(0, _PROGRESS_STEPS * len(tasks))
+    groups, problems = assemblies(tasks), []
+    manager.progress_begin(0, _PROGRESS_STEPS * len(groups))
     try:
-        for number, task in enumerate(tasks):
-            twin = next((other for other in solved if other.is_like(task)), None)
-            try:
-                task.solution = (
-                    twin.solution if twin else _solve(task, manager, number * _PROGRESS_STEPS)
-                )
-            except CubicCraftError as error:
-                problems.append(str(error))
+        for number, group in enumerate(groups):
+            twin = next((other for other in tasks if _is_twin(other, group)), None)
+            if twin is not None:
+                group[0].solution = twin.solution
             else:
-                solved.append(task)
+                problems += _solve(group, manager, number * _PROGRESS_STEPS)
     finally:
         manager.progress_end()
-    return solved, problems
+    return [task for task in tasks if task.solution is not None], problems
 
 
-def _solve(task, manager, offset):
-    settings = task.settings
+def _is_twin(task, group):
+    """Tell whether a task has been solved that has the solution of a group of one."""
+    if task.solution is None or task.solution.objects > 1 or len(group) > 1:
+        return False
+    return task.is_like(group[0])
+
+
+def _solve(group, manager, offset):
+    """Solve tasks at once, and return the problems as texts."""
+    settings = group[0].settings
     progress = solver.Progress(settings.max_iterations, settings.tolerance)
 
     def show(stylization):
         manager.progress_update(offset + round(_PROGRESS_STEPS * progress.update(stylization)))
         return False
 
-    return cubify.solve(cubify.prepare(task.obj, settings), settings, show)
+    prepared, problems = prepare_all(group)
+    if prepared is None:
+        return problems
+    try:
+        solutions = cubify.solve(prepared, show)
+    except CubicCraftError as error:
+        return [*problems, str(error)]
+    by_uid = {m.uid: s for m, s in zip(prepared.members, solutions, strict=True)}
+    for task in group:
+        task.solution = by_uid.get(task.uid)
+    return problems

@@ -13,10 +13,11 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..choice import Choice
 from ..handles.baked_pose import settle
-from ..tasks import Task, plan, write_all
+from ..tasks import Task, assemblies, plan, write_all
 from . import handlers, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh
+from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
 
 _log = logging.getLogger(__name__)
@@ -61,7 +62,6 @@ class Session:
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = 0.0
         self._has_written = self._may_be_painted = self._is_undone = False
-        self._turn = 0
         self._last_step = _last_step()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
@@ -70,13 +70,14 @@ class Session:
         self._values = properties.live_values()
         self._history = History(self._values)
         self.meshes: list[LiveMesh] = []
+        self._runs = LiveRuns()
         self._plan(objects)
         seen = set()
         for task in self._tasks.values():
             self.meshes.append(LiveMesh(task, is_shown=task.mesh not in seen))
             seen.add(task.mesh)
-            self.meshes[-1].restart(task)
-        if not any(mesh.is_working for mesh in self.meshes):
+        self._restart_changed()
+        if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))
         try:
             self._show_again()
@@ -109,7 +110,7 @@ class Session:
     @property
     def all_problems(self):
         """What is wrong with the settings or the objects, as texts."""
-        return self._plan_problems + [mesh.problem for mesh in self.meshes if mesh.problem]
+        return self._plan_problems + self._runs.problems
 
     @property
     def tasks(self):
@@ -203,10 +204,10 @@ class Session:
             self._check(list(objects.values()), begin)
             now = time.perf_counter()
             self._next_check = now + (now - begin) / _CHECK_SHARE
-        self._compute(begin + SLICE)
+        self._runs.advance(begin + SLICE)
         # Not at rest before Blender has evaluated what was shown: a stroke could go unnoticed.
         is_new = self._show(objects)
-        if self._is_working or is_new or self._is_changed_at_rest(list(objects.values())):
+        if self._runs.is_working or is_new or self._is_changed_at_rest(list(objects.values())):
             if begin >= self._next_panel:
                 self._next_panel = begin + _PANEL_STEP
                 _redraw_panels()
@@ -222,14 +223,14 @@ class Session:
         values = properties.live_values()
         self._history.record(values, now)
         self._plan(objects)
-        is_changed = any(mesh.is_changed(self._task_of(mesh)) for mesh in self.meshes)
+        is_changed = self._runs.is_changed(self._groups)
         if self._is_too_young(now):
             return
         if is_changed:
             self.on(Event.CHANGED)
         if self._may_be_painted:
             self._may_be_painted = False
-            is_changed |= self._restart_painted()
+            is_changed |= self._runs.restart_painted(self._groups, self.meshes)
         if is_changed:
             self._last_restart = now
             # The first look after an undo still finds changes: frames had not been evaluated.
@@ -238,10 +239,6 @@ class Session:
             self._values = values
         self._is_undone = False
         self._look_outside()
-
-    @property
-    def _is_working(self):
-        return any(mesh.is_working for mesh in self.meshes)
 
     def _is_too_young(self, now):
         """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
@@ -256,13 +253,7 @@ class Session:
             self._history.record_outside()
 
     def _restart_changed(self):
-        for mesh in self.meshes:
-            task = self._task_of(mesh)
-            if mesh.is_changed(task):
-                mesh.restart(task)
-
-    def _restart_painted(self):
-        return any([mesh.restart_if_painted(self._task_of(mesh)) for mesh in self.meshes])
+        self._runs.restart_changed(self._groups, self.meshes)
 
     def _is_changed_at_rest(self, objects):
         """Look a last time: what is confirmed must be what the settings say.
@@ -272,17 +263,7 @@ class Session:
         """
         self._may_be_painted = True
         self._check(objects, time.perf_counter())
-        return self._is_working
-
-    def _compute(self, deadline):
-        """Advance all runs in turn, so that they are seen to move together."""
-        working = [mesh for mesh in self.meshes if mesh.is_working]
-        while working:
-            self._turn += 1
-            working[self._turn % len(working)].advance()
-            if time.perf_counter() >= deadline:
-                return
-            working = [mesh for mesh in working if mesh.is_working]
+        return self._runs.is_working
 
     def _show(self, objects):
         shown = [mesh.show(objects[mesh.object_uid].data) for mesh in self.meshes]
@@ -292,16 +273,25 @@ class Session:
     # -- what the state machine asks for -----------------------------------------------------------
 
     def _follow(self):
+        """Go on with meshes that Blender has undone or redone, which may have another shape now."""
         self._put_back()
         self._plan(list(self._objects(bpy.context).values()))
+        if any(task.obj.mode not in _MODES for task in self._tasks.values()):
+            return  # the next tick ends it
         for mesh in self.meshes:
             task = self._task_of(mesh)
-            if task is not None and task.obj.mode in _MODES:
+            if task is not None:
                 mesh.follow(task)
-                mesh.begin_preview(task.mesh)
+        self._runs.restart_painted(self._groups, self.meshes)
+        if self._runs.is_changed(self._groups):
+            self._restart_changed()
+        self._begin_previews()
 
     def _show_again(self):
         self._plan(list(self._objects(bpy.context).values()))
+        self._begin_previews()
+
+    def _begin_previews(self):
         for mesh in self.meshes:
             task = self._task_of(mesh)
             if task is not None:
@@ -337,7 +327,9 @@ class Session:
         wake.listen(None)
         status_bar.hide()
         self._tasks.clear()
+        self._groups.clear()
         self._choice = Choice({})
+        self._runs.release()
         for mesh in self.meshes:
             mesh.release()
         _redraw_panels()
@@ -360,13 +352,15 @@ class Session:
     def _plan(self, objects):
         """Find out what is to be done for the objects, with the settings as they are."""
         self._tasks: dict[int, Task] = {}
+        self._groups: dict[tuple[int, ...], list[Task]] = {}
         try:
             self._choice: Choice = properties.live_choice(objects)
         except CubicCraftError as error:
             self._plan_problems = [str(error)]
             return
         tasks, self._plan_problems = plan(self._choice, objects)
-        self._tasks = {task.obj.session_uid: task for task in tasks}
+        self._tasks = {task.uid: task for task in tasks}
+        self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
 
     def _task_of(self, mesh):
         return self._tasks.get(mesh.object_uid)

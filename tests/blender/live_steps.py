@@ -6,7 +6,7 @@ import importlib
 import bpy
 import numpy as np
 
-STEPS = 400
+STEPS = 4000
 
 
 def bits(obj):
@@ -49,8 +49,9 @@ def check_gone(live):
         assert handler not in getattr(bpy.app.handlers, name)
     session = live._session
     assert session._timer is None
-    assert not session.tasks and session._choice.frame is None
+    assert not session.tasks and not session._groups and session._choice.frame is None
+    assert not session._runs._runs
     for mesh in session.meshes:
-        assert mesh._preview is None and mesh._prepared is None and mesh._run is None
+        assert mesh._preview is None and mesh.member is None and mesh.run is None
     for mesh in bpy.data.meshes:
         assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_live")]

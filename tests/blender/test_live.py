@@ -126,10 +126,10 @@ def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
     before = bits(obj)
     session = begin(obj, cubeness=0.6)
     mesh = session.meshes[0]
-    assert mesh._run.is_on_coarser_mesh
-    while mesh._run.iterations < 6:
+    assert mesh.run._run.is_on_coarser_mesh
+    while mesh.run._run.iterations < 6:
         session.tick(bpy.context)
-    assert mesh._run.is_on_coarser_mesh and mesh.iteration == 0
+    assert mesh.run._run.is_on_coarser_mesh and mesh.iteration == 0
     assert bits(obj) != before and mesh.status[0] == "First on a coarser mesh"
     confirm(live, session)
     select(twin)
@@ -137,17 +137,19 @@ def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
     assert bits(obj) == bits(twin)
 
 
-def test_several_objects_are_live_together(live, begin):
-    twins = [add_monkey("TwinA"), add_monkey("TwinB")]
-    objects = [add_monkey("A"), add_monkey("B", location=(3, 0, 0))]
+@pytest.mark.parametrize("together", ["PARTS", "SELECTION"])
+def test_several_objects_are_live_together(live, begin, together):
+    places = [(0, 0, 0), (2, 0.5, 0)]
+    twins = [add_monkey(f"Twin {place}", location=place) for place in places]
+    objects = [add_monkey(f"Object {place}", location=place) for place in places]
     objects[1].cubic_craft.cubeness = 0.05  # the active one counts
-    session = begin(*objects, cubeness=0.6)
+    session = begin(*objects, cubeness=0.6, together=together)
     before = [bits(obj) for obj in objects]
     tick_to_sight(session)
     assert all(bits(obj) != b for obj, b in zip(objects, before, strict=True))
     confirm(live, session)
     select(*twins)
-    bpy.ops.cubic_craft.cubify(cubeness=0.6)
+    bpy.ops.cubic_craft.cubify(cubeness=0.6, together=together)
     assert [bits(obj) for obj in objects] == [bits(obj) for obj in twins]
 
 
@@ -213,13 +215,15 @@ def test_without_a_window_it_says_so():
 def test_a_tick_keeps_to_its_slice(live, begin, monkeypatch):
     """By a clock on which each phase of the solver takes a third of it, and all else nothing."""
     session_module = importlib.import_module(f"{live.__name__}.session")
+    runs_module = importlib.import_module(f"{live.__name__}.live_runs")
     session = begin(add_monkey(), tolerance=1e-6)
     (mesh,) = session.meshes
     phases = []
     clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * session_module.SLICE)
     monkeypatch.setattr(session_module, "time", clock)
-    advance = mesh.advance
-    monkeypatch.setattr(mesh, "advance", lambda: phases.append(advance()))
+    monkeypatch.setattr(runs_module, "time", clock)
+    advance = mesh.run.advance
+    monkeypatch.setattr(mesh.run, "advance", lambda: phases.append(advance()))
     for number in range(1, 6):
         session.tick(bpy.context)
         assert len(phases) == 3 * number and mesh.is_working

@@ -122,10 +122,11 @@ def test_the_settings_of_the_object_are_used_and_kept():
 def test_the_settings_of_the_active_object_are_those_of_all():
     second = add_monkey("Second", location=(3, 0, 0))
     first = add_monkey("First")
-    first.cubic_craft.cubeness = 0.9
+    first.cubic_craft.cubeness, first.cubic_craft.together = 0.9, "PARTS"
     select(first, second)
     bpy.ops.cubic_craft.cubify()
     assert second.cubic_craft.cubeness == pytest.approx(0.9)
+    assert second.cubic_craft.together == "PARTS"
     assert position_of(first.data).tobytes() == position_of(second.data).tobytes()
 
 
@@ -136,7 +137,7 @@ def test_several_objects_and_a_shared_mesh():
     other = add_monkey("Other", location=(3, 0, 0))
     select(other, first, twin)
     before = position_of(first.data)
-    assert cubify() == {"FINISHED"}
+    assert cubify(together="PARTS") == {"FINISHED"}
     assert position_of(first.data).tobytes() == position_of(other.data).tobytes()
     assert position_of(first.data).tobytes() != before.tobytes()
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
@@ -151,7 +152,7 @@ def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
     twin.scale, twin.rotation_euler = (1.0, 1.0, 3.0), (0.5, 0.0, 0.0)
     bpy.context.view_layer.update()
     select(first, twin)
-    cubify(result="NEW_OBJECT", space="WORLD")
+    cubify(result="NEW_OBJECT", space="WORLD", together="PARTS")
     shapes = [
         position_of(bpy.data.objects[name].data) for name in ("First Cubic", "First.001 Cubic")
     ]
@@ -255,29 +256,29 @@ def test_the_map_scales_cubeness_and_inverts():
     plain = position_of(obj.data)
     np.testing.assert_array_equal(shapes["All", False], plain)
     np.testing.assert_array_equal(shapes["None", True], plain)
-    np.testing.assert_allclose(shapes["All", True], before, atol=1e-6)
-    np.testing.assert_allclose(shapes["None", False], before, atol=1e-6)
+    np.testing.assert_array_equal(shapes["All", True], before)
+    np.testing.assert_array_equal(shapes["None", False], before)
 
 
 def test_rotation_says_whether_the_shape_may_turn():
     obj = add_triangles()
     before = position_of(obj.data)
     shapes, turns = {}, {}
-    for rotation in ("FREE", "KEEP", "AUTO"):
+    for rotation in ("FREE", "KEEP"):
         cubify(rotation=rotation)
         shapes[rotation] = position_of(obj.data)
         A, B = (X - X.mean(axis=0) for X in (shapes[rotation], before))
         U, _, Vt = np.linalg.svd(A.T @ B)
         turns[rotation] = np.linalg.norm(U @ Vt - np.eye(3))
     assert turns["KEEP"] < 0.3 * turns["FREE"]
-    np.testing.assert_array_equal(shapes["AUTO"], shapes["FREE"])
 
 
-def test_several_parts_keep_their_rotation_by_default():
-    obj = add_monkey()
+@pytest.mark.parametrize("add", [add_monkey, add_triangles])
+def test_the_rotation_is_kept_by_default(add):
+    obj = add()
     cubify(rotation="KEEP")
     kept = position_of(obj.data)
-    cubify(rotation="AUTO")
+    cubify()
     np.testing.assert_array_equal(position_of(obj.data), kept)
 
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import importlib
 from pathlib import Path
 
 import bpy
@@ -42,3 +43,41 @@ def test_a_preset_is_plain_assignments(monkey, preset):
     assert lines[0] == "import bpy"
     assert len(lines) > 5
     assert all(line.startswith("bpy.context.object.cubic_craft.") for line in lines[1:] if line)
+
+
+def test_as_in_the_paper(monkey, extension):
+    monkey.cubic_craft.solidity = 0.7
+    path = bpy.utils.preset_find("As in the Paper", "cubic_craft", display_name=True)
+    bpy.ops.script.execute_preset(filepath=path, menu_idname="CUBIC_PT_presets")
+    properties = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.properties")
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+    settings = properties.settings_of(monkey)
+    assert settings.proxy == solver.PAPER
+    assert settings.rotation == "FREE"
+    assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"
+
+
+def test_a_preset_of_ours_cannot_be_removed_and_goes_with_the_extension(extension):
+    path = Path(bpy.utils.preset_find("As_in_the_Paper", "cubic_craft"))
+    add_monkey()
+    bpy.ops.cubic_craft.preset_add(name="As_in_the_Paper", remove_name=True)
+    assert path.exists()
+    bpy.ops.preferences.addon_disable(module=extension.__name__)
+    assert bpy.utils.preset_find("As_in_the_Paper", "cubic_craft") is None
+    bpy.ops.preferences.addon_enable(module=extension.__name__)
+
+
+def test_a_preset_from_before_is_applied_to_its_end(monkey, preset):
+    """It lacks the settings that are new, and has a value that there is no more."""
+    lines = Path(preset).read_text().splitlines()
+    new = ("solidity", "together", "refine")
+    old = [line for line in lines if not any(f".{name} =" in line for name in new)]
+    text = "\n".join(old).replace(".rotation = 'KEEP'", ".rotation = 'AUTO'")
+    assert "'AUTO'" in text
+    Path(preset).write_text(text)
+    other = add_monkey("Other")
+    other.cubic_craft.solidity, other.cubic_craft.rotation = 0.7, "FREE"
+    bpy.ops.script.execute_preset(filepath=preset, menu_idname="CUBIC_PT_presets")
+    assert other.cubic_craft.rotation == "KEEP"
+    assert other.cubic_craft.cubeness == pytest.approx(0.9)
+    assert other.cubic_craft.solidity == pytest.approx(0.7)

@@ -65,7 +65,7 @@ def asked(draw):
     options = {
         "cubeness": draw(st.sampled_from([0.4, 0.0, 1.0, 10.0])),
         "result": draw(st.sampled_from(["MESH", "SHAPE_KEY", "NEW_OBJECT"])),
-        "rotation": draw(st.sampled_from(["AUTO", "KEEP", "FREE"])),
+        "rotation": draw(st.sampled_from(["KEEP", "FREE"])),
         "space": draw(st.sampled_from(["OBJECT", "WORLD", "FRAME"])),
         "orientation": draw(st.sampled_from([(0.0, 0.0, 0.0), (0.3, -1.0, 20.0)])),
         "map_group": draw(st.sampled_from(["", "Map"])),

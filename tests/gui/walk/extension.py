@@ -93,7 +93,7 @@ def change_setting(rng):
             ("map_invert", rng.random() < 0.5),
             ("use_handles", rng.random() < 0.5),
             ("result", rng.choice(["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"])),
-            ("rotation", rng.choice(["AUTO", "KEEP", "FREE"])),
+            ("rotation", rng.choice(["KEEP", "FREE"])),
             ("device", rng.choice(["AUTO", "NUMPY"])),
             ("max_iterations", rng.choice([1, 5, 40])),
             ("tolerance", rng.choice([1e-5, 1e-3, 1.0])),

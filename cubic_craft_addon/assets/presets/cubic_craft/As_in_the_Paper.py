@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# pyright: reportAttributeAccessIssue=false
+"""The energy of Liu and Jacobson, and nothing beside it."""
+
+import bpy
+
+bpy.context.object.cubic_craft.solidity = 0.0
+bpy.context.object.cubic_craft.together = "OFF"
+bpy.context.object.cubic_craft.refine = "OFF"
+bpy.context.object.cubic_craft.rotation = "FREE"

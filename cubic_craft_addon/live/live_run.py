@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a Live session solves at once: the run of one assembly of `tasks.assemblies`."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ... import solver
+from .. import cubify
+from ..assembly import Member, Prepared
+from ..tasks import Task, key_of, prepare_all
+
+_FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles
+
+
+class LiveRun:
+    """The run of an assembly, from its start to its end, again and again.
+
+    It keeps no reference to Blender's data, which dies at every undo: the tasks are given anew to
+    each call.
+
+    Attributes
+    ----------
+    problems : list of str
+        Why there is no run, or which objects are not in it, to be shown to the artist.
+    prepared : Prepared or None
+    """
+
+    def __init__(self):
+        self.problems: list[str] = []
+        self.prepared: Prepared | None = None
+        self._solutions: dict[int, cubify.Solution] | None = None
+        self._run: solver.Run | None = None
+        self._key = None
+        self._glance_moment = None
+        self._glance = {}
+
+    # -- settings ----------------------------------------------------------------------------------
+
+    @property
+    def is_asked_for(self):
+        """Whether it has tasks, even if they have come to nothing."""
+        return self._key is not None
+
+    def is_changed(self, tasks: Sequence[Task]) -> bool:
+        """Tell whether the tasks ask for something else than what is being done."""
+        return key_of(tasks) != self._key
+
+    def restart(
+        self, tasks: Sequence[Task], known: Mapping[int, Member], earlier: Sequence[Prepared]
+    ) -> None:
+        """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
+        self.stop()
+        self._key = key_of(tasks)
+        prepared, self.problems = prepare_all(tasks, known, earlier)
+        if prepared is not None:
+            self.prepared = prepared
+            self._start()
+
+    def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
+        """Start again if vertex groups that matter have other weights now, and tell if so."""
+        before = self.prepared
+        if before is None or not any(_looks_at_weights(task) for task in tasks):
+            return False
+        members = {member.uid: member for member in before.members}
+        now, problems = prepare_all(tasks, members, [before], weights_changed=True)
+        if now is None:
+            self._reset(problems)
+            return True
+        if len(now.members) == len(before.members) and all(
+            map(_has_weights_of, now.members, before.members)
+        ):
+            return False
+        self._reset(problems)
+        self.prepared = now
+        self._start()
+        return True
+
+    def _start(self):
+        assert self.prepared is not None
+        settings = self.prepared.settings
+        try:
+            self._run = cubify.start(self.prepared)
+            self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
+        except solver.CubicCraftError as error:
+            self.problems = [*self.problems, str(error)]
+
+    def stop(self) -> None:
+        """Have nothing to do, and nothing to say."""
+        self._reset([])
+        self._key = None
+
+    def _reset(self, problems):
+        self.problems, self._solutions, self._run = problems, None, None
+        self._glance_moment, self._glance = None, {}
+
+    def forget(self) -> None:
+        """Let go of all arrays."""
+        self.stop()
+        self.prepared = None
+
+    def member_of(self, uid: int) -> Member | None:
+        """Return what was read of an object, None if it does not take part."""
+        members = self.prepared.members if self.prepared else ()
+        return next((member for member in members if member.uid == uid), None)
+
+    # -- work --------------------------------------------------------------------------------------
+
+    @property
+    def is_working(self):
+        """Whether there is something left to compute."""
+        return self._run is not None and self._solutions is None
+
+    @property
+    def is_done(self):
+        """Whether the run has come to its end."""
+        return self._solutions is not None
+
+    def advance(self) -> None:
+        """Do one phase of the solver. If it cannot go on, `problems` says why."""
+        assert self._run is not None and self.prepared is not None
+        try:
+            if self._run.reason is None:
+                self._run.advance()
+            else:
+                solutions = cubify.solutions_of(self.prepared, self._run)
+                uids = [member.uid for member in self.prepared.members]
+                self._solutions = dict(zip(uids, solutions, strict=True))
+        except solver.CubicCraftError as error:
+            self._reset([f"{self.prepared.name}: {error}"])
+
+    @property
+    def iteration(self):
+        """Number of iterations done."""
+        return self._run.stylization.iteration if self._run else 0
+
+    @property
+    def status(self):
+        """A line for the artist, and how far the run has come, from 0 to 1."""
+        energy = self._run.stylization.energy if self._run else None
+        if self._run is None or energy is None:
+            is_coarse = self._run is not None and self._run.is_on_coarser_mesh
+            return ("First on a coarser mesh" if is_coarse else ""), 0.0
+        text = f"Iteration {self.iteration}, energy {max(energy.total, 0.0):.5f}"
+        if self._solutions is None:
+            return text, self._progress.update(self._run.stylization)
+        solution = next(iter(self._solutions.values()))
+        end = "converged" if solution.result.converged else "not converged"
+        return f"{text}, {end}", 1.0
+
+    # -- what it has come to -----------------------------------------------------------------------
+
+    def solution_of(self, uid: int) -> cubify.Solution | None:
+        """Return the result for an object, once the run has ended."""
+        return self._solutions.get(uid) if self._solutions else None
+
+    @property
+    def moment(self):
+        """What tells states of the run that can be shown from each other, None if there is none."""
+        if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):
+            return None  # what is seen stays until there is something better
+        return self._run.iterations, self.is_done
+
+    def glance(self, uid: int, with_rotations: bool):
+        """Return positions and rotations of an object at the present moment, None if not in it.
+
+        The rotations take time, and may be None unless they are asked for.
+        """
+        assert self._run is not None and self.prepared is not None
+        if self._solutions is not None:
+            solution = self._solutions.get(uid)
+            return solution and (solution.positions, solution.rotations)
+        moment = (self.moment, with_rotations)
+        if moment != self._glance_moment:
+            found = cubify.glance(self.prepared, self._run, with_rotations)
+            members = self.prepared.members
+            self._glance = {m.uid: pair for m, pair in zip(members, found, strict=True)}
+            self._glance_moment = moment
+        return self._glance.get(uid)
+
+
+def _looks_at_weights(task):
+    return bool(task.settings.map_group or task.settings.handles)
+
+
+def _has_weights_of(now, before):
+    is_same = np.array_equal(now.map_weights, before.map_weights)
+    return is_same and np.array_equal(now.handle_of, before.handle_of)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All runs of a Live session: one for each assembly, which may be made of other meshes any time."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import time
+from collections.abc import Mapping, Sequence
+
+from ..tasks import Task
+from .live_mesh import LiveMesh
+from .live_run import LiveRun
+
+Groups = Mapping[tuple[int, ...], Sequence[Task]]
+"""the tasks of `tasks.assemblies`, by the ``session_uid`` of their objects"""
+
+
+class LiveRuns:
+    """The runs, by the ``session_uid`` of the objects that take part."""
+
+    def __init__(self):
+        self._runs: dict[tuple[int, ...], LiveRun] = {}
+        self._turn = 0
+
+    @property
+    def is_working(self):
+        """Whether there is something left to compute."""
+        return any(run.is_working for run in self._runs.values())
+
+    @property
+    def problems(self):
+        """What is wrong with objects, as texts."""
+        return [text for run in self._runs.values() for text in run.problems]
+
+    def is_changed(self, groups: Groups) -> bool:
+        """Tell whether something else is asked for than what is being done."""
+        if not groups:
+            return any(run.is_asked_for for run in self._runs.values())
+        if groups.keys() != self._runs.keys():
+            return True
+        return any(run.is_changed(groups[uids]) for uids, run in self._runs.items())
+
+    def restart_changed(self, groups: Groups, meshes: Sequence[LiveMesh]) -> None:
+        """Start those anew of which something else is asked, and have the meshes take part."""
+        if not groups:  # a setting cannot be used; what is known is kept for a better one
+            for run in self._runs.values():
+                run.stop()
+            return
+        known = {mesh.object_uid: mesh.member for mesh in meshes if mesh.member}
+        earlier = [run.prepared for run in self._runs.values() if run.prepared]
+        before, self._runs = self._runs, {}
+        for uids, tasks in groups.items():
+            run = self._runs[uids] = before.get(uids) or LiveRun()
+            if run.is_changed(tasks):
+                run.restart(tasks, known, earlier)
+                _join(uids, run, meshes)
+        for mesh in meshes:
+            if mesh.run not in self._runs.values():
+                mesh.join(None)
+
+    def restart_painted(self, groups: Groups, meshes: Sequence[LiveMesh]) -> bool:
+        """Start those anew whose vertex groups have other weights now; tell if there were any."""
+        painted = [
+            uids
+            for uids, tasks in groups.items()
+            if uids in self._runs and self._runs[uids].restart_if_painted(tasks)
+        ]
+        for uids in painted:
+            _join(uids, self._runs[uids], meshes)
+        return bool(painted)
+
+    def advance(self, deadline: float) -> None:
+        """Advance all runs in turn, so that they are seen to move together."""
+        working = [run for run in self._runs.values() if run.is_working]
+        while working:
+            self._turn += 1
+            working[self._turn % len(working)].advance()
+            if time.perf_counter() >= deadline:
+                return
+            working = [run for run in working if run.is_working]
+
+    def release(self) -> None:
+        """Let go of all arrays."""
+        for run in self._runs.values():
+            run.forget()
+        self._runs.clear()
+
+
+def _join(uids, run, meshes):
+    for mesh in meshes:
+        if mesh.object_uid in uids:
+            mesh.join(run)
