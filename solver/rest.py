@@ -13,7 +13,8 @@ from .memory import check_memory
 from .mesh_checks import check_mesh
 from .proxy import PAPER, InputMap, Links, no_links, surface_of
 from .proxy.boxes import box_frames
-from .proxy.creases import smoothness
+from .proxy.creases import cubic_shares
+from .proxy.flat_sides import stiffness
 from .proxy.neighbours import neighbour_links
 from .proxy.thickness import thickness_links
 from .rest_measures import areas_and_normals
@@ -46,8 +47,8 @@ class RestMesh:
     """(n,) barycentric areas a_i"""
     normals: np.ndarray
     """(n,3) unit normals n_i, zero where undefined"""
-    smoothness: np.ndarray
-    """(n,) factors of the cubeness: 0 in creases, where there is no normal"""
+    cubic_shares: np.ndarray
+    """(n,) factors of the cubeness: 0 in creases, more than 1 beside them"""
     part: np.ndarray
     """(n,) int connected part of each vertex, links left aside"""
     to_neighbours: Links
@@ -55,7 +56,10 @@ class RestMesh:
     """of solidity 1; None where they have not been looked for"""
     solidity: float
     is_refined: bool
+    skin: SpokesAndRims
+    """of the triangles alone"""
     matrices: SpokesAndRims
+    """with the links"""
     component_count: int
     component: np.ndarray
     """(n,) int component of each vertex: parts that are linked are one"""
@@ -90,8 +94,7 @@ class RestMesh:
         if to_other_side is None:
             to_other_side = thickness_links(self.V, self.F, self.normals, self.areas, self.part)
         changed = replace(self, to_other_side=to_other_side, solidity=solidity)
-        skin = spokes_and_rims(self.V, self.F, cotangents(self.V, self.F))
-        return replace(changed, matrices=skin.with_links(self.V, changed.links))
+        return replace(changed, matrices=changed.skin.with_links(self.V, changed.links))
 
     @cached_property
     def edge_sums(self):
@@ -191,6 +194,11 @@ def rest_mesh(V, F, proxy=PAPER):
         to_neighbours = neighbour_links(V, F, normals, areas, part, part_count)
     if proxy.solidity > 0.0:
         to_other_side = thickness_links(V, F, normals, areas, part)
+    shares = np.ones(len(V))
+    if proxy.refine:
+        shares = cubic_shares(V, F, C, areas)
+        C = C * stiffness(V, F, part)[:, None]
+    skin = spokes_and_rims(V, F, C)
     count, component = part_count, part
     if len(to_neighbours):
         count, component = components(F, len(V), to_neighbours.pairs())
@@ -202,14 +210,15 @@ def rest_mesh(V, F, proxy=PAPER):
         F,
         areas,
         normals,
-        smoothness(V, F, C) if proxy.refine else np.ones(len(V)),
+        shares,
         part,
         to_neighbours,
         to_other_side,
         proxy.solidity,
         proxy.refine,
-        spokes_and_rims(V, F, C),
+        skin,
+        skin,
         count,
         component,
     )
-    return replace(rest, matrices=rest.matrices.with_links(V, rest.links))
+    return replace(rest, matrices=skin.with_links(V, rest.links))

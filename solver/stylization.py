@@ -86,7 +86,7 @@ class Stylization:
         self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
         lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))
-        lam = rest.input_map.spread(lam) * rest.smoothness
+        lam = rest.input_map.spread(lam) * rest.cubic_shares
         lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
         Q = _orientation(orientation, rest)
         self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q

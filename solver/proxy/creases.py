@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where a surface has no normal: in sharp creases and corners.
 
-The normal of a vertex in the edge of a box lies between its two sides, and the cubic term would turn
-it toward one of them: a box, which is cubic already, would lose its edges. On a fine surface the
-vertices beside the crease know the normals of both sides, so the crease itself may be silent.
+The normal of a vertex in the edge of a box lies between its two sides, and the cubic term would
+turn it toward one of them: a box, which is cubic already, would lose its edges. So the crease is
+silent, and its area is given to the vertices beside it, which know the normal of one side each.
 """
 
 import numpy as np
 
 from ..edge_vectors import double_area_vectors, edge_vectors
+from ..rest_measures import triangle_areas_and_normals
 
 FULL = np.cos(np.radians(25.0))
 """the normal counts where those of the faces around are within 25 degrees of it, on average..."""
 NONE = np.cos(np.radians(40.0))
 """...and not at all beyond 40: the edge of a box has 45"""
+FLAT = np.cos(np.radians(30.0))
+"""triangles at a smaller angle are of one side"""
+
+_LEAST = 0.5  # smoothness of the corners of a triangle, together, that can speak for all of it
 
 
-def smoothness(V, F, C):
-    """Return how much the normal of each vertex means, (n,), from 0 in a crease to 1.
-
-    The normals of the triangles are weighted by their angles at the vertex, so that the result does
-    not depend on how the sides of a box are triangulated.
+def cubic_shares(V, F, C, areas):
+    """Return the area (n,) for which the normal of each vertex speaks, in parts of its own.
 
     Parameters
     ----------
@@ -28,6 +30,22 @@ def smoothness(V, F, C):
     F : (m,3) int array
     C : (m,3) float array
         Cotangents of the corner angles.
+    areas : (n,) float array
+        Barycentric areas.
+    """
+    smooth = smoothness(V, F, C)
+    at_corners = smooth[F]
+    total = np.maximum(at_corners.sum(axis=1), _LEAST)
+    shares = at_corners * (triangle_areas_and_normals(V, F)[0] / total)[:, None]
+    given = np.bincount(F.ravel(), shares.ravel(), len(V))
+    return given / np.where(areas > 0.0, areas, 1.0)
+
+
+def smoothness(V, F, C):
+    """Return how much the normal of each vertex means, (n,), from 0 in a crease to 1.
+
+    The normals of the triangles are weighted by their angles at the vertex, so that the result does
+    not depend on how the sides of a box are triangulated.
     """
     sums, total = np.zeros((len(V), 3)), np.zeros(len(V))
     for block, edges in edge_vectors(V, F):
@@ -42,3 +60,27 @@ def smoothness(V, F, C):
     coherence = np.linalg.norm(sums, axis=1) / np.where(total > 0.0, total, 1.0)
     t = np.clip((coherence - NONE) / (FULL - NONE), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
+
+
+def mute_edges(V, F, C, edge_of, count):
+    """Return which of `count` edges lie in one side, but between two vertices of its creases.
+
+    A narrow side whose vertices are all in its creases has nobody who knows its normal.
+
+    Parameters
+    ----------
+    V, F, C
+    edge_of : (m,3) int array
+        Edge opposite each corner.
+    """
+    is_silent = smoothness(V, F, C) < _LEAST
+    ends = np.stack([is_silent[F[:, [1, 2, 0]]], is_silent[F[:, [2, 0, 1]]]]).all(axis=0)
+    _, normals = triangle_areas_and_normals(V, F)
+    edge = edge_of.ravel()
+    sums = np.stack([np.bincount(edge, np.repeat(x, 3), count) for x in normals.T], axis=1)
+    uses = np.bincount(edge, minlength=count)
+    is_flat = (uses == 2) & ((sums * sums).sum(axis=1) > 2.0 + 2.0 * FLAT)
+    is_mute = np.zeros(count, dtype=bool)
+    is_mute[edge] = ends.ravel()
+    return is_mute & is_flat
+

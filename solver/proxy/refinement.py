@@ -3,6 +3,9 @@
 
 import numpy as np
 
+from ..cotangents import cotangents
+from .creases import mute_edges
+
 FINENESS = 40
 """edges along the largest extent of a part"""
 FINEST = 200
@@ -35,6 +38,8 @@ def longest_edges(V, F, part):
 def refine(V, F, bound):
     """Split edges at their midpoints until none is longer than its bound, or the budget is spent.
 
+    At last a midpoint is put into narrow sides that have vertices in their creases only.
+
     Rounds split the longest first, so that a budget that is too small is spent evenly. With an edge
     of a triangle its longest one is split, too (Rivara, "Algorithms for refining triangular grids",
     1984), which keeps triangles from becoming needles; neighbours share midpoints, so the surface
@@ -60,15 +65,13 @@ def refine(V, F, bound):
     budget = max(BUDGET, int(GROWTH * len(V)))
     parents, rounds = [np.empty((0, 2), np.int64)], [0]
     F, bound = F.astype(np.int64), bound.astype(np.float64)
-    while True:
+    is_fine = False
+    while not is_fine:
         edges, edge_of, ratio = _edges(V, F, bound)
-        longest = ratio.max(initial=0.0)
-        if longest <= 1.0:
-            break
-        is_split = _closed(ratio > max(1.0, _STEP * longest), ratio, edge_of)
+        is_fine, is_split = _to_be_split(V, F, edge_of, ratio, len(edges))
+        if len(V) + np.count_nonzero(is_split) > budget:
+            is_fine, is_split = True, _mute(V, F, edge_of, len(edges))
         new = edges[is_split]
-        if len(V) + len(new) > budget:
-            break
         number = np.full(len(edges), -1)
         number[is_split] = len(V) + np.arange(len(new))
         V = np.concatenate([V, 0.5 * (V[new[:, 0]] + V[new[:, 1]])])
@@ -77,6 +80,18 @@ def refine(V, F, bound):
         parents.append(new)
         rounds.append(rounds[-1] + len(new))
     return V, F.astype(np.int32), np.concatenate(parents), np.array(rounds)
+
+
+def _to_be_split(V, F, edge_of, ratio, count):
+    """Return whether this is the last round, and the edges to be split in it."""
+    longest = ratio.max(initial=0.0)
+    if longest > 1.0:
+        return False, _closed(ratio > max(1.0, _STEP * longest), ratio, edge_of)
+    return True, _mute(V, F, edge_of, count)
+
+
+def _mute(V, F, edge_of, count):
+    return mute_edges(V, F, cotangents(V, F), edge_of, count)
 
 
 def _edges(V, F, bound):
@@ -108,10 +123,10 @@ def _split(F, middle, length):
     middle : (m,3) int array
         Midpoint of the edge opposite each corner, or -1.
     length : (m,3) array
-        Of those edges; the longest one is split wherever any is.
+        Of those edges.
     """
-    # the corner opposite the longest edge comes first
-    turn = (length.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    # the corner opposite the longest edge that is split comes first
+    turn = (np.where(middle >= 0, length, -1.0).argmax(axis=1)[:, None] + np.arange(3)) % 3
     rows = np.arange(len(F))[:, None]
     (a, b, c), (p, q, r) = F[rows, turn].T, middle[rows, turn].T
     parts = []

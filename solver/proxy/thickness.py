@@ -38,6 +38,7 @@ MOST_FAULTS = 0.05
 """share of edges at which triangles disagree, or are more than two"""
 
 _ROUNDS = 12
+_INEXACTNESS = 0.02  # of the nearest vertex: in the centre of a sphere all are
 _FACING = 0.85  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
@@ -85,7 +86,7 @@ def _opposite(V, normals, part, chosen, points):
     for _ in range(_ROUNDS):
         centre = place[chosen[todo]]
         centre[:, :3] -= radius[todo, None] * n[todo]
-        _, nearest = tree.query(centre, workers=-1)
+        _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)
         q = points[nearest]
         d = V[q] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
