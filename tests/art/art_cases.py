@@ -148,10 +148,16 @@ def cubified(objects, **options):
 
 @functools.cache
 def outcome_of(name, cubeness=0.4, is_paper=False):
-    """Cubify a case in an empty file, once however often it is asked for."""
+    """Cubify a case in an empty file, once however often it is asked for.
+
+    Parameters
+    ----------
+    is_paper : the energy of the paper, but with the rotation of the default settings
+    """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     case = CASES[name]
-    settings = PAPER if is_paper else {}
+    # Where the whole may turn, it may lie along the axes before anything can cross.
+    settings = {**PAPER, "rotation": "KEEP"} if is_paper else {}
     return cubified(case.make(), cubeness=cubeness, **case.options, **settings)
 
 

