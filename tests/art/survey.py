@@ -8,6 +8,7 @@ Without names all cases are done. A case is a name of `art_cases.CASES`; a file 
 
 import argparse
 import contextlib
+import importlib.util
 import io
 import sys
 from functools import partial
@@ -20,7 +21,6 @@ import bpy  # noqa: E402
 import measures  # noqa: E402
 import survey_pictures  # noqa: E402
 from art_cases import CASES, PAPER, Case, cubified  # noqa: E402
-from headless.extension import registered  # noqa: E402
 
 COLUMNS = (
     # heading, width
@@ -46,11 +46,25 @@ IMPORTERS = {".obj": "obj_import", ".ply": "ply_import"}
 def main():
     """Print a row for each case and cubeness."""
     options = _arguments()
-    with registered(options.extension):
+    with _registered(options.extension):
         print(_line([heading for heading, _ in COLUMNS]))
         for name in options.cases or CASES:
             for cubeness in options.cubeness:
                 _survey(name, cubeness, options)
+
+
+@contextlib.contextmanager
+def _registered(root):
+    """Have the extension of a source tree in Blender for the block; it may be an older version."""
+    place = [str(root)]
+    spec = importlib.util.spec_from_file_location(
+        "cubic_craft", root / "__init__.py", submodule_search_locations=place
+    )
+    package = sys.modules["cubic_craft"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+    package.register()
+    yield
+    package.unregister()
 
 
 def _arguments():

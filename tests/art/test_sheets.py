@@ -62,8 +62,8 @@ def test_fingers_do_not_grow_together_or_apart(name):
 
 def test_an_inverted_mesh_becomes_what_it_is_the_right_way_round():
     outcome, inverted = outcome_of("hand"), outcome_of("hand_inverted")
-    assert inverted.angle()[1] == pytest.approx(outcome.angle()[1], rel=0.05)
-    assert inverted.volume_ratio() == pytest.approx(outcome.volume_ratio(), rel=0.05)
+    assert inverted.angle()[1] == pytest.approx(outcome.angle()[1], rel=0.1)
+    assert inverted.volume_ratio() == pytest.approx(outcome.volume_ratio(), rel=0.1)
 
 
 @pytest.mark.parametrize("name", ["mixed", "fin", "pinched", "bowl", "pipe", "waves", "cup"])
