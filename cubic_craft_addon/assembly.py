@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
+from typing import Protocol, TypeVar
 
 import bpy
 import numpy as np
@@ -153,6 +154,37 @@ class Prepared:
         ends = list(accumulate(member.vertices for member in self.members))
         for member, placement, end in zip(self.members, self.placements, ends, strict=True):
             yield member, placement, slice(end - member.vertices, end)
+
+
+class Joinable(Protocol):
+    """What `assemblies` puts together."""
+
+    @property
+    def settings(self) -> Settings:
+        """The settings of the object."""
+        ...
+
+    @property
+    def in_world(self) -> Placement | None:
+        """None where it cannot be solved with others."""
+        ...
+
+
+T = TypeVar("T", bound=Joinable)
+
+
+def assemblies(items: Sequence[T]) -> list[list[T]]:
+    """Return objects by what is solved at once, in the order of the first of each."""
+    joined = [item for item in items if _is_joined(item)]
+    return [
+        joined if _is_joined(item) else [item]
+        for item in items
+        if not _is_joined(item) or item is joined[0]
+    ]
+
+
+def _is_joined(item):
+    return item.settings.together == "SELECTION" and item.in_world is not None
 
 
 def read_shape(obj: bpy.types.Object) -> Shape:

@@ -33,12 +33,7 @@ class Task:
         self.settings = choice.settings_for(obj)
         self.solution: cubify.Solution | None = None
         self._alone = placement_alone(obj, self.settings)
-        self._in_world = placement_in_world(obj, self.settings)
-
-    @property
-    def can_be_joined(self):
-        """Whether it is to be solved together with others."""
-        return self.settings.together == "SELECTION" and self._in_world is not None
+        self.in_world = placement_in_world(obj, self.settings)
 
     @property
     def key(self):
@@ -48,7 +43,7 @@ class Task:
     @property
     def key_in_world(self):
         """The same for a task that is solved with others."""
-        return self.key, self._in_world and self._in_world.key
+        return self.key, self.in_world and self.in_world.key
 
     def is_like(self, other: Task) -> bool:
         """Tell whether both have the same solution, each being solved alone."""
@@ -83,16 +78,6 @@ def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], l
                 " make it single-user for a shape of its own"
             )
     return tasks, problems
-
-
-def assemblies(tasks: Sequence[Task]) -> list[list[Task]]:
-    """Return the tasks by what is solved at once, in the order of the first of each."""
-    joined = [task for task in tasks if task.can_be_joined]
-    return [
-        joined if task.can_be_joined else [task]
-        for task in tasks
-        if not task.can_be_joined or task is joined[0]
-    ]
 
 
 def key_of(tasks: Sequence[Task]) -> tuple:

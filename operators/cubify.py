@@ -12,6 +12,7 @@ from bpy.props import CollectionProperty, StringProperty
 
 from .. import solver
 from ..cubic_craft_addon import cubify
+from ..cubic_craft_addon.assembly import assemblies
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.baked_pose import settle
@@ -20,7 +21,7 @@ from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties
 from ..cubic_craft_addon.settings_rollback import settings_kept
-from ..cubic_craft_addon.tasks import assemblies, plan, prepare_all, write_all
+from ..cubic_craft_addon.tasks import plan, prepare_all, write_all
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
 from .unforeseen import reporting

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a Live session solves at once: the run of one assembly of `tasks.assemblies`."""
+"""What a Live session solves at once: the run of one of the `assemblies`."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 

@@ -11,7 +11,7 @@ from .live_mesh import LiveMesh
 from .live_run import LiveRun
 
 Groups = Mapping[tuple[int, ...], Sequence[Task]]
-"""the tasks of `tasks.assemblies`, by the ``session_uid`` of their objects"""
+"""the tasks of `assemblies`, by the ``session_uid`` of their objects"""
 
 
 class LiveRuns:

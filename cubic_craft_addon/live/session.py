@@ -11,9 +11,10 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..assembly import assemblies
 from ..choice import Choice
 from ..handles.baked_pose import settle
-from ..tasks import Task, assemblies, plan, write_all
+from ..tasks import Task, plan, write_all
 from . import handlers, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh

@@ -137,8 +137,9 @@ class Workshop:
         bpy.context.window.scene = model.scene
         with self._bar.task(f"{model.name}, cubeness {settings.cubeness:g}") as task:
             try:
-                prepared = self.extension.cubify.prepare(model.object, settings)
-                solution = self.extension.cubify.solve(prepared, settings)
+                member = self.extension.assembly.read_member(model.object, settings)
+                prepared = self.extension.assembly.prepare([member])
+                (solution,) = self.extension.cubify.solve(prepared)
             except self.extension.solver.CubicCraftError as error:
                 raise InputError(f"{model.path or model.name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")

@@ -15,6 +15,10 @@ from .handles_file import read_handles
 
 __all__ = ("as_arguments", "parse")
 
+DEFAULTS = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
+PAPER = {"solidity": 0.0, "together": "off", "refine": "off", "rotation": "free"}
+"""what ``--paper`` stands for"""
+
 EPILOG = """\
 The picture shows the original beside one result per cubeness. With --turntable it becomes a
 sequence name_0001.png ... in which every object turns once about its vertical axis.
@@ -57,9 +61,10 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     Returns
     -------
     argparse.Namespace
-        One attribute per option; ``handles`` is a list of `GivenHandle`. For one file
-        ``output_folder`` is None; ``output``, ``save_mesh`` and ``report`` are paths or None,
-        and ``input`` is a path or None for the monkey. Else it is the folder of a batch;
+        One attribute per option; what ``--paper`` stands for is set, and ``handles`` is a list of
+        `GivenHandle`. For one file ``output_folder`` is None; ``output``, ``save_mesh`` and
+        ``report`` are paths or None, and ``input`` is a path or None for the monkey. Else it is the
+        folder of a batch;
         ``inputs`` are files and folders, and ``save_mesh`` is None or how the names shall end.
 
     Raises
@@ -69,6 +74,9 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(arguments)
     options.cubeness = list(dict.fromkeys(options.cubeness))
+    for name, value in (PAPER if options.paper else DEFAULTS).items():
+        if getattr(options, name) is None:
+            setattr(options, name, value)
     options.input = None
     if len(options.inputs) > 1 or options.output_folder or any(p.is_dir() for p in options.inputs):
         check_batch(options)
@@ -89,7 +97,7 @@ def as_arguments(options: argparse.Namespace, names: Collection[str]) -> list[st
             arguments += [flag, *map(_as_text, value)]
         elif value is True:
             arguments.append(flag)
-        elif value:
+        elif value or isinstance(value, float):
             single = value[0] if isinstance(value, list) else value
             arguments.append(f"{flag}={_as_text(single)}")
     return arguments
@@ -118,6 +126,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--object", metavar="NAME", help="this mesh object only (default: all)")
     _add_method(parser)
+    _add_shape(parser)
     _add_outputs(parser)
     _add_batch(parser)
     _add_picture(parser)
@@ -163,18 +172,44 @@ def _add_method(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--map", default="", metavar="GROUP", help="vertex group that scales the cubeness"
     )
-    group.add_argument(
-        "--rotation",
-        choices=["auto", "keep", "free"],
-        default="auto",
-        help="whether each part is held in its orientation, or may turn as a whole"
-        " (default: auto, where there are several parts)",
-    )
     group.add_argument("--max-iterations", type=_integer(1, 1_000_000), default=1000, metavar="N")
     group.add_argument(
         "--tolerance", type=_number(1e-12, 1.0), default=1e-3, metavar="T", help="(default: 0.001)"
     )
     group.add_argument("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+
+
+def _add_shape(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("what holds together")
+    group.add_argument(
+        "--solidity",
+        type=_number(0.0, 10.0),
+        metavar="S",
+        help="how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
+        "(default: 0.1)",
+    )
+    group.add_argument(
+        "--together",
+        choices=("off", "parts", "selection"),
+        help="parts: the parts of a mesh stay on each other; selection: all meshes of the file do "
+        "(default: selection)",
+    )
+    group.add_argument(
+        "--refine",
+        choices=("auto", "off"),
+        help="auto: coarse meshes are solved on a finer copy (default: auto)",
+    )
+    group.add_argument(
+        "--rotation",
+        choices=("keep", "free"),
+        help="whether each part is held in its orientation, or may turn as a whole (default: keep)",
+    )
+    group.add_argument(
+        "--paper",
+        action="store_true",
+        help="as in the paper: solidity 0, together off, refine off, rotation free; each of them "
+        "can be given beside it and counts then",
+    )
 
 
 def _add_outputs(parser: argparse.ArgumentParser) -> None:

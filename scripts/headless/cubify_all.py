@@ -2,7 +2,7 @@
 
 import math
 from argparse import Namespace
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -22,8 +22,10 @@ class Sculpture:
 
     users: list[bpy.types.Object]
     """the first of them was solved"""
+    member: Any
+    """cubic_craft_addon.assembly.Member"""
     prepared: Any
-    """cubic_craft_addon.cubify.Prepared"""
+    """cubic_craft_addon.assembly.Prepared of all that was solved at once with it"""
     solutions: list[Any]
     """cubic_craft_addon.cubify.Solution, one per cubeness"""
 
@@ -50,32 +52,38 @@ def cubify_all(
     by_mesh: dict[str, list[bpy.types.Object]] = {}
     for obj in loaded.objects:
         by_mesh.setdefault(obj.data.name_full, []).append(obj)
-    all_settings = [
-        _settings(users[0], handles[users[0].name], options, extension)
+    members = [
+        extension.assembly.read_member(
+            users[0], _settings(users[0], handles[users[0].name], options, extension)
+        )
         for users in by_mesh.values()
     ]
     # All checks of all objects come first, so that a refusal costs no solve.
     all_prepared = [
-        extension.cubify.prepare(users[0], settings)
-        for users, settings in zip(by_mesh.values(), all_settings, strict=True)
+        extension.assembly.prepare(group) for group in extension.assembly.assemblies(members)
     ]
-    sculptures = []
-    for users, settings, prepared in zip(by_mesh.values(), all_settings, all_prepared, strict=True):
-        solutions = []
-        for cubeness in options.cubeness:
-            progress = extension.solver.Progress(options.max_iterations, options.tolerance)
-            with bar.task(f"{users[0].name}, cubeness {cubeness!r}") as task:
-                solution = extension.cubify.solve(
-                    prepared,
-                    replace(settings, cubeness=cubeness),
-                    lambda state, task=task, progress=progress: task.advance_to(
-                        progress.update(state)
-                    ),
-                )
-                task.finish(_summary(solution))
-            solutions.append(solution)
-        sculptures.append(Sculpture(users, prepared, solutions))
-    return sculptures
+    found = {}
+    for prepared in all_prepared:
+        solutions = [
+            _solve(prepared.with_cubeness(cubeness), extension, bar)
+            for cubeness in options.cubeness
+        ]
+        for member, own in zip(prepared.members, zip(*solutions, strict=True), strict=True):
+            found[member.uid] = (member, prepared, list(own))
+    return [Sculpture(users, *found[users[0].session_uid]) for users in by_mesh.values()]
+
+
+def _solve(prepared: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, ...]:
+    """Return the Solution of each member."""
+    settings, members = prepared.settings, prepared.members
+    progress = extension.solver.Progress(settings.max_iterations, settings.tolerance)
+    name = members[0].name if len(members) == 1 else f"{len(members)} objects together"
+    with bar.task(f"{name}, cubeness {settings.cubeness!r}") as task:
+        solutions = extension.cubify.solve(
+            prepared, lambda state: task.advance_to(progress.update(state))
+        )
+        task.finish(_summary(solutions[0]))
+    return solutions
 
 
 def _settings(
@@ -86,6 +94,9 @@ def _settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         handles=handles,
         map_group=options.map if options.map in obj.vertex_groups else "",
+        solidity=options.solidity,
+        together=options.together.upper(),
+        refine=options.refine.upper(),
         rotation=options.rotation.upper(),
         device=options.device.upper(),
         max_iterations=options.max_iterations,

@@ -20,6 +20,7 @@ class Extension:
     """The rooms of the loaded extension that the scripts use."""
 
     def __init__(self, root: Path) -> None:
+        self.assembly = _room("cubic_craft_addon.assembly")
         self.cubify = _room("cubic_craft_addon.cubify")
         self.handles = _room("cubic_craft_addon.handles")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")

@@ -16,6 +16,7 @@ from .output_files import replacing
 
 __all__ = ("write_report",)
 
+SETTINGS = ("solidity", "together", "refine", "rotation")
 OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg", "fast-simplification")
 
 
@@ -36,6 +37,7 @@ def write_report(
         "versions": _versions(extension),
         "device": sculptures[0].solutions[0].result.device,
         "notices": extension.notices(),
+        "settings": {name: getattr(options, name) for name in SETTINGS},
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }
@@ -59,12 +61,14 @@ def _versions(extension: Extension) -> dict[str, str | None]:
 
 
 def _object(sculpture: Sculpture, cubeness: list[float]) -> dict[str, Any]:
-    prepared = sculpture.prepared
+    member, prepared = sculpture.member, sculpture.prepared
     return {
         "name": sculpture.object.name,
-        "vertices": prepared.vertices,
-        "triangles": prepared.triangles,
-        "components": prepared.components,
+        "vertices": member.vertices,
+        "triangles": member.triangles,
+        "components": member.components,
+        # What is solved at once has one energy, which is in the runs of each of them.
+        "solved_with": [other.name for other in prepared.members if other is not member],
         "runs": [
             _run(value, solution, prepared)
             for value, solution in zip(cubeness, sculpture.solutions, strict=True)

@@ -16,13 +16,16 @@ from scripts.headless.batch.plan import FORWARDED, plan
 from scripts.headless.batch.records import key_of, read_record, write_record
 from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.workers import Workers, why_failed
+from scripts.headless.errors import InputError
 
 NOT_FORWARDED = {
     *("inputs", "input", "handles", "output", "save_mesh", "report", "error_file"),
     *("output_folder", "recursive", "jobs", "force", "threads", "worker"),
+    "paper",  # what it stands for is forwarded
 }
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
-    --rotation keep --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
+    --solidity 0 --together parts --refine off --rotation free
+    --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
     --object=-o --verbose"""
 
@@ -57,6 +60,38 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder):
     assert as_arguments(batch_options("--no-render", "--report", "r.json"), ["no_render"]) == [
         "--no-render"
     ]
+
+
+def test_the_paper_is_its_options_in_full(folder):
+    def key(*words):
+        return key_of(folder / "a.obj", batch_options(*words), FORWARDED, "1")
+
+    in_full = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
+    assert key("--paper") == key(*in_full) != key()
+    (job,) = plan(batch_options("--paper"), find_sources([Path("a.obj")], False, Path("out")))
+    assert {"--solidity=0.0", "--together=off", "--refine=off", "--rotation=free"} <= {
+        *job.arguments
+    }
+    beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
+    assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
+    by_default = [
+        "--solidity",
+        "0.1",
+        "--together",
+        "selection",
+        "--refine",
+        "auto",
+        "--rotation",
+        "keep",
+    ]
+    assert key() == key(*by_default)
+    keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 8, 2)}
+    assert len(keys | {key("--paper")}) == 5, "each of them decides about the result"
+
+
+def test_auto_is_no_rotation_any_more(folder):
+    with pytest.raises(InputError, match="--rotation"):
+        batch_options("--rotation", "auto")
 
 
 def names(*inputs, is_recursive=False):

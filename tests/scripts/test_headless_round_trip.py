@@ -140,7 +140,10 @@ def test_report(results):
     assert report["seconds"].keys() == {"load", "write", "render", "total"}
     (entry,) = report["objects"]
     runs = entry.pop("runs")
-    assert entry == {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
+    what = {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
+    assert entry == what | {"solved_with": []}
+    by_default = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
+    assert report["settings"] == by_default
     assert [run["cubeness"] for run in runs] == [0.0, 0.5]
     for run in runs:
         assert run.keys() == {"cubeness", "iterations", "converged", "energy", "seconds"}
