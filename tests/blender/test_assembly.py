@@ -176,7 +176,8 @@ def test_handles_hold_and_pose_in_each_objects_coordinates(trio):
     np.testing.assert_allclose(moved, [[0.3, 0.0, 0.0]] * 40, atol=1e-5)
 
 
-def test_where_the_map_is_0_the_surface_stays_to_the_bit():
+@pytest.mark.parametrize("refine", ["OFF", "AUTO"])
+def test_where_the_map_is_0_the_surface_stays_to_the_bit(refine):
     obj = add_monkey()
     V = position_of(obj.data)
     unpainted = np.flatnonzero(V[:, 2] < 0.2)
@@ -185,7 +186,7 @@ def test_where_the_map_is_0_the_surface_stays_to_the_bit():
     other = add_monkey("Other", location=(0.4, 1.7, 0.3))
     select(obj, other)
     obj.cubic_craft.map_group = "Head"
-    cubify()
+    cubify(refine=refine)
     after = position_of(obj.data)
     # All but the ring next to what is painted.
     is_near = np.zeros(len(V), dtype=bool)
@@ -194,7 +195,11 @@ def test_where_the_map_is_0_the_surface_stays_to_the_bit():
         is_near[corners] |= bool(np.isin(corners, painted).any())
     still = unpainted[~is_near[unpainted]]
     assert len(still) > 50
-    np.testing.assert_array_equal(after[still], V[still])
+    if refine == "OFF":
+        np.testing.assert_array_equal(after[still], V[still])
+    else:  # on a finer copy the ring is not quite the same
+        assert (after[still] == V[still]).all(axis=1).mean() > 0.95
+        assert np.abs(after[still] - V[still]).max() < 0.01 * np.ptp(V, axis=0).max()
     assert np.abs(after[painted] - V[painted]).max() > 0.01
     assert np.abs(position_of(other.data) - V).max() > 0.01
 
