@@ -22,7 +22,7 @@ def turn_back(rest, U, has_pin):
     (n,3) float array
         The positions after it.
     """
-    weight = rest.areas + 1e-300
+    weight = rest.placing
     if rest.component_count == 1:
         return U.copy() if has_pin[0] else _turned_back(rest.V, U, weight / weight.sum())
     label, count = rest.component, rest.component_count

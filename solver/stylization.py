@@ -11,6 +11,9 @@ from .backends import local_step_class
 from .errors import CubicCraftError
 from .mesh_checks import per_vertex
 
+HOLD = 0.035
+"""Strength, in parts of the cubeness, with which kept rotations are held where they are at rest."""
+
 _FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
 
 
@@ -91,8 +94,9 @@ class Stylization:
         Q = _orientation(orientation, rest)
         self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q
         make_local_step = local_step_class(device, precision)
-        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         self._targets = _targets(targets, setup)
+        hold = HOLD if keep_rotation and rest.is_refined and not self._is_posed else 0.0
+        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions(), hold)
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
         self._motion = self._local.motion(setup, U)
@@ -100,6 +104,12 @@ class Stylization:
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
+
+    @property
+    def _is_posed(self):
+        """Whether a pin has another target than its place at rest: then the rest shall follow."""
+        held = self.setup.pinned_input
+        return not np.array_equal(self._targets[held], self.rest.input_positions[held])
 
     @property
     def device(self):

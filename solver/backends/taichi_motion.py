@@ -39,7 +39,7 @@ class TaichiMotion:
         self._scale = keep(multigrid.scale)
         bounds, self._component = rest.chunks
         self._chunks = keep(bounds), keep(self._component)
-        weight = rest.areas + 1e-300
+        weight = rest.placing
         total = np.bincount(rest.component, weight, rest.component_count)
         share = weight / total[rest.component]
         self._centre = np.stack(

@@ -83,4 +83,3 @@ def mute_edges(V, F, C, edge_of, count):
     is_mute = np.zeros(count, dtype=bool)
     is_mute[edge] = ends.ravel()
     return is_mute & is_flat
-

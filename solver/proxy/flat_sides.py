@@ -10,6 +10,7 @@ import numpy as np
 
 from ..components import components
 from ..rest_measures import triangle_areas_and_normals
+from .edges import faces_at_edges
 
 STIFFNESS = 0.15
 """weight of the triangles of a flat side"""
@@ -29,11 +30,7 @@ def stiffness(V, F, part):
         Connected part of each vertex.
     """
     areas, normals = triangle_areas_and_normals(V, F)
-    start, end = F.astype(np.int64).ravel(), F[:, [1, 2, 0]].astype(np.int64).ravel()
-    key = np.minimum(start, end) * len(V) + np.maximum(start, end)
-    order = np.argsort(key, kind="stable")
-    is_same = key[order][1:] == key[order][:-1]
-    one, other = order[:-1][is_same] // 3, order[1:][is_same] // 3
+    one, other = faces_at_edges(F, len(V))
     is_flat = (normals[one] * normals[other]).sum(axis=1) > COPLANAR
     no_triangle = np.empty((0, 3), np.int64)
     pairs = np.stack([one[is_flat], other[is_flat]], axis=1)

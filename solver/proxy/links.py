@@ -92,7 +92,7 @@ def no_links():
 
 
 def links_between(i, j, weights):
-    """Return links between vertices i (k,) and j (k,), with the weight (k,) at each of both ends."""
+    """Return links between vertices i (k,) and j (k,), with a weight (k,) at each of both ends."""
     zeros = np.zeros(len(i))
     return Links(
         np.stack([i, j, i, i], axis=1),

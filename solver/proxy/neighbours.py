@@ -8,8 +8,8 @@ is the nearest one, no third part lies between. A link is accepted
 - within `LAYER`, where one part lies over the other like a shirt on a body: both face the same way,
   and the link is upright on them.
 
-Both are shorter for small parts, by `OF_PART`. What is further apart, or merely lies side by side at
-a distance, is not linked; and vertices of one part never are, however near two of its fingers lie.
+Both are shorter for small parts, by `OF_PART`. What is further apart, or merely lies side by side
+at a distance, is not linked; and vertices of one part never are, however near its fingers lie.
 """
 
 import numpy as np

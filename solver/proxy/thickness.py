@@ -26,7 +26,7 @@ from .links import links_between, no_links
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
-STRENGTH = 1.15
+STRENGTH = 1.2
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """about as many vertices are linked; each stands for the area around it"""
@@ -39,7 +39,7 @@ MOST_FAULTS = 0.05
 
 _ROUNDS = 12
 _INEXACTNESS = 0.02  # of the nearest vertex: in the centre of a sphere all are
-_FACING = 0.85  # cosine between a link and the normal at either end
+_FACING = 0.9  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 

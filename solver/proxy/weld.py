@@ -3,6 +3,9 @@
 
 import numpy as np
 
+from ..components import components
+from .edges import faces_at_edges
+
 TOLERANCE = 1e-6
 """of the largest extent; what is nearer is at one place"""
 _BITS = 21  # for each coordinate in a key; the tolerance needs 20
@@ -23,7 +26,8 @@ def weld(V, F):
     group : (n,) int array
         Number of the welded vertex of each; they are numbered by their first vertex.
     first : (w,) int array
-        The first vertex of each.
+        The first vertex of each. Parts that only share a vertex, not an edge, stay apart: an eye
+        would hang on it as on a hinge.
     F : (k,3) int array
         Triangles between welded vertices. Those that have collapsed are left out, and of those with
         the same corners one is left: else the normals of a leaf that was modelled as two coincident
@@ -34,8 +38,23 @@ def weld(V, F):
     first = np.flatnonzero(is_first)
     if len(first) == len(V):
         return label, first, F
-    group = (np.cumsum(is_first) - 1)[label]
-    return group, first, _distinct(group[F].astype(F.dtype), len(first))
+    group = _of_one_part(label, F)
+    first = np.full(int(group.max()) + 1, len(V))
+    np.minimum.at(first, group, np.arange(len(V)))
+    return group, first, _distinct(group[F].astype(F.dtype))
+
+
+def _of_one_part(label, F):
+    """Split what is at one place by the parts that share edges; return new numbers (n,)."""
+    one, other = faces_at_edges(label[F], len(label))
+    # triangles that share an edge are of one part, and so are those that shared a vertex before
+    nodes = len(F) + len(label)
+    at = np.stack([np.repeat(np.arange(len(F)), 3), len(F) + F.ravel()], axis=1)
+    pairs = np.concatenate([np.stack([one, other], axis=1), at])
+    _, part = components(np.empty((0, 3), np.int64), nodes, pairs)
+    key = label * nodes + part[len(F) :]
+    _, first, group = np.unique(key, return_index=True, return_inverse=True)
+    return np.argsort(np.argsort(first))[group.ravel()]
 
 
 def _least_of_cell(V, shift):
@@ -63,7 +82,7 @@ def _joined(one, other):
         label = lower
 
 
-def _distinct(F, n):
+def _distinct(F):
     """Return the triangles with three different corners, one of each set of corners."""
     F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
     corners = np.sort(F.astype(np.int64), axis=1)
