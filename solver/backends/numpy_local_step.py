@@ -25,7 +25,7 @@ class NumpyLocalStep:
         Orientation of the cube: maps a vector into the cube's frame.
     options : AdmmOptions
     hold : float
-        Weight of the term that holds rotations at rest, in parts of the cubeness, see `hold_at_rest`.
+        Weight of the term that holds rotations, in parts of the cubeness: see `hold_at_rest`.
 
     Attributes
     ----------
@@ -115,11 +115,10 @@ def area_scale(areas):
 
 
 def hold_at_rest(rest, lam, hold):
-    """Return what holds the rotations where they are at rest: the energy
+    """Return what holds the rotations where they are at rest.
 
-        sum_i nu_i a_i/2 |R_i - I|^2 = sum_i nu_i a_i (3 - tr R_i),    nu_i = hold lam_i
-
-    Without it a hand may spin by half a turn: its normals fit the cube in 24 ways.
+    Its energy is ``sum_i nu_i a_i/2 |R_i - I|^2 = sum_i nu_i a_i (3 - tr R_i)``. Without it a hand
+    may spin by half a turn: its normals fit the cube in 24 ways.
 
     Parameters
     ----------
@@ -127,6 +126,7 @@ def hold_at_rest(rest, lam, hold):
     lam : (n,) array
         As `local_cubeness` returns it.
     hold : float
+        In parts of the cubeness.
 
     Returns
     -------
