@@ -33,7 +33,7 @@ const JOB_TYPE = {
         },
         {
             key: "options", type: "string", required: false, default: "",
-            description: "More options of headless_render.py, such as: --rotation keep --samples 64",
+            description: "More options of headless_render.py, such as: --solidity 0.3 --samples 64",
         },
         // The Manager runs this script without access to files, so the add-on lists them.
         // It evaluates with local names only, which in a generator exist in its first "in" alone.
