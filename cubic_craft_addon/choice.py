@@ -65,7 +65,8 @@ class Choice:
             # A click on the new object is to change it, not to copy it again.
             values["result"] = "MESH"
         for name, value in values.items():
-            if value_of(properties, name) != value:
+            is_outdated = getattr(properties, name) == "" != value
+            if is_outdated or value_of(properties, name) != value:
                 setattr(properties, name, value)
 
 

@@ -320,3 +320,30 @@ def test_the_tab_can_be_renamed(extension):
     assert bpy.types.CUBIC_PT_main.bl_category == "Sculpture"
     preferences.tab = "Cubic Craft"
     assert bpy.types.CUBIC_PT_main.bl_category == "Cubic Craft"
+
+
+def test_the_redo_panel_shows_what_holds_together():
+    """It takes what the object has, and what it is told the object then keeps."""
+    obj = add_monkey()
+    obj.cubic_craft.solidity, obj.cubic_craft.refine = 0.6, "OFF"
+    cubify()
+    first = position_of(obj.data)
+    cubify(solidity=0.6, refine="OFF", together="PARTS", rotation="KEEP")
+    np.testing.assert_array_equal(position_of(obj.data), first)
+    assert obj.cubic_craft.together == "PARTS"
+    for name, value in (("solidity", 0.0), ("refine", "AUTO"), ("together", "OFF")):
+        cubify(**{name: value})
+        assert obj.cubic_craft.bl_rna.properties[name] and getattr(obj.cubic_craft, name) == value
+        assert np.abs(position_of(obj.data) - first).max() > 1e-4
+        first = position_of(obj.data)
+
+
+def test_a_value_of_an_older_file_is_the_default():
+    obj = add_monkey()
+    obj.cubic_craft.rotation = "FREE"
+    stored = obj.bl_system_properties_get() if hasattr(obj, "bl_system_properties_get") else obj
+    stored["cubic_craft"]["rotation"] = 0
+    before = position_of(obj.data)
+    assert cubify() == {"FINISHED"}
+    assert obj.cubic_craft.rotation == "KEEP"
+    assert np.abs(position_of(obj.data) - before).max() > 0.01

@@ -1,0 +1,70 @@
+"""All meshes of a file are solved as one, unless they are told apart."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from headless import headless_ok, read_files
+
+MAKE = """
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+for name, x, size in (("Body", 0.0, 1.0), ("Hat", 1.05, 0.4), ("Far", 9.0, 1.0)):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(x, 0.1, 0.2))
+    bpy.context.object.name, bpy.context.object.scale = name, (size, size * 0.8, size * 0.7)
+    bpy.context.object.rotation_euler.z = x
+twin = bpy.data.objects.new("Twin", bpy.data.objects["Body"].data)
+bpy.context.collection.objects.link(twin)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
+FAST = ("--no-render", "--device", "numpy", "--max-iterations", 20)
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory):
+    path = tmp_path_factory.mktemp("together") / "dressed.blend"
+    subprocess.run([sys.executable, "-c", MAKE, str(path)], check=True, capture_output=True)
+    return path
+
+
+def run(source, folder, *options):
+    """Return the report and, by the name of the object, positions."""
+    target, report = folder / "out.blend", folder / "out.json"
+    headless_ok(source, *FAST, *options, "--save-mesh", target, "--report", report, cwd=folder)
+    (found,) = read_files(target, folder=folder)
+    positions = {name: content[0] for name, content in found.items()}
+    return json.loads(report.read_text(encoding="utf-8")), positions
+
+
+def test_all_meshes_of_a_file_are_one(source, tmp_path):
+    report, shapes = run(source, tmp_path, "--cubeness", 0.4)
+    entries = {entry["name"]: entry for entry in report["objects"]}
+    assert set(entries) == {"Body", "Hat", "Far"}, "the twin shares the mesh of the body"
+    assert entries["Hat"]["solved_with"] == [name for name in entries if name != "Hat"]
+    runs = [entry["runs"][0] for entry in entries.values()]
+    assert runs[0] == runs[1] == runs[2]
+    for entry in entries.values():
+        assert (entry["vertices"], entry["components"]) == (162, 1)
+    apart, alone = run(source, tmp_path, "--cubeness", 0.4, "--together", "parts")
+    assert all(entry["solved_with"] == [] for entry in apart["objects"])
+    assert apart["settings"]["together"] == "parts"
+    assert len({entry["runs"][0]["energy"]["total"] for entry in apart["objects"]}) == 3
+    assert np.abs(shapes["Hat"] - alone["Hat"]).max() > 1e-3
+    np.testing.assert_array_equal(shapes["Body"], shapes["Twin"])
+
+
+def test_the_paper_is_its_options_in_full(source, tmp_path):
+    paper, by_name = run(source, tmp_path, "--paper")
+    words = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
+    in_full, by_options = run(source, tmp_path, *words)
+    assert paper["settings"] == in_full["settings"]
+    assert paper["settings"] == {
+        "solidity": 0.0,
+        "together": "off",
+        "refine": "off",
+        "rotation": "free",
+    }
+    for name, shape in by_name.items():
+        np.testing.assert_array_equal(shape, by_options[name])
