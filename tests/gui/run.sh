@@ -48,6 +48,7 @@ expected_device() {
     esac
 }
 
+# The test sees all of tests/: some make their meshes by tests/art.
 run_test() {
     local suite=$1 test=$2 folder=$3 size
     size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
@@ -55,7 +56,7 @@ run_test() {
         "$HERE/kit/run_with_blender.sh" ${size:+-g "$size"} -e "$ZIP" -d "$folder" "$test"
     else
         "$HERE/kit/run_in_gui.sh" -s "$suite" ${size:+-g "$size"} -p -e "$ZIP" -d "$folder" \
-            -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$test"
+            -r "$HERE/.." -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$test"
     fi
 }
 
