@@ -65,6 +65,9 @@ def asked(draw):
     options = {
         "cubeness": draw(st.sampled_from([0.4, 0.0, 1.0, 10.0])),
         "result": draw(st.sampled_from(["MESH", "SHAPE_KEY", "NEW_OBJECT"])),
+        "solidity": draw(st.sampled_from([0.0, 0.1, 1.0, 10.0])),
+        "together": draw(st.sampled_from(["OFF", "PARTS", "SELECTION"])),
+        "refine": draw(st.sampled_from(["AUTO", "OFF"])),
         "rotation": draw(st.sampled_from(["KEEP", "FREE"])),
         "space": draw(st.sampled_from(["OBJECT", "WORLD", "FRAME"])),
         "orientation": draw(st.sampled_from([(0.0, 0.0, 0.0), (0.3, -1.0, 20.0)])),
