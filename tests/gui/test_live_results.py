@@ -8,7 +8,7 @@ import numpy as np
 
 
 def add_monkeys(*names):
-    """Add monkeys in a row, selected, the first one active."""
+    """Add monkeys in a row, ear in ear, selected, the first one active."""
     with gui.in_region():
         bpy.ops.object.select_all(action="SELECT")
         bpy.ops.object.delete()
@@ -20,6 +20,10 @@ def add_monkeys(*names):
         bpy.context.view_layer.objects.active = bpy.data.objects[names[0]]
         bpy.ops.ed.undo_push(message="Add monkeys")
     scene.show_front()
+
+
+def shapes(*names):
+    return [scene.positions(name) for name in names]
 
 
 def key_points(obj):
@@ -46,13 +50,13 @@ def several():
     yield from scene.wait_idle()
     yield from gui.screenshot("several_converged.png")
     yield from scene.end_by("RET")
-    assert len({scene.positions(name) for name in names}) == 1
     assert len({scene.settings(name).cubeness for name in names}) == 1
-    confirmed = scene.positions("A")
+    confirmed = shapes(*names)
+    assert len(set(confirmed)) == 3, "they have not been solved as one"
     yield from gui.undo()
-    assert {scene.positions(name) for name in names} == {original}
+    assert set(shapes(*names)) == {original}
     yield from scene.redo()
-    assert {scene.positions(name) for name in names} == {confirmed}
+    assert shapes(*names) == confirmed
     scene.check_bits_of_cubify(*names)
 
     # One of them is deleted while they are live.
@@ -60,7 +64,28 @@ def several():
     bpy.data.objects.remove(bpy.data.objects["B"])
     yield from scene.wait_idle()
     yield from scene.end_by("ESC")
-    assert scene.positions("A") == scene.positions("C") == confirmed
+    assert shapes("A", "C") == [confirmed[0], confirmed[2]]
+
+
+def several_apart():
+    """Keep nothing but their own parts together: each is as if it were alone."""
+    names = ("A", "B", "C")
+    add_monkeys(*names)
+    original = scene.positions("A")
+    scene.settings("A").together = "PARTS"
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    yield from gui.screenshot("several_apart.png")
+    yield from scene.end_by("RET")
+    assert len(set(shapes(*names))) == 1
+    confirmed = scene.positions("A")
+    yield from gui.undo()
+    assert set(shapes(*names)) == {original}
+    with gui.in_region():
+        bpy.ops.object.select_all(action="DESELECT")
+        bpy.data.objects["A"].select_set(True)
+        bpy.ops.cubic_craft.cubify()
+    assert shapes(*names) == [confirmed, original, original]
 
 
 def shape_key():
@@ -151,7 +176,7 @@ def test():
     gui.simplify_viewport()
     scene.add_monkey()
     yield from gui.open_sidebar("Cubic Craft")
-    for moment in (several, shape_key, new_object, with_keys):
+    for moment in (several, several_apart, shape_key, new_object, with_keys):
         gui.log(moment.__name__)
         yield from moment()
         scene.check_clean()

@@ -3,7 +3,7 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1000x1450
+# Window: 1000x1650
 
 import math
 import os
@@ -21,6 +21,7 @@ MARGIN = 12 * SCALE
 PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
 SECTIONS = {  # first button of each, and pixels from there to the upper edge of the header
+    "shape": ("cubic_craft.together", 33 * SCALE),
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
     "map": ("cubic_craft.map_group", 38 * SCALE),
@@ -125,8 +126,8 @@ def turn_cube():
 
 
 def picture_of_top(name):
-    """Take a picture of what is above the section Orientation."""
-    bottom = (yield from edge_of("orientation")) - PADDING
+    """Take a picture of what is above all sections that can be closed."""
+    bottom = (yield from edge_of(next(iter(SECTIONS)))) - PADDING
     left, right = panels()
     place = gui.region("UI")
     cut((yield from whole(name)), name, left, bottom, right, place.y + place.height)
