@@ -6,7 +6,6 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from .errors import CubicCraftError
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 
@@ -28,11 +27,6 @@ class GlobalStep:
     pinned : (k,) int array
         Pinned vertices, as indices into ``rest.V``.
 
-    Raises
-    ------
-    CubicCraftError
-        All vertices are pinned.
-
     Attributes
     ----------
     is_factorized : bool
@@ -46,8 +40,6 @@ class GlobalStep:
         has_pin[rest.component[pinned]] = True
         is_held = np.zeros(n, dtype=bool)
         is_held[pinned] = True
-        if is_held.all():
-            raise CubicCraftError("all vertices are pinned; leave some of them free")
         _, first_vertex = np.unique(rest.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
         self._is_held = is_held

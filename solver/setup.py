@@ -49,6 +49,8 @@ class Setup:
         self.pinned_input = pinned
         is_pinned = np.zeros(count, dtype=bool)
         is_pinned[pinned] = True
+        if is_pinned[rest.place[0]].all():
+            raise CubicCraftError("all vertices are pinned; leave some of them free")
         if still is not None:
             self.pinned_input = np.union1d(pinned, _surrounded(rest, np.asarray(still)))
             is_pinned[self.pinned_input] = True

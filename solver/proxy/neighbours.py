@@ -26,6 +26,8 @@ OF_PART = 0.25
 """of the largest extent of the smaller part"""
 SAMPLES = 30_000
 """about as many vertices are linked"""
+LEAST_WEIGHT = 1e-4
+"""Parts that hang together by less, as those without area do, are no single one."""
 
 _CANDIDATES = 6  # triangles, by their middle, among which the nearest is looked for
 _UPRIGHT = 0.7  # cosine between a link within LAYER and the normal of the triangle
@@ -62,11 +64,10 @@ def neighbour_links(V, F, normals, areas, part, count):
     share = np.zeros(len(V))
     share[chosen] = area
     i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
-    is_kept = _is_accepted(V, corners, normals, part, i, triangle, d)
+    weights = share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing**2))
+    is_kept = _is_accepted(V, corners, normals, part, i, triangle, d) & (weights > LEAST_WEIGHT)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
-    squared = (d[is_kept] ** 2).sum(axis=1)
-    weights = share[i] / np.maximum(squared, np.maximum(share[i], spacing**2))
-    return links_to_triangles(i, corners[triangle], barycentric, weights)
+    return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
 
 
 def _near_others(points, label, count, reach):

@@ -78,17 +78,30 @@ def _opposite(V, normals, part, chosen, points):
     """Return the vertices whose balls end at another side, and where they do."""
     # parts are kept apart by a coordinate of their own
     place = np.column_stack([V, 10.0 * part])
+    end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
+    if len(points) > len(chosen):  # what comes near the end is found among a tenth of the points
+        _shrink(place, normals, chosen, chosen, end, radius)
+    _shrink(place, normals, chosen, points, end, radius)
+    has_end = end >= 0
+    return chosen[has_end], end[has_end]
+
+
+def _shrink(place, normals, chosen, points, end, radius):
+    """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
+
+    end : (c,) int array
+        The vertex that each ball ends at, -1 while it is none of another side.
+    radius : (c,) array
+    """
     tree = cKDTree(place[points], balanced_tree=False, compact_nodes=False)
-    p, n = V[chosen], normals[chosen]
-    radius = np.full(len(chosen), 0.5)
-    end = np.full(len(chosen), -1)
+    p, n = place[chosen, :3], normals[chosen]
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
         centre = place[chosen[todo]]
         centre[:, :3] -= radius[todo, None] * n[todo]
         _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)
         q = points[nearest]
-        d = V[q] - p[todo]
+        d = place[q, :3] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
         is_other = (q != chosen[todo]) & (depth > 0.0)
         shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
@@ -101,8 +114,6 @@ def _opposite(V, normals, part, chosen, points):
         todo = todo[goes_on]
         if not len(todo):
             break
-    has_end = end >= 0
-    return chosen[has_end], end[has_end]
 
 
 def _are_facing(V, normals, i, j):

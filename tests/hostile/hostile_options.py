@@ -8,7 +8,17 @@ import numpy as np
 from hostile_meshes import SEEDS
 from hypothesis import strategies as st
 
+from solver import PAPER, ProxyOptions
+
 CUBENESS = (0.4, 0.0, 1e-6, 0.2, 1.0, 10.0)
+PROXIES = {
+    "paper": PAPER,
+    "default": ProxyOptions(),
+    "solid": ProxyOptions(solidity=10.0),
+    "hollow": ProxyOptions(solidity=0.0),
+    "each alone": ProxyOptions(together=False),
+    "not refined": ProxyOptions(refine=False),
+}
 _TURNS = (np.eye(3), np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.6]]))
 
 
@@ -22,6 +32,7 @@ class Options:
     """(n,3) positions of the pinned, or None"""
     orientation: Any
     keep_rotation: bool
+    proxy: ProxyOptions
     notes: str
 
     def __repr__(self):
@@ -44,6 +55,7 @@ def options_for(draw, mesh):
     )
     turn = draw(st.integers(0, len(_TURNS) - 1))
     keep_rotation, seed = draw(st.booleans()), draw(SEEDS)
+    proxy = draw(st.sampled_from(sorted(PROXIES)))
     rng = np.random.default_rng(seed)
     lam = cubeness * rng.choice([0.0, 0.5, 1.0], n) if kind == "map" else cubeness
     free = np.flatnonzero(~mesh.loose)[0]
@@ -54,14 +66,15 @@ def options_for(draw, mesh):
         "loose": np.flatnonzero(mesh.loose),
         "all but one": np.delete(np.arange(n), free),
     }[pins]
-    notes = f"{kind} {cubeness}, pins {pins} {pose}, turn {turn}, keep {keep_rotation}, seed {seed}"
+    notes = f"{kind} {cubeness}, pins {pins} {pose}, turn {turn}, keep {keep_rotation}, {proxy}"
     return Options(
         lam,
         np.asarray(pinned, int),
         _targets(mesh.V, pose, rng),
         _TURNS[turn],
         keep_rotation,
-        notes,
+        PROXIES[proxy],
+        f"{notes}, seed {seed}",
     )
 
 

@@ -13,7 +13,7 @@ from hypothesis import event, given
 from hypothesis import strategies as st
 from pieces import PIECES
 
-from solver import CubicCraftError, rest_mesh, stylize
+from solver import CubicCraftError, Setup, Stylization, rest_mesh, stylize
 
 ITERATIONS = 10
 ROUNDING = 1e-9
@@ -103,6 +103,7 @@ def run(mesh, options, device, **more):
         targets=options.targets,
         orientation=options.orientation,
         keep_rotation=options.keep_rotation,
+        proxy=options.proxy,
         device=device,
         max_iterations=ITERATIONS,
         tolerance=1e-6,
@@ -210,7 +211,15 @@ def without_loose(mesh, options):
 
 def energy_at_rest(mesh, options):
     """Return the energy of the undeformed mesh with all rotations the identity."""
-    rest = rest_mesh(mesh.V, mesh.triangles)
-    lam = np.broadcast_to(options.cubeness, len(mesh.V)).copy()
-    lam[options.pinned] = 0.0
-    return (lam[rest.used] * rest.areas * np.abs(rest.normals @ options.orientation.T).sum(1)).sum()
+    rest = rest_mesh(mesh.V, mesh.triangles, options.proxy)
+    state = Stylization(
+        Setup(rest, options.pinned),
+        options.cubeness,
+        options.orientation,
+        device="numpy",
+        keep_rotation=options.keep_rotation,
+    )
+    cube_normals = np.einsum(
+        "nij,nj->ni", np.broadcast_to(state._Q, (len(rest.V), 3, 3)), rest.normals
+    )
+    return (state._lam * rest.areas * np.abs(cube_normals).sum(axis=1)).sum()
