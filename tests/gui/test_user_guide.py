@@ -20,8 +20,9 @@ SCALE = 1.5  # of Blender's interface: sharper pictures
 MARGIN = 12 * SCALE
 PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
-SECTIONS = {  # first button of each, and pixels from there to the upper edge of the header
-    "shape": ("cubic_craft.together", 33 * SCALE),
+SECTIONS = {
+    # first button of each, and pixels from there to the upper edge of the header
+    "shape": ("together", 33 * SCALE),  # also while Live runs
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
     "map": ("cubic_craft.map_group", 38 * SCALE),
