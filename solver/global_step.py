@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
+from .no_turning import NoTurning
 
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
@@ -49,6 +50,7 @@ class GlobalStep:
             self._solve = _solver(self._laplacian, is_held)
         else:
             self._solve = self.multigrid.solve
+        self._has_pin = has_pin
         self._floating = None if has_pin.all() else self._centring_weights(has_pin)
 
     @property
@@ -68,7 +70,19 @@ class GlobalStep:
         total = np.bincount(rest.component, weight, rest.component_count)
         return weight / np.where(total > 0.0, total, 1.0)[rest.component]
 
-    def positions(self, rhs, near):
+    @cached_property
+    def no_turning(self):
+        """The NoTurning, made when first asked for."""
+        if not self.is_factorized:
+            return self.no_turning_by_cycles
+        return NoTurning(self._rest, ~self._has_pin, self._solve)
+
+    @cached_property
+    def no_turning_by_cycles(self):
+        """The same by multigrid, for a GPU or where nothing is factorised."""
+        return NoTurning(self._rest, ~self._has_pin, self.multigrid.solve)
+
+    def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).
 
         Parameters
@@ -77,8 +91,12 @@ class GlobalStep:
             Right-hand side.
         near : (n,3) array
             Positions to start from, where the solution is iterative. Pinned vertices stay there.
+        keep_rotation : bool
+            Keep each component without pins from turning as a whole.
         """
         result = self._solve(rhs, near)
+        if keep_rotation and self._floating is not None:
+            result = self.no_turning.apply(result)
         if self._floating is not None:
             self._centre(result, self._floating)
         return result

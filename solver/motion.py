@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The positions of a run and how a global step moves them."""
 
-from .placement import turn_back
-
 
 class Motion:
     """The positions in NumPy; `backends/taichi_motion.py` has the same for large meshes.
@@ -52,7 +50,7 @@ class Motion:
         momentum, further : (component_count,) arrays
             How far the point goes on from the new positions, see `Momentum.next`.
         keep_rotation : bool
-            Turn each component without pins back to how it is at rest.
+            Keep each component without pins as it stands at rest.
 
         Returns
         -------
@@ -60,9 +58,9 @@ class Motion:
             The largest of any coordinate, in this step and from rest.
         """
         rest = self._setup.rest
-        U = self._setup.global_step.positions(self._local.right_hand_side(), self.point)
-        if keep_rotation:
-            U = turn_back(rest, U, self._setup.has_pin)
+        U = self._setup.global_step.positions(
+            self._local.right_hand_side(), self.point, keep_rotation
+        )
         way, point = U - self._U, U - self.point
         displacement = _largest(way)
         if rest.component_count > 1:

@@ -11,9 +11,6 @@ from .backends import local_step_class
 from .errors import CubicCraftError
 from .mesh_checks import per_vertex
 
-HOLD = 0.035
-"""Strength, in parts of the cubeness, with which kept rotations are held where they are at rest."""
-
 _FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
 
 
@@ -52,8 +49,8 @@ class Stylization:
     is_accelerated : bool
         False for the plain iteration, in which the energy falls in every step.
     keep_rotation : bool
-        Hold each component without pins in the orientation it has at rest, by turning it back after
-        each global step. Otherwise it may turn as a whole to fit the cube.
+        Keep each component without pins in the orientation it has at rest. Otherwise it may turn as
+        a whole to fit the cube.
     is_coarse : bool
         Of a coarser mesh, to start another one from.
 
@@ -95,8 +92,7 @@ class Stylization:
         self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q
         make_local_step = local_step_class(device, precision)
         self._targets = _targets(targets, setup)
-        hold = HOLD if keep_rotation and rest.is_refined and not self._is_posed else 0.0
-        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions(), hold)
+        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
         self._motion = self._local.motion(setup, U)
@@ -104,12 +100,6 @@ class Stylization:
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
-
-    @property
-    def _is_posed(self):
-        """Whether a pin has another target than its place at rest: then the rest shall follow."""
-        held = self.setup.pinned_input
-        return not np.array_equal(self._targets[held], self.rest.input_positions[held])
 
     @property
     def device(self):

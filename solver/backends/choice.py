@@ -12,7 +12,7 @@ DEVICES = ("auto", "cpu", "gpu", "numpy")
 
 
 def local_step_class(device="auto", precision=None):
-    """Return a function of (rest, lam, Q, options, hold) that makes the local step for the device.
+    """Return a function of (rest, lam, Q, options) that makes the local step for the device.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def problem_with_taichi():
 _problem = ""
 
 
-def _taichi_local_step(device, precision, rest, lam, Q, options, hold=0.0):
+def _taichi_local_step(device, precision, rest, lam, Q, options):
     try:
         import_taichi()
         with quick_compilation():
             wanted = "gpu" if device == "gpu" else "cpu"
-            return TaichiLocalStep(rest, lam, Q, options, hold, wanted, precision)
+            return TaichiLocalStep(rest, lam, Q, options, wanted, precision)
     except (CubicCraftError, MemoryError, KeyboardInterrupt):
         raise
     except BaseException as error:  # a broken installation can raise anything, or want to exit
@@ -59,4 +59,4 @@ def _taichi_local_step(device, precision, rest, lam, Q, options, hold=0.0):
             ) from error
         global _problem
         _problem = reason
-        return NumpyLocalStep(rest, lam, Q, options, hold)
+        return NumpyLocalStep(rest, lam, Q, options)

@@ -24,8 +24,6 @@ class NumpyLocalStep:
     Q : (n,3,3) or (1,3,3) float64 array
         Orientation of the cube: maps a vector into the cube's frame.
     options : AdmmOptions
-    hold : float
-        Weight of the term that holds rotations, in parts of the cubeness: see `hold_at_rest`.
 
     Attributes
     ----------
@@ -39,7 +37,7 @@ class NumpyLocalStep:
     compile_seconds = 0.0
     resolution = 1e-9
 
-    def __init__(self, rest, lam, Q, options, hold=0.0):
+    def __init__(self, rest, lam, Q, options):
         self._rest = rest
         self._options = options
         matrices = rest.matrices
@@ -48,12 +46,11 @@ class NumpyLocalStep:
         self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
         self._area_scale = area_scale(rest.areas)
         _, self._first = np.unique(rest.component, return_index=True)
+        self._rest_quadratic = self._quadratic(self._near_origin(rest.V))
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         lam = local_cubeness(rest, lam)
         self._cubic_weight = lam * rest.areas
-        self._hold, at_rest = hold_at_rest(rest, lam, hold)
-        self._rest_quadratic = self._quadratic(self._near_origin(rest.V)) + at_rest
         Q = np.broadcast_to(Q, (n, 3, 3))
         self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
         self._s = starting_signs(self._rest_problem.cube_normals(self.R))
@@ -77,8 +74,7 @@ class NumpyLocalStep:
         """
         U = self._near_origin(U)
         S = np.stack([H @ U for H in self._gather], axis=1)
-        S = S / self._area_scale[:, None, None] + self._hold[:, None, None] * np.eye(3)
-        problem = self._rest_problem._replace(S=S)
+        problem = self._rest_problem._replace(S=S / self._area_scale[:, None, None])
         last = orthonormalize(self.R)
         R, s, is_done = active_set_rotations(problem, last, self._s)
         rows = np.flatnonzero(~is_done)
@@ -112,31 +108,6 @@ def area_scale(areas):
     Vertices without area have no cubic term, and any positive number will do.
     """
     return np.where(areas > SMALLEST_AREA, areas, 1.0)
-
-
-def hold_at_rest(rest, lam, hold):
-    """Return what holds the rotations where they are at rest.
-
-    Its energy is ``sum_i nu_i a_i/2 |R_i - I|^2 = sum_i nu_i a_i (3 - tr R_i)``. Without it a hand
-    may spin by half a turn: its normals fit the cube in 24 ways.
-
-    Parameters
-    ----------
-    rest : RestMesh
-    lam : (n,) array
-        As `local_cubeness` returns it.
-    hold : float
-        In parts of the cubeness.
-
-    Returns
-    -------
-    nu : (n,) array
-        What is added to the diagonal of the divided covariances.
-    constant : (component_count,) array
-        The part of the energy that does not depend on the rotations.
-    """
-    nu = hold * lam
-    return nu, rest.sum_parts(3.0 * nu * rest.areas)
 
 
 def local_cubeness(rest, lam):

@@ -106,7 +106,6 @@ def make_kernels(real):
         lam: scalars,
         Qs: matrices,
         q_stride: ti.i32,
-        hold: real,
         R_out: matrices,
         subgradients: vectors,
         energies: vectors,  # per vertex: sum w |d|^2, tr(R S), |Q R n|_1
@@ -123,14 +122,12 @@ def make_kernels(real):
                 edge = U[j] - here
                 S += mat3(ti.static(outer(*gather[entry], *edge)))
                 quadratic += weights[entry] * ti.static(dot(*edge, *edge))[0]
-            cubeness = lam[i]
             S /= area_scale[i]
-            for c in ti.static(range(3)):
-                S[c, c] += hold * cubeness
 
             # from here as in active_set.py
             normal = normals[i]
             Q = Qs[i * q_stride]
+            cubeness = lam[i]
             R = R_out[i]
             last = R * real(1.5) - mat3(ti.static(product(*R, *gram(*R)))) * real(0.5)
             R = last

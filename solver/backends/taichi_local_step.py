@@ -13,7 +13,7 @@ from ..local_problem import LocalProblem
 from ..motion import Motion
 from . import taichi_runtime
 from .arrays import arrays_for, one_row
-from .numpy_local_step import area_scale, hold_at_rest, local_cubeness
+from .numpy_local_step import area_scale, local_cubeness
 from .rehearsal import rehearse
 from .rows import HostRows
 
@@ -23,7 +23,7 @@ class TaichiLocalStep:
 
     Parameters
     ----------
-    rest, lam, Q, options, hold
+    rest, lam, Q, options
         As in `NumpyLocalStep`.
     device : {"cpu", "gpu"}
     precision : {"f64", "f32"}, optional
@@ -43,7 +43,7 @@ class TaichiLocalStep:
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
 
-    def __init__(self, rest, lam, Q, options, hold=0.0, device="cpu", precision=None):
+    def __init__(self, rest, lam, Q, options, device="cpu", precision=None):
         runtime = taichi_runtime.start(device)
         self._rest = rest
         self._wanted, self.device = device, runtime.device
@@ -67,8 +67,7 @@ class TaichiLocalStep:
         self._options = options
         scale = area_scale(rest.areas)
         self._cubic_weight = lam * rest.areas
-        self._hold, at_rest = hold_at_rest(rest, lam, hold)
-        self._rest_quadratic = 0.75 * rest.edge_sums + at_rest
+        self._rest_quadratic = 0.75 * rest.edge_sums
         identity = np.tile(np.eye(3), (n, 1, 1))
         self._R = array(identity)
         all_Q = np.broadcast_to(Q, (n, 3, 3))
@@ -88,7 +87,6 @@ class TaichiLocalStep:
             array(lam),
             array(Q),
             int(len(Q) > 1),
-            float(hold),
             self._R,
             self._s,
             self._energies,
@@ -166,7 +164,6 @@ class TaichiLocalStep:
     def _solve_by_admm(self, U, rows):
         """Find the rotations of some rows that the kernel has left as they were."""
         S, last, last_s = self._rows.take(U, rows)
-        S += self._hold[rows, None, None] * np.eye(3)
         problem = self._rest_problem.part(rows)._replace(S=S)
         R, s = admm_rotations(problem, last, last_s, self._options)
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
@@ -218,6 +215,6 @@ def _compile(kernels, arguments, precision):
     no_entries = np.zeros(2, np.int32)
     point = np.zeros_like(first[4])
     kernels.local_step(point, no_entries, *first[1:])
-    kernels.right_hand_side(no_entries, first[1], first[2], first[10], point)
+    kernels.right_hand_side(no_entries, first[1], first[2], first[9], point)
     _compiled.add(precision)
     return time.perf_counter() - begin

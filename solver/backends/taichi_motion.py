@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 
-from ..rotation_fit import svd_rotations
 from . import taichi_runtime
 from .rehearsal import rehearse
 from .taichi_cycle import TaichiCycle
@@ -48,12 +47,16 @@ class TaichiMotion:
         self._rest_centre = keep(self._centre.astype(real))
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         count = len(self._component)
+        # only asked for where a component has to be kept from turning
+        self._P = keep(np.zeros_like(rest.V, real))
+        self._has_P = False
+        self._setup = setup
         self._means, self._largest = (keep(np.zeros((count, 3), real)) for _ in range(2))
         self._covariances = keep(np.zeros((count, 3, 3), real))
         self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
         count = len(self._centre)
         nothing = np.zeros(count)
-        still = (np.zeros((count, 3, 3)), self._centre, self._centre, nothing, nothing)
+        still = (np.zeros((count, 3)), np.zeros((count, 3)), nothing, nothing)
         self.compile_seconds = rehearse(
             [
                 (
@@ -109,16 +112,16 @@ class TaichiMotion:
             self._covariances,
         )
 
-    def _move_arguments(self, turn, centre, target, momentum, further):
+    def _move_arguments(self, twist, shift, momentum, further):
         real = self._local.real
         return (
             *self._chunks,
             self._V,
             self._scale,
             self._cycle.X,
-            turn.astype(real),
-            centre.astype(real),
-            target.astype(real),
+            twist.astype(real),
+            shift.astype(real),
+            self._P,
             momentum.astype(real),
             further.astype(real),
             self.point,
@@ -127,18 +130,22 @@ class TaichiMotion:
         )
 
     def _whole(self, keep_rotation):
-        """Return turns (c,3,3) of the components about centres (c,3), which go to targets (c,3)."""
+        """Return twists (c,3) and shifts (c,3) of the components, see the kernel `move`."""
         count = len(self._centre)
-        turn = np.tile(np.eye(3), (count, 1, 1))
+        twist = np.zeros((count, 3))
         if self._has_pin.all():
-            return turn, np.zeros((count, 3)), np.zeros((count, 3))
+            return twist, twist
         self._kernels.moments(*self._moments_arguments())
         if keep_rotation:
-            free = ~self._has_pin
-            turn[free] = svd_rotations(self._sums(self._covariances)[free])
+            no_turning = self._setup.global_step.no_turning_by_cycles
+            if not self._has_P:
+                self._local.arrays.put(self._P, no_turning.P)
+                self._has_P = True
+            C = self._sums(self._covariances)
+            torque = np.stack([C[:, c, b] - C[:, b, c] for b, c in ((1, 2), (2, 0), (0, 1))], 1)
+            twist = no_turning.twist(torque)
         is_held = self._has_pin[:, None]
-        centre = np.where(is_held, 0.0, self._sums(self._means))
-        return turn, centre, np.where(is_held, 0.0, self._centre)
+        return twist, np.where(is_held, 0.0, self._centre - self._sums(self._means))
 
     def _sums(self, parts):
         """Add up what there is of each chunk, to (component_count, ...)."""

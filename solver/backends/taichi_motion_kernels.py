@@ -79,9 +79,9 @@ def make_motion_kernels(real):
         V: vectors,
         scale: singles,
         X: vectors4,
-        turn: matrices,
-        centre: vectors,
-        target: vectors,
+        twist: vectors,
+        shift: vectors,
+        P: vectors,
         momentum: scalars,
         further: scalars,
         point: vectors,
@@ -90,15 +90,15 @@ def make_motion_kernels(real):
     ):
         """Find new positions U by the correction X, and the point that the next step starts from.
 
-        Each component is turned about its centre, which goes to its target. Of each chunk:
-        largest displacement and largest distance from rest, by coordinate.
+        Each component is shifted, and kept from turning by twist x P, see `no_turning.py`. Of each
+        chunk: largest displacement and largest distance from rest, by coordinate.
         """
         for c in range(component.shape[0]):
             k = component[c]
-            R, before, after = turn[k], centre[k], target[k]
+            mu, by = twist[k], shift[k]
             displacement, distance = real(0.0), real(0.0)
             for i in range(bounds[c], bounds[c + 1]):
-                u = R @ (moved(point[i], X[i], scale[i]) - before) + after
+                u = moved(point[i], X[i], scale[i]) + mu.cross(P[i]) + by
                 way = u - U[i]
                 displacement = ti.max(displacement, ti.abs(way).max())
                 distance = ti.max(distance, ti.abs(u - V[i]).max())

@@ -26,7 +26,7 @@ from .links import links_between, no_links
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
-STRENGTH = 1.2
+STRENGTH = 1.8
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """about as many vertices are linked; each stands for the area around it"""

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from solver import CubicCraftError
+from solver import CubicCraftError, Setup
 from solver.global_step import GlobalStep
 from solver.rest import rest_mesh
 
@@ -62,4 +62,4 @@ def test_a_component_without_a_free_vertex_is_fine():
 def test_everything_pinned_is_refused():
     rest = rest_mesh(*shapes.blob(1))
     with pytest.raises(CubicCraftError, match="all vertices are pinned"):
-        GlobalStep(rest, np.arange(len(rest.V)))
+        Setup(rest, np.arange(len(rest.V)))

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Keep a component from turning as a whole, by linear constraints of the global step.
+
+The best-fit rotation of a component is the identity where its covariance with the rest positions is
+symmetric, that is where
+
+    t(U) = sum_i w_i x_i x u_i = 0,    x_i = v_i - c
+
+(the torque of the positions about the centre). Among the positions that obey it, those of least
+energy are U + mu x P with P = L^-1 (w x) and, with M = sum_i w_i P_i x_i', the mu that solves
+
+    (tr(M) 1 - M) mu = -t(U)
+
+So the iteration is a descent as without it: it only goes on within fewer positions. To turn the
+component back after each step would cost energy, and may cost more than the step has gained.
+"""
+
+import numpy as np
+
+_SOLVES = 4  # where each only comes nearer
+_SMALLEST = 1e-9  # relative; a component on a line may turn about it
+
+
+class NoTurning:
+    """The constraints of all components that are to keep their orientation.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    is_free : (component_count,) bool array
+        Components without a pinned vertex; the others are left alone.
+    solve : callable
+        Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X.
+
+    Attributes
+    ----------
+    P : (n,3) array
+        As above, zero in components with a pinned vertex.
+    """
+
+    def __init__(self, rest, is_free, solve):
+        self._rest, self._is_free = rest, is_free
+        weight = rest.placing
+        share = weight / rest.sum_parts(weight)[rest.component]
+        centre = self._sums(share[:, None] * rest.V)
+        x = (rest.V - centre[rest.component]) * is_free[rest.component][:, None]
+        self._pull = share[:, None] * x
+        P = np.zeros_like(x)
+        for _ in range(_SOLVES):
+            P = solve(self._pull.copy(), P)
+        self.P = (P - self._sums(share[:, None] * P)[rest.component]) * (x != 0.0).any(1)[:, None]
+        M = self._sums((self.P[:, :, None] * self._pull[:, None, :]).reshape(-1, 9))
+        M = M.reshape(-1, 3, 3)
+        M = 0.5 * (M + M.swapaxes(1, 2))
+        stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
+        self._inverse = np.linalg.pinv(stiffness, rcond=_SMALLEST, hermitian=True)
+
+    def apply(self, U):
+        """Return the nearest positions (n,3) in which nothing has turned."""
+        mu = self.twist(self._sums(np.cross(self._pull, U)))
+        return U + np.cross(mu if len(mu) == 1 else mu[self._rest.component], self.P)
+
+    def twist(self, torque):
+        """Return mu (component_count,3) for the torques (component_count,3)."""
+        return -np.einsum("kij,kj->ki", self._inverse, torque)
+
+    def _sums(self, values):
+        """Sum values (n,k) over each component, to (component_count,k)."""
+        if self._rest.component_count == 1:
+            return values.sum(axis=0)[None]
+        columns = [self._rest.sum_parts(x) for x in values.T]
+        return np.stack(columns, axis=1)
