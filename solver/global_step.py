@@ -64,9 +64,9 @@ class GlobalStep:
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
     def _centring_weights(self, has_pin):
-        """Return the share of each vertex (n,) in what places its floating component, else 0."""
+        """Return the share of each vertex (n,) in its floating component's area, else 0."""
         rest = self._rest
-        weight = np.where(has_pin[rest.component], 0.0, rest.placing)
+        weight = np.where(has_pin[rest.component], 0.0, rest.areas + 1e-300)
         total = np.bincount(rest.component, weight, rest.component_count)
         return weight / np.where(total > 0.0, total, 1.0)[rest.component]
 

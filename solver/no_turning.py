@@ -34,22 +34,25 @@ class NoTurning:
 
     Attributes
     ----------
-    P : (n,3) array
-        As above, zero in components with a pinned vertex.
+    pull, P : (n,3) arrays
+        w x and P as above, zero in components with a pinned vertex.
     """
 
     def __init__(self, rest, is_free, solve):
         self._rest, self._is_free = rest, is_free
-        weight = rest.placing
+        weight = rest.standing
         share = weight / rest.sum_parts(weight)[rest.component]
         centre = self._sums(share[:, None] * rest.V)
         x = (rest.V - centre[rest.component]) * is_free[rest.component][:, None]
-        self._pull = share[:, None] * x
+        self.pull = share[:, None] * x
         P = np.zeros_like(x)
         for _ in range(_SOLVES):
-            P = solve(self._pull.copy(), P)
-        self.P = (P - self._sums(share[:, None] * P)[rest.component]) * (x != 0.0).any(1)[:, None]
-        M = self._sums((self.P[:, :, None] * self._pull[:, None, :]).reshape(-1, 9))
+            P = solve(self.pull.copy(), P)
+        weight = rest.areas + 1e-300  # so that the centroid stays where it is
+        share = weight / rest.sum_parts(weight)[rest.component]
+        P -= self._sums(share[:, None] * P)[rest.component]
+        self.P = P * is_free[rest.component][:, None]
+        M = self._sums((self.P[:, :, None] * self.pull[:, None, :]).reshape(-1, 9))
         M = M.reshape(-1, 3, 3)
         M = 0.5 * (M + M.swapaxes(1, 2))
         stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
@@ -57,7 +60,7 @@ class NoTurning:
 
     def apply(self, U):
         """Return the nearest positions (n,3) in which nothing has turned."""
-        mu = self.twist(self._sums(np.cross(self._pull, U)))
+        mu = self.twist(self._sums(np.cross(self.pull, U)))
         return U + np.cross(mu if len(mu) == 1 else mu[self._rest.component], self.P)
 
     def twist(self, torque):

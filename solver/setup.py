@@ -8,6 +8,10 @@ import numpy as np
 from .errors import CubicCraftError
 from .global_step import GlobalStep
 
+NARROW = 0.01
+"""Longest side of the triangles, in the unit box, of a ring that is left free beside what is still:
+it moves by less than that is long."""
+
 
 class Setup:
     """The rest mesh, its pinned vertices and the factorisation that belongs to both.
@@ -18,9 +22,8 @@ class Setup:
     pinned : (k,) array_like of int, optional
         Vertices of the input that are held exactly.
     still : (N,) array_like of bool, optional
-        Vertices of the input that are asked to stay where they are. Those are held that have only
-        such vertices around them: next to what moves, one ring is left free, so that the surface
-        bends there without a crease.
+        Vertices of the input that are asked to stay where they are. They are held, but for one ring
+        next to what moves if that is narrow: so the surface bends there without a crease.
 
     Raises
     ------
@@ -52,7 +55,7 @@ class Setup:
         if is_pinned[rest.place[0]].all():
             raise CubicCraftError("all vertices are pinned; leave some of them free")
         if still is not None:
-            self.pinned_input = np.union1d(pinned, _surrounded(rest, np.asarray(still)))
+            self.pinned_input = np.union1d(pinned, _held_by(rest, np.asarray(still)))
             is_pinned[self.pinned_input] = True
         self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
         self.has_pin = np.zeros(rest.component_count, dtype=bool)
@@ -71,10 +74,12 @@ class Setup:
         return Setup(coarsening.rest, pinned)
 
 
-def _surrounded(rest, still):
-    """Return the vertices of the input whose neighbours on the proxy are all still, too."""
+def _held_by(rest, still):
+    """Return the vertices of the input that are still (N,), less those in a narrow ring."""
     is_still = rest.input_map.spread_mask(still)
-    is_moving_face = ~is_still[rest.F].all(axis=1)
-    is_still[rest.F[is_moving_face].ravel()] = False
+    F = rest.F
+    sides = np.linalg.norm(rest.V[F] - rest.V[np.roll(F, 1, axis=1)], axis=2)
+    is_left = ~is_still[F].all(axis=1) & (sides.max(axis=1) < NARROW)
+    is_still[F[is_left].ravel()] = False
     used, place = rest.place
     return used[still[used] & is_still[place]]

@@ -38,21 +38,21 @@ class TaichiMotion:
         self._scale = keep(multigrid.scale)
         bounds, self._component = rest.chunks
         self._chunks = keep(bounds), keep(self._component)
-        weight = rest.placing
+        weight = rest.areas + 1e-300
         total = np.bincount(rest.component, weight, rest.component_count)
         share = weight / total[rest.component]
         self._centre = np.stack(
             [np.bincount(rest.component, share * x, rest.component_count) for x in rest.V.T], axis=1
         )
-        self._rest_centre = keep(self._centre.astype(real))
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         count = len(self._component)
         # only asked for where a component has to be kept from turning
-        self._P = keep(np.zeros_like(rest.V, real))
-        self._has_P = False
+        self._P, self._pull = (keep(np.zeros_like(rest.V, real)) for _ in range(2))
+        self._is_kept = False
         self._setup = setup
-        self._means, self._largest = (keep(np.zeros((count, 3), real)) for _ in range(2))
-        self._covariances = keep(np.zeros((count, 3, 3), real))
+        self._means, self._torques, self._largest = (
+            keep(np.zeros((count, 3), real)) for _ in range(3)
+        )
         self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
         count = len(self._centre)
         nothing = np.zeros(count)
@@ -101,15 +101,14 @@ class TaichiMotion:
 
     def _moments_arguments(self):
         return (
-            *self._chunks,
-            self._V,
-            self._rest_centre,
+            self._chunks[0],
             self._share,
+            self._pull,
             self.point,
             self._scale,
             self._cycle.X,
             self._means,
-            self._covariances,
+            self._torques,
         )
 
     def _move_arguments(self, twist, shift, momentum, further):
@@ -135,15 +134,14 @@ class TaichiMotion:
         twist = np.zeros((count, 3))
         if self._has_pin.all():
             return twist, twist
+        no_turning = self._setup.global_step.no_turning_by_cycles if keep_rotation else None
+        if no_turning and not self._is_kept:
+            self._local.arrays.put(self._P, no_turning.P)
+            self._local.arrays.put(self._pull, no_turning.pull)
+            self._is_kept = True
         self._kernels.moments(*self._moments_arguments())
-        if keep_rotation:
-            no_turning = self._setup.global_step.no_turning_by_cycles
-            if not self._has_P:
-                self._local.arrays.put(self._P, no_turning.P)
-                self._has_P = True
-            C = self._sums(self._covariances)
-            torque = np.stack([C[:, c, b] - C[:, b, c] for b, c in ((1, 2), (2, 0), (0, 1))], 1)
-            twist = no_turning.twist(torque)
+        if no_turning:
+            twist = no_turning.twist(self._sums(self._torques))
         is_held = self._has_pin[:, None]
         return twist, np.where(is_held, 0.0, self._centre - self._sums(self._means))
 

@@ -17,7 +17,7 @@ from .kernel_types import kernel_types
 
 def make_motion_kernels(real):
     """Return the kernels for the type ti.f64 or ti.f32."""
-    vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
+    vec3, _, scalars, integers, vectors, matrices = kernel_types(real)
     vec4 = ti.types.vector(4, ti.f32)
     singles = ti.types.ndarray(dtype=ti.f32, ndim=1)
     vectors4 = ti.types.ndarray(dtype=vec4, ndim=1)
@@ -51,26 +51,23 @@ def make_motion_kernels(real):
     @ti.kernel
     def moments(
         bounds: integers,
-        component: integers,
-        V: vectors,
-        centre: vectors,
         share: scalars,
+        pull: vectors,
         point: vectors,
         scale: singles,
         X: vectors4,
         means: vectors,
-        covariances: matrices,
+        torques: vectors,
     ):
-        """Sum what each chunk adds to the centroid of a component and to its covariance with V."""
-        for c in range(component.shape[0]):
-            about = centre[component[c]]
-            mean, covariance = vec3(0.0), mat3(0.0)
+        """Sum what each chunk adds to the centroid of a component and to its torque."""
+        for c in range(means.shape[0]):
+            mean, torque = vec3(0.0), vec3(0.0)
             for i in range(bounds[c], bounds[c + 1]):
-                u = share[i] * moved(point[i], X[i], scale[i])
-                mean += u
-                covariance += u.outer_product(V[i] - about)
+                u = moved(point[i], X[i], scale[i])
+                mean += share[i] * u
+                torque += pull[i].cross(u)
             means[c] = mean
-            covariances[c] = covariance
+            torques[c] = torque
 
     @ti.kernel
     def move(

@@ -8,8 +8,9 @@ is the nearest one, no third part lies between. A link is accepted
 - within `LAYER`, where one part lies over the other like a shirt on a body: both face the same way,
   and the link is upright on them.
 
-Both are shorter for small parts, by `OF_PART`. What is further apart, or merely lies side by side
-at a distance, is not linked; and vertices of one part never are, however near its fingers lie.
+Both are measured by the parts, not by all that has been selected: two characters at opposite ends
+of a scene are as near to their clothes as one alone. What is further apart, or merely lies side by
+side at a distance, is not linked; and vertices of one part never are, however near its fingers lie.
 """
 
 import numpy as np
@@ -21,9 +22,9 @@ from .samples import surface_samples
 
 CONTACT = 0.01
 LAYER = 0.03
-"""of the largest extent of the mesh"""
+"""of the largest extent of the larger part"""
 OF_PART = 0.25
-"""of the largest extent of the smaller part"""
+"""of that of the smaller part, at most"""
 SAMPLES = 30_000
 """about as many vertices are linked"""
 LEAST_WEIGHT = 1e-4
@@ -134,7 +135,8 @@ def _nearest_triangles(V, corners, i, triangle):
 def _is_accepted(V, corners, normals, part, i, triangle, d):
     """Return which links there shall be; see the module."""
     extents = _extents(V, part)
-    smaller = np.minimum(extents[part[i]], extents[part[corners[triangle, 0]]])
+    both = extents[np.stack([part[i], part[corners[triangle, 0]]])]
+    smaller, larger = both.min(axis=0), both.max(axis=0)
     distance = np.linalg.norm(d, axis=1)
     a, b, c = (V[corners[triangle, k]] for k in range(3))
     upright = np.cross(b - a, c - a)
@@ -142,7 +144,7 @@ def _is_accepted(V, corners, normals, part, i, triangle, d):
     is_layer = np.abs((upright * d).sum(axis=1)) > _UPRIGHT * distance
     is_layer &= (upright * normals[i]).sum(axis=1) > _PARALLEL
     reach = np.where(is_layer, LAYER, CONTACT)
-    return distance <= np.minimum(reach, OF_PART * smaller)
+    return distance <= np.minimum(reach * larger, OF_PART * smaller)
 
 
 def _extents(V, part):
