@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Links in the matrices, and which of them there are."""
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+
+from solver import ProxyOptions, rest_mesh, stylize
+from solver.components import components
+from solver.cotangents import cotangents
+from solver.proxy.closest_point import closest_points
+from solver.proxy.links import Links, links_between, links_to_triangles
+from solver.proxy.neighbours import neighbour_links
+from solver.proxy.thickness import outward_sign, thickness_links
+from solver.rest_measures import areas_and_normals
+from solver.spokes_and_rims import spokes_and_rims
+
+
+def mixed_links(V):
+    rng = np.random.default_rng(5)
+    one = links_between(np.array([3, 9]), np.array([40, 3]), np.array([0.7, 2.0]))
+    beta = rng.dirichlet(np.ones(3), 4)
+    corners = np.array([[1, 2, 3], [50, 60, 70], [3, 9, 40], [11, 12, 13]])
+    return one.joined(links_to_triangles(np.array([30, 31, 32, 14]), corners, beta, np.ones(4)))
+
+
+def link_energy(links, V, U, R):
+    """Return the energy by its definition, in a loop."""
+    total = 0.0
+    for vertices, c, w in zip(links.vertices, links.coefficients, links.weights, strict=True):
+        d, moved = c @ V[vertices], c @ U[vertices]
+        total += sum(w[k] / 2 * np.sum((R[vertices[k]] @ d - moved) ** 2) for k in range(4))
+    return total
+
+
+def energy(m, V, U, R):
+    L, S = m.matrix(m.laplacian), m.covariances(U)
+    quadratic = 1.5 * (np.sum(V * (L @ V)) + np.sum(U * (L @ U)))
+    return quadratic - np.einsum("nij,nji->", R, S)
+
+
+def test_the_matrices_hold_the_energy_of_the_links():
+    V, F = shapes.blob(2)
+    rng = np.random.default_rng(2)
+    U = V + 0.1 * rng.normal(size=V.shape)
+    R = np.array([shapes.rotation(*angles) for angles in rng.uniform(-60, 60, (len(V), 3))])
+    skin = spokes_and_rims(V, F, cotangents(V, F))
+    links = mixed_links(V)
+    linked = skin.with_links(V, links)
+    expected = energy(skin, V, U, R) + link_energy(links, V, U, R)
+    assert energy(linked, V, U, R) == pytest.approx(expected, rel=1e-12)
+    L = linked.matrix(linked.laplacian).toarray()
+    np.testing.assert_allclose(L, L.T, atol=1e-12)
+    np.testing.assert_allclose(L.sum(axis=1), 0.0, atol=1e-11)
+    for c in range(3):
+        H, T = linked.matrix(linked.gather[:, c]), linked.matrix(linked.scatter[:, c])
+        assert abs(H.T - T).max() == 0.0
+
+
+def test_closest_points_are_closest():
+    rng = np.random.default_rng(1)
+    P, A, B, C = rng.normal(size=(4, 500, 3))
+    beta = closest_points(P, A, B, C)
+    assert beta.min() >= -1e-12
+    np.testing.assert_allclose(beta.sum(axis=1), 1.0)
+    found = np.linalg.norm(np.einsum("nk,nkx->nx", beta, np.stack([A, B, C], 1)) - P, axis=1)
+    for other in rng.dirichlet(np.full(3, 0.5), 300):
+        assert (
+            found <= np.linalg.norm(other[0] * A + other[1] * B + other[2] * C - P, axis=1) + 1e-9
+        ).all()
+
+
+def neighbours_of(V, F):
+    V = (V - V.min(axis=0)) / np.ptp(V, axis=0).max()
+    areas, normals = areas_and_normals(V, F)
+    count, part = components(F, len(V))
+    return neighbour_links(V, F, normals, areas, part, count), part
+
+
+def test_a_ball_is_linked_where_it_sits():
+    V, F = proxy_shapes.eye_in_head()
+    links, part = neighbours_of(V, F)
+    assert len(links) > 20
+    assert (part[links.vertices[:, 0]] != part[links.vertices[:, 1]]).all()
+
+
+def test_nothing_is_linked_from_afar():
+    V, F = shapes.sphere(3)
+    for gap, is_linked in ((0.005, True), (0.1, False)):
+        both = proxy_shapes.joined((V, F), (V + [2.0 + 2 * gap, 0, 0], F))
+        assert bool(len(neighbours_of(*both)[0])) == is_linked
+
+
+def test_reach_is_measured_by_the_parts():
+    V, F = proxy_shapes.blob_with_shirt()
+    alone, _ = neighbours_of(V, F)
+    far = proxy_shapes.joined((V, F), (V + [40.0, 0, 0], F))
+    assert len(neighbours_of(*far)[0]) == 2 * len(alone)
+
+
+def test_a_part_is_not_linked_through_a_sheet_between():
+    V, F = shapes.sphere(3)
+    W, G = shapes.sheet(30)
+    W = np.column_stack([np.full(len(W), 1.004), 3 * W[:, 0] - 1.5, 3 * W[:, 1] - 1.5])
+    (links, part) = neighbours_of(*proxy_shapes.joined((V, F), (W, G), (V + [2.008, 0, 0], F)))
+    ends = np.sort(np.stack([part[links.vertices[:, 0]], part[links.vertices[:, 1]]]), axis=0)
+    assert {tuple(pair) for pair in ends.T.tolist()} == {(0, 1), (1, 2)}
+
+
+def thickness_of(V, F):
+    V = (V - V.min(axis=0)) / np.ptp(V, axis=0).max()
+    areas, normals = areas_and_normals(V, F)
+    _, part = components(F, len(V))
+    return thickness_links(V, F, normals, areas, part), V
+
+
+def test_a_slab_is_linked_straight_across():
+    V, F = proxy_shapes.box((1, 1, 0.1))
+    rest = rest_mesh(V, F, ProxyOptions())
+    links = rest.to_other_side
+    d = rest.V[links.vertices[:, 1]] - rest.V[links.vertices[:, 0]]
+    is_middle = np.abs(rest.V[links.vertices[:, 0], :2] - 0.5).max(axis=1) < 0.3
+    assert is_middle.sum() > 100
+    np.testing.assert_allclose(np.abs(d[is_middle, 2]), 0.1, atol=1e-9)
+
+
+def test_an_inverted_mesh_has_the_same_links():
+    V, F = shapes.blob(3)
+    right, _ = thickness_of(V, F)
+    inverted, _ = thickness_of(V, F[:, ::-1])
+    assert len(right) > 50
+    np.testing.assert_array_equal(right.vertices, inverted.vertices)
+
+
+@pytest.mark.parametrize("name", ["sheet", "bowl", "mixed"])
+def test_what_has_no_inside_has_no_other_side(name):
+    V, F = shapes.sheet() if name == "sheet" else shapes.sphere(3)
+    if name == "bowl":
+        F = F[V[F].mean(axis=1)[:, 2] < 0.3]
+    if name == "mixed":
+        F = np.where(np.arange(len(F))[:, None] % 3 == 0, F[:, ::-1], F)
+    assert not len(thickness_of(V, F)[0])
+
+
+def test_a_small_hole_does_not_open_a_part():
+    V, F = shapes.sphere(3)
+    F = F[V[F].mean(axis=1)[:, 2] < 0.95]
+    _, part = components(F, len(V))
+    assert outward_sign(V, F, part)[part[F[0, 0]]] == 1.0
+    assert outward_sign(V, F[:, ::-1], part)[part[F[0, 0]]] == -1.0
+
+
+def test_solidity_can_be_changed_without_another_search(monkeypatch):
+    V, F = shapes.blob(3)
+    rest = rest_mesh(V, F, ProxyOptions())
+    monkeypatch.setattr("solver.rest.thickness_links", None)
+    other = rest.with_solidity(0.5)
+    assert other.links.weights.sum() == pytest.approx(5 * rest.links.weights.sum())
+    fresh = rest.with_solidity(0.0).with_solidity(0.1)
+    np.testing.assert_array_equal(fresh.matrices.laplacian, rest.matrices.laplacian)
+
+
+def test_links_are_carried_to_a_coarser_mesh():
+    links = links_between(np.array([0, 1]), np.array([2, 3]), np.ones(2))
+    coarse = links.mapped(np.array([0, 0, 1, 0]))
+    V = np.array([[0.0, 0, 0], [1, 0, 0]])
+    row, column, laplacian, _ = coarse.entries(V)
+    L = np.zeros((2, 2))
+    np.add.at(L, (row, column), laplacian)
+    np.testing.assert_allclose(L, 2 / 3 * np.array([[1, -1], [-1, 1]]))
+    assert isinstance(coarse, Links)
+
+
+@pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
+def test_the_energy_falls_with_links_too_and_a_second_run_has_the_same_bits(make, device):
+    V, F = make()
+    energies, options = [], {"proxy": ProxyOptions(solidity=0.3), "device": device}
+    options |= {"max_iterations": 25, "tolerance": 1e-12, "is_accelerated": False}
+    first = stylize(
+        V,
+        F,
+        0.4,
+        on_iteration=lambda s: energies.append(s.energy.total),
+        keep_rotation=True,
+        **options,
+    )
+    assert np.diff(energies).max() <= 1e-12
+    second = stylize(V, F, 0.4, keep_rotation=True, **options)
+    assert first.positions.tobytes() == second.positions.tobytes()

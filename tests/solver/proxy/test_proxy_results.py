@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What artists see: what the proxy is for."""
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+from procrustes import best_rotation
+
+from solver import PAPER, ProxyOptions, Setup, Stylization, rest_mesh, run, stylize
+
+KEPT = {"proxy": ProxyOptions(), "keep_rotation": True}
+Q = shapes.rotation(30, 20, 40)
+
+
+def angle_to_axes(V, F):
+    """Return the mean angle of the normals to the nearest axis, by area."""
+    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    area = np.linalg.norm(n, axis=1)
+    largest = np.abs(n).max(axis=1) / np.where(area > 0, area, 1)
+    return np.average(np.arccos(np.clip(largest, 0, 1)), weights=area)
+
+
+@pytest.mark.parametrize("turn", [0, 21, 63])
+@pytest.mark.parametrize("size", [(1, 1, 1), (6, 1, 0.5), (2, 1, 0.02)])
+def test_a_box_does_not_move_whatever_its_triangulation(size, turn, device):
+    V, F = proxy_shapes.box(size, turn)
+    result = stylize(V, F, 1.0, device=device, **KEPT)
+    assert np.abs(result.positions - V).max() < 1e-6
+
+
+@pytest.mark.parametrize("angles", [(0, 0, 10), (0, 0, 45), (20, 35, 50)])
+def test_a_box_that_stands_askew_stays_and_one_that_is_free_becomes_straight(angles):
+    V, F = proxy_shapes.box((2, 1.5, 1))
+    V = V @ shapes.rotation(*angles).T
+    kept = stylize(V, F, 0.4, **KEPT).positions
+    assert np.abs(kept - V).max() < 1e-4
+    free = stylize(V, F, 0.4, proxy=ProxyOptions()).positions
+    R = best_rotation(V, free, np.ones(len(V)))
+    centred = [X - X.mean(axis=0) for X in (V, free)]
+    assert np.abs(centred[0] @ R - centred[1]).max() < 0.01
+
+
+def test_a_coarse_ball_becomes_a_cube():
+    V, F = proxy_shapes.uv_sphere()
+    before = angle_to_axes(V, F)
+    assert angle_to_axes(stylize(V, F, 0.4, proxy=PAPER).positions, F) > 0.85 * before
+    assert angle_to_axes(stylize(V, F, 0.4, **KEPT).positions, F) < 0.35 * before
+
+
+def test_an_eye_stays_in_its_socket():
+    V, F = proxy_shapes.eye_in_head()
+    n, size = len(shapes.blob(4)[0]), np.ptp(V, axis=0).max()
+    ball = np.arange(n, len(V))
+    near = [(i, np.linalg.norm(V[:n] - V[i], axis=1).argmin()) for i in ball]
+    i, j = np.array([(i, j) for i, j in near if np.linalg.norm(V[i] - V[j]) < 0.01 * size]).T
+
+    def drift(U):
+        return np.linalg.norm((U[i] - U[j]) - (V[i] - V[j]), axis=1).max() / size
+
+    alone = stylize(V, F, 0.4, proxy=ProxyOptions(together=False), keep_rotation=True)
+    together = stylize(V, F, 0.4, **KEPT)
+    assert drift(together.positions) < 0.012 < 0.03 < drift(alone.positions)
+
+
+@pytest.mark.parametrize("cubeness", [0.2, 1.0])
+def test_a_shirt_stays_outside(cubeness):
+    V, F = proxy_shapes.blob_with_shirt()
+    n = len(shapes.blob(4)[0])
+    U = stylize(V, F, cubeness, **KEPT).positions
+    body, shirt = F[F.max(axis=1) < n], np.arange(n, len(V))
+    normals = proxy_shapes.normals_of(U[:n], body)
+    nearest = np.array([np.linalg.norm(U[:n] - U[i], axis=1).argmin() for i in shirt])
+    outside = ((U[shirt] - U[nearest]) * normals[nearest]).sum(axis=1) > 0
+    assert outside.mean() > 0.995
+
+
+def test_solidity_keeps_volume():
+    V, F = shapes.blob(4)
+    V = V * [1, 1, 0.3]
+
+    def volume(solidity):
+        U = stylize(V, F, 0.4, proxy=ProxyOptions(solidity=solidity), keep_rotation=True).positions
+        return (U[F[:, 0]] * np.cross(U[F[:, 1]], U[F[:, 2]])).sum() / 6
+
+    at_rest = (V[F[:, 0]] * np.cross(V[F[:, 1]], V[F[:, 2]])).sum() / 6
+    volumes = [volume(s) for s in (0.0, 0.1, 1.0)]
+    assert volumes[0] < volumes[1] < volumes[2] < 1.05 * at_rest
+
+
+@pytest.mark.parametrize("proxy", [PAPER, ProxyOptions()])
+@pytest.mark.parametrize("cubeness", [0.2, 1.0])
+def test_a_kept_rotation_is_kept_and_the_energy_falls(cubeness, proxy, device):
+    V, F = shapes.blob(3)
+    V = V @ Q.T
+    rest = rest_mesh(V, F, proxy)
+    state = Stylization(
+        Setup(rest), cubeness, device=device, keep_rotation=True, is_accelerated=False
+    )
+    energies = []
+    result = run(state, 40, 1e-12, lambda s: energies.append(s.energy.total))
+    assert np.diff(energies).max() <= 1e-12
+    weights = rest.standing
+    centred = [(X - np.average(X, axis=0, weights=weights)) for X in (rest.V, state.positions)]
+    u, _, vt = np.linalg.svd((centred[0] * weights[:, None]).T @ centred[1])
+    assert np.trace(u @ vt) == pytest.approx(3.0, abs=1e-9)
+    assert np.isfinite(result.positions).all()
+
+
+def test_what_is_still_stays_bit_for_bit_and_nothing_turns():
+    V, F = shapes.blob(4)
+    V = V @ Q.T
+    still = V[:, 2] < np.quantile(V[:, 2], 0.7)
+    rest = rest_mesh(V, F, ProxyOptions())
+    setup = Setup(rest, still=still)
+    result = run(Stylization(setup, np.where(still, 0.0, 0.4), keep_rotation=True))
+    held = setup.pinned_input
+    assert still[held].all() and len(held) > 0.9 * still.sum()
+    assert result.positions[held].tobytes() == V[held].tobytes()
+    moved = np.linalg.norm(result.positions - V, axis=1) / np.ptp(V, axis=0).max()
+    assert moved[still].max() < 0.01 < moved[~still].max()
+
+
+def test_all_still_or_pinned_leaves_everything_where_it_is():
+    V, F = shapes.blob(2)
+    setup = Setup(rest_mesh(V, F, ProxyOptions()), [0], still=np.ones(len(V), dtype=bool))
+    result = run(Stylization(setup, 0.4))
+    assert result.positions.tobytes() == V.tobytes()
+
+
+def test_handles_and_orientations_are_carried_through_the_proxy():
+    V, F = proxy_shapes.uv_sphere()
+    rest = rest_mesh(V, F, ProxyOptions())
+    pole = [0]
+    targets = V + [0.0, 0.0, 0.3]
+    turned = np.where((V[:, 0] > 0)[:, None, None], Q, np.eye(3))
+    state = Stylization(Setup(rest, pole), 0.4, turned, targets)
+    result = run(state, 30)
+    assert result.positions[0].tobytes() == targets[0].tobytes()
+    assert result.rotations.shape == (len(V), 3, 3)
+    assert state.positions[rest.place[1][0]] == pytest.approx(rest.box.to_unit(targets[0]))

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Welding, splitting, and the way from the input and back."""
+
+import itertools
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+
+from solver import PAPER, CubicCraftError, ProxyOptions, rest_mesh, stylize
+from solver.components import components
+from solver.proxy.refinement import BUDGET, longest_edges, refine
+from solver.proxy.weld import weld
+
+RUN = {"device": "numpy", "max_iterations": 30, "tolerance": 1e-12, "keep_rotation": True}
+
+
+def edges_of(V, F):
+    return np.linalg.norm(V[F] - V[np.roll(F, 1, axis=1)], axis=2)
+
+
+def area(V, F):
+    return np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1).sum()
+
+
+def is_closed(F):
+    edges = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+    return (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+
+
+@pytest.mark.parametrize("make", [proxy_shapes.split, proxy_shapes.cut])
+def test_a_seam_is_closed(make):
+    V, F = shapes.blob(2)
+    W, G = make(V, F)
+    group, first, welded = weld((W - W.min(0)) / np.ptp(W, axis=0).max(), G)
+    assert len(first) == len(V)
+    assert is_closed(welded)
+    np.testing.assert_array_equal(W[first[group]], W)
+
+
+@pytest.mark.parametrize("make", [proxy_shapes.split, proxy_shapes.cut])
+def test_a_seam_changes_nothing(make):
+    V, F = shapes.blob(2)
+    W, G = make(V, F)
+    whole = stylize(V, F, 0.4, proxy=ProxyOptions(), **RUN)
+    parts = stylize(W, G, 0.4, proxy=ProxyOptions(), **RUN)
+    place = np.array([np.flatnonzero((w == V).all(axis=1))[0] for w in W[G.ravel()]])
+    assert np.abs(parts.positions[G.ravel()] - whole.positions[place]).max() < 2e-3
+
+
+def test_parts_that_share_a_place_but_no_edge_are_not_welded():
+    V, F = shapes.sphere(1)
+    both = proxy_shapes.joined((V, F), (V + V[0] - V[4], F))
+    at = (both[0] - both[0].min(0)) / np.ptp(both[0], axis=0).max()
+    assert len(weld(at, both[1])[1]) == 2 * len(V)
+
+
+def test_coincident_sheets_become_one():
+    V, F = shapes.sheet(5)
+    W, G = proxy_shapes.joined((V, F), (V, F[:, ::-1]))
+    _, first, welded = weld(W, G)
+    assert len(first) == len(V) and len(welded) == len(F)
+
+
+@pytest.mark.parametrize("turn", [0, 21, 63])
+def test_a_box_is_split_into_short_edges_and_keeps_its_shape(turn):
+    V, F = proxy_shapes.box((1, 0.5, 0.2), turn)
+    W, G, parents, rounds = refine(V, F, np.full(8, 0.05))
+    assert edges_of(W, G).max() <= 0.05
+    assert area(W, G) == pytest.approx(area(V, F))
+    assert is_closed(G)
+    np.testing.assert_array_equal(W[:8], V)
+    np.testing.assert_allclose(W[8:], W[parents].mean(axis=1))
+    for begin, end in itertools.pairwise(rounds):
+        assert parents[begin:end].max(initial=0) < 8 + begin
+
+
+def test_the_budget_is_spent_evenly():
+    V, F = proxy_shapes.box((1, 1, 1))
+    W, G, *_ = refine(V, F, np.full(8, 1e-3))
+    assert BUDGET / 4 < len(W) <= 1.3 * BUDGET
+    longest = edges_of(W, G).max(axis=1)
+    assert longest.max() < 2.1 * np.median(longest)
+
+
+def test_a_narrow_side_gets_a_vertex_that_knows_its_normal():
+    V, F = proxy_shapes.box((1, 1, 0.01))
+    rest = rest_mesh(V, F, ProxyOptions())
+    sideways = np.abs(rest.normals[:, :2]).max(axis=1) > 0.99
+    assert (rest.cubic_shares[sideways] > 0).any()
+
+
+def test_small_parts_are_split_by_their_own_size():
+    V, F = proxy_shapes.joined(proxy_shapes.box(), proxy_shapes.box((0.2, 0.2, 0.2)))
+    _, part = components(F, len(V))
+    bound = longest_edges(V, F, part)
+    assert bound[0] == pytest.approx(1 / 40) and bound[1] == pytest.approx(0.2 / 40)
+
+
+def test_with_all_of_it_off_the_proxy_is_the_input():
+    V, F = shapes.two_blobs()
+    rest = rest_mesh(V, F)
+    assert rest.input_map.is_plain and not len(rest.links)
+    assert (rest.cubic_shares == 1.0).all() and rest.box_frames is None
+    plain = stylize(V, F, 0.4, **RUN)
+    paper = stylize(V, F, 0.4, proxy=PAPER, **RUN)
+    assert plain.positions.tobytes() == paper.positions.tobytes()
+
+
+def test_values_go_to_midpoints_and_back():
+    V, F = proxy_shapes.split(*proxy_shapes.uv_sphere())
+    V = np.concatenate([V, [[9.0, 9, 9]]])  # a loose one
+    rest = rest_mesh(V, F, ProxyOptions())
+    used, place = rest.place
+    assert len(rest.V) > 500 and len(used) == len(V) - 1
+    np.testing.assert_allclose(rest.V[place], rest.box.to_unit(V[used]), atol=1e-12)
+    np.testing.assert_allclose(rest.input_map.spread(V), rest.box.from_unit(rest.V), atol=1e-12)
+    np.testing.assert_allclose(rest.input_map.spread(V[:, 0])[place], V[used, 0], atol=1e-12)
+
+
+def test_a_mask_holds_at_welded_vertices_if_at_one_and_at_midpoints_if_at_both_ends():
+    V, F = proxy_shapes.split(*proxy_shapes.box())
+    rest = rest_mesh(V, F, ProxyOptions())
+    mask = np.zeros(len(V), dtype=bool)
+    corner = np.flatnonzero((V[0] == V).all(axis=1))
+    mask[corner[0]] = True
+    assert np.count_nonzero(rest.input_map.spread_mask(mask)) == 1
+    bottom = V[:, 2] == 0
+    at = rest.box.from_unit(rest.V)[rest.input_map.spread_mask(bottom)]
+    assert (at[:, 2] == 0).all() and len(at) > 100
+
+
+@pytest.mark.parametrize("solidity", [-0.1, np.nan, np.inf])
+def test_a_solidity_that_is_none_is_refused(solidity):
+    with pytest.raises(CubicCraftError, match="solidity must be finite and not negative"):
+        ProxyOptions(solidity=solidity)
