@@ -27,8 +27,6 @@ OF_PART = 0.25
 """of that of the smaller part, at most"""
 SAMPLES = 30_000
 """about as many vertices are linked"""
-STRENGTH = 1.5
-"""of a link, in areas per squared distance"""
 LEAST_WEIGHT = 1e-4
 """Parts that hang together by less, as those without area do, are no single one."""
 
@@ -67,7 +65,7 @@ def neighbour_links(V, F, normals, areas, part, count):
     share = np.zeros(len(V))
     share[chosen] = area
     i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
-    weights = STRENGTH * share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing**2))
+    weights = share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing**2))
     is_kept = _is_accepted(V, corners, normals, part, i, triangle, d) & (weights > LEAST_WEIGHT)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
     return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])

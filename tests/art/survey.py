@@ -46,7 +46,7 @@ IMPORTERS = {".obj": "obj_import", ".ply": "ply_import"}
 def main():
     """Print a row for each case and cubeness."""
     options = _arguments()
-    with _registered(options.extension):
+    with registered(options.extension):
         print(_line([heading for heading, _ in COLUMNS]))
         for name in options.cases or CASES:
             for cubeness in options.cubeness:
@@ -54,7 +54,7 @@ def main():
 
 
 @contextlib.contextmanager
-def _registered(root):
+def registered(root):
     """Have the extension of a source tree in Blender for the block; it may be an older version."""
     place = [str(root)]
     spec = importlib.util.spec_from_file_location(
