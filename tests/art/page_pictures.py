@@ -20,20 +20,23 @@ import survey
 import survey_pictures
 from art_cases import CASES, outcome_of
 from art_objects import Surface, surface_of
+from mathutils import Matrix
 from survey import ROOT
 
-WIDTH = 1050
+WIDTH = 900
 """pixels"""
 BOXES = 1.0
 """cubeness of boxes and houses; all else is shown at 0.4"""
 PICTURES = {
     # name: rows of cases, height of a row
-    "parts": ([["monkey"], ["character"]], 350),
-    "seams": ([["teapot_seams"], ["monkey_flat"]], 330),
-    "clothes": ([["clothes"], ["painted"]], 370),
-    "coarse": ([["sphere", "torus"], ["car", "text"]], 230),
-    "boxes": ([["house", "box_skew"], ["cube", "box_30"]], 230),
+    "parts": ([["monkey"], ["character"]], 300),
+    "seams": ([["teapot_seams"], ["monkey_flat"]], 290),
+    "clothes": ([["clothes"], ["painted"]], 310),
+    "coarse": ([["sphere", "torus"], ["monkey_507", "text"]], 200),
+    "boxes": ([["house", "box_skew"], ["cube", "box_45"]], 200),
 }
+STOOD_UP = ("text",)
+"""cases that lie on their back"""
 
 
 def main():
@@ -98,7 +101,9 @@ def _render(cases, older, now, path, resolution):
             ("skin alone", older[case], "grey"),
             ("now", now[case], "teal"),
         ):
-            shown.append((label, objects, Surface(V, rest.F, rest.owner), finish, rest.V))
+            turn = Matrix.Rotation(np.pi / 2 * (case in STOOD_UP), 3, "X")
+            surface = Surface(V @ np.array(turn).T, rest.F, rest.owner)
+            shown.append((label, objects, surface, finish, rest.V))
     survey_pictures.render_row(shown, path, resolution)
 
 

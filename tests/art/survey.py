@@ -21,6 +21,7 @@ import bpy  # noqa: E402
 import measures  # noqa: E402
 import survey_pictures  # noqa: E402
 from art_cases import CASES, PAPER, Case, cubified  # noqa: E402
+from art_objects import unpainted  # noqa: E402
 
 COLUMNS = (
     # heading, width
@@ -35,6 +36,7 @@ COLUMNS = (
     ("tear %", 7),
     ("turn", 10),
     ("shift %", 8),
+    ("still %", 8),
     ("volume", 7),
     ("inside %", 12),
     ("crossings", 12),
@@ -91,12 +93,13 @@ def _survey(name, cubeness, options):
     case = CASES.get(name) or Case(partial(_load, Path(name)))
     with contextlib.redirect_stdout(io.StringIO()):
         objects = case.make()
+    is_still = unpainted(objects, case.options.get("map_group"))
     asked = {"cubeness": cubeness, **case.options, **(PAPER if options.paper else {})}
     asked |= dict(map(_setting, options.set))
     with contextlib.redirect_stdout(io.StringIO()):
         outcome = cubified(objects, **asked)
     short = name if name in CASES else Path(name).stem
-    print(_line(_row(short, cubeness, case, outcome)), flush=True)
+    print(_line(_row(short, cubeness, case, outcome, is_still)), flush=True)
     if options.pictures:
         path = options.pictures / f"{short}_{cubeness:g}{'_paper' if options.paper else ''}.png"
         survey_pictures.render(objects, outcome, path)
@@ -118,7 +121,7 @@ def _load(path):
     return [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
 
 
-def _row(name, cubeness, case, outcome):
+def _row(name, cubeness, case, outcome, is_still):
     V, U, F = outcome.V, outcome.U, outcome.F
     rest, after = outcome.angle()
     inside = "-"
@@ -136,6 +139,7 @@ def _row(name, cubeness, case, outcome):
         f"{100 * measures.tear(V, U):.2f}",
         f"{measures.turn(V, U):.1f} ({measures.turn(V, U, F):.1f})",
         f"{100 * measures.shift(V, U, F):.2f}",
+        f"{100 * measures.movement(V, U, is_still):.2f}" if is_still.any() else "-",
         f"{outcome.volume_ratio():.2f}" if measures.is_closed(V, F) else "-",
         inside,
         "{} -> {}".format(*outcome.crossings()),
