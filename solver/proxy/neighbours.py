@@ -18,13 +18,13 @@ from scipy.spatial import cKDTree
 
 from .closest_point import closest_points
 from .links import links_to_triangles, no_links
-from .samples import surface_samples
+from .samples import extents, surface_samples
 
 CONTACT = 0.01
 LAYER = 0.03
-"""of the largest extent of the larger part"""
-OF_PART = 0.25
-"""of that of the smaller part, at most"""
+"""of the largest extent of the larger part..."""
+OF_SMALLER = 5.0
+"""...or of this many times that of the smaller one, if that is less: a ground may be endless"""
 SAMPLES = 30_000
 """about as many vertices are linked"""
 LEAST_WEIGHT = 1e-4
@@ -65,7 +65,7 @@ def neighbour_links(V, F, normals, areas, part, count):
     share = np.zeros(len(V))
     share[chosen] = area
     i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
-    weights = share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing**2))
+    weights = share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing[i] ** 2))
     is_kept = _is_accepted(V, corners, normals, part, i, triangle, d) & (weights > LEAST_WEIGHT)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
     return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
@@ -134,8 +134,7 @@ def _nearest_triangles(V, corners, i, triangle):
 
 def _is_accepted(V, corners, normals, part, i, triangle, d):
     """Return which links there shall be; see the module."""
-    extents = _extents(V, part)
-    both = extents[np.stack([part[i], part[corners[triangle, 0]]])]
+    both = extents(V, part)[np.stack([part[i], part[corners[triangle, 0]]])]
     smaller, larger = both.min(axis=0), both.max(axis=0)
     distance = np.linalg.norm(d, axis=1)
     a, b, c = (V[corners[triangle, k]] for k in range(3))
@@ -144,13 +143,4 @@ def _is_accepted(V, corners, normals, part, i, triangle, d):
     is_layer = np.abs((upright * d).sum(axis=1)) > _UPRIGHT * distance
     is_layer &= (upright * normals[i]).sum(axis=1) > _PARALLEL
     reach = np.where(is_layer, LAYER, CONTACT)
-    return distance <= np.minimum(reach * larger, OF_PART * smaller)
-
-
-def _extents(V, part):
-    """Return the largest extent of each part."""
-    count = int(part.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, part, V)
-    np.maximum.at(high, part, V)
-    return (high - low).max(axis=1)
+    return distance <= reach * np.minimum(larger, OF_SMALLER * smaller)

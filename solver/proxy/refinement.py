@@ -5,6 +5,7 @@ import numpy as np
 
 from ..cotangents import cotangents
 from .creases import mute_edges
+from .samples import extents
 
 FINENESS = 40
 """edges along the largest extent of a part"""
@@ -28,11 +29,7 @@ def longest_edges(V, F, part):
     part : (n,) int array
         Part of each vertex.
     """
-    count = int(part.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, part, V)
-    np.maximum.at(high, part, V)
-    return np.maximum((high - low).max(axis=1) / FINENESS, 1.0 / FINEST)
+    return np.maximum(extents(V, part) / FINENESS, 1.0 / FINEST)
 
 
 def refine(V, F, bound):

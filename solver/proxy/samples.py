@@ -3,40 +3,53 @@
 
 import numpy as np
 
+PER_PART = 12
+"""cells along the largest extent of a part, at least: what is small in its scene has links, too"""
+
 
 def surface_samples(V, normals, areas, part, is_candidate, count):
     """Return about `count` vertices, or all of them where there are no more.
 
     One of each cell of a grid is taken, and of each direction that the surface faces in it, so that
-    both sides of a thin wall have their own.
+    both sides of a thin wall have their own. Parts have samples of their own.
 
     Parameters
     ----------
     V, normals : (n,3) float arrays
     areas : (n,) float array
     part : (n,) int array
-        Parts have samples of their own.
     is_candidate : (n,) bool array
 
     Returns
     -------
-    spacing : float
-        Distance of neighbours.
+    spacing : (n,) array
+        Distance of neighbours, at each vertex.
     chosen : (k,) int array
         Vertices.
     area : (k,) array
         The area that each stands for.
     """
     rows = np.flatnonzero(is_candidate)
-    spacing = float(np.sqrt(areas[rows].sum() / count))
-    if len(rows) <= count or spacing <= 0.0:
-        mean = float(np.sqrt(areas[rows].sum() / max(len(rows), 1)))
-        return max(mean, 1e-12), rows, areas[rows]
-    cell = np.floor(V[rows] / spacing).astype(np.int64)
+    spacing = np.sqrt(areas[rows].sum() / max(min(count, len(rows)), 1))
+    spacing = np.minimum(spacing, extents(V, part) / PER_PART)
+    spacing = np.maximum(spacing, 1e-9)[part]
+    if len(rows) <= count:
+        return spacing, rows, areas[rows]
+    cell = np.floor(V[rows] / spacing[rows, None]).astype(np.int64)
     axis = np.abs(normals[rows]).argmax(axis=1)
     facing = 2 * axis + (normals[rows, axis] > 0.0)
-    sizes = cell.max(axis=0) + 1
-    key = (cell[:, 0] * sizes[1] + cell[:, 1]) * sizes[2] + cell[:, 2]
-    key = (key * 6 + facing) * (int(part.max()) + 1) + part[rows]
-    _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
-    return spacing, rows[first], np.bincount(inverse.ravel(), areas[rows])
+    order = np.lexsort((facing, *cell.T, part[rows]))
+    sorted_keys = np.column_stack([part[rows], cell, facing])[order]
+    is_first = np.ones(len(rows), dtype=bool)
+    is_first[1:] = (sorted_keys[1:] != sorted_keys[:-1]).any(axis=1)
+    starts = np.flatnonzero(is_first)
+    return spacing, rows[order[starts]], np.add.reduceat(areas[rows][order], starts)
+
+
+def extents(V, part):
+    """Return the largest extent (p,) of each part."""
+    count = int(part.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, part, V)
+    np.maximum.at(high, part, V)
+    return (high - low).max(axis=1)

@@ -71,7 +71,7 @@ def thickness_links(V, F, normals, areas, part):
     share = np.zeros(len(V))
     share[chosen] = area
     distance = np.linalg.norm(V[j] - V[i], axis=1)
-    return links_between(i, j, STRENGTH * share[i] / np.maximum(distance, spacing) ** 2)
+    return links_between(i, j, STRENGTH * share[i] / np.maximum(distance, spacing[i]) ** 2)
 
 
 def _opposite(V, normals, part, chosen, points):

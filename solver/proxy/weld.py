@@ -7,8 +7,10 @@ from ..components import components
 from .edges import faces_at_edges
 
 TOLERANCE = 1e-6
-"""of the largest extent; what is nearer is at one place"""
-_BITS = 21  # for each coordinate in a key; the tolerance needs 20
+"""of the largest extent; what is nearer is at one place..."""
+OF_EDGES = 0.01
+"""...unless that is more than this part of the edges of the finest part: a ring in a landscape"""
+_BITS = 21  # for each coordinate in a key; the tolerance of 1e-6 needs 20
 
 
 def weld(V, F):
@@ -33,7 +35,8 @@ def weld(V, F):
         the same corners one is left: else the normals of a leaf that was modelled as two coincident
         sheets would cancel out.
     """
-    label = _joined(_least_of_cell(V, 0.5), _least_of_cell(V, 0.0))
+    tolerance = _tolerance(V, F)
+    label = _joined(_least_of_cell(V / tolerance + 0.5), _least_of_cell(V / tolerance))
     is_first = label == np.arange(len(V))
     first = np.flatnonzero(is_first)
     if len(first) == len(V):
@@ -57,11 +60,24 @@ def _of_one_part(label, F):
     return np.argsort(np.argsort(first))[group.ravel()]
 
 
-def _least_of_cell(V, shift):
-    """Return the first vertex (n,) in the same cell of a grid."""
-    cell = np.floor(V / TOLERANCE + shift).astype(np.int64)
-    key = (cell[:, 0] << 2 * _BITS) | (cell[:, 1] << _BITS) | cell[:, 2]
-    _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+def _tolerance(V, F):
+    """Return how near vertices have to be to be one."""
+    count, part = components(F, len(V))
+    length = np.linalg.norm(V[F[:, 1]] - V[F[:, 0]], axis=1)
+    owner = part[F[:, 0]]
+    mean = np.bincount(owner, length, count) / np.maximum(np.bincount(owner, minlength=count), 1)
+    return min(TOLERANCE, OF_EDGES * mean[mean > 1e-12].min(initial=1.0))
+
+
+def _least_of_cell(V):
+    """Return the first vertex (n,) in the same cell of a grid of width 1."""
+    x, y, z = np.floor(V.T).astype(np.int64)
+    if max(x.max(), y.max(), z.max()) < 1 << _BITS:
+        key = (x << 2 * _BITS) | (y << _BITS) | z
+        _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+    else:
+        cells = np.column_stack([x, y, z])
+        _, first, inverse = np.unique(cells, axis=0, return_index=True, return_inverse=True)
     return first[inverse.ravel()]
 
 

@@ -138,9 +138,8 @@ def test_a_result_keeps_what_was_promised(case):
     check_result(mesh, options, result)
     assert mesh.V.tobytes() == V.tobytes()
     assert mesh.triangles.tobytes() == F.tobytes()
-    if not options.keep_rotation:
-        assert energies[-1] <= energies[0] * (1 + ROUNDING) + NOTHING
-    elif options.targets is None:  # turning back costs energy, but never all that was gained
+    assert energies[-1] <= energies[0] * (1 + ROUNDING) + NOTHING
+    if options.targets is None:
         assert energies[-1] <= energy_at_rest(mesh, options) * (1 + ROUNDING) + NOTHING
     used = np.flatnonzero(~mesh.loose)  # the same numbers, with and without loose vertices
     again, _ = run(*without_loose(mesh, options), device)
@@ -152,7 +151,6 @@ def test_a_result_keeps_what_was_promised(case):
 @given(case=cases())
 def test_the_energy_of_the_plain_iteration_never_rises(case):
     mesh, options, device = case
-    options.keep_rotation = False  # turning back costs energy
     result, energies = run(mesh, options, device, is_accelerated=False)
     check_result(mesh, options, result)
     assert np.diff(energies).max() <= ROUNDING * abs(energies[0]) + NOTHING
