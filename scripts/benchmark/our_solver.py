@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver import Setup, Stylization, rest_mesh, run
+from solver import PAPER, Setup, Stylization, rest_mesh, run
 
 from .primitives import blob
 
@@ -41,8 +41,10 @@ class Run:
         }
 
 
-def solve(V, F, cubeness, is_over=None, is_accelerated=True, **stop):
-    """Stylize a mesh and return the Run.
+def solve(
+    V, F, cubeness, is_over=None, is_accelerated=True, proxy=PAPER, keep_rotation=False, **stop
+):
+    """Stylize a mesh and return the Run; unless settings are given, as in the paper.
 
     The energy noted after an iteration is that of the shape that its local step looked at, so it
     lags behind by one iteration.
@@ -54,14 +56,18 @@ def solve(V, F, cubeness, is_over=None, is_accelerated=True, **stop):
     cubeness : float
     is_over : callable, optional
         Ends the run early when it returns true for (seconds, energy, iteration).
-    is_accelerated : bool
+    is_accelerated, keep_rotation : bool
+        See `Stylization`.
+    proxy : ProxyOptions
+        See `solver.rest_mesh`.
     **stop
         max_iterations and tolerance, see `solver.run`.
     """
     curve = []
     begin = time.perf_counter()
-    setup = Setup(rest_mesh(V, F))
-    stylization = Stylization(setup, cubeness, is_accelerated=is_accelerated)
+    setup = Setup(rest_mesh(V, F, proxy))
+    options = {"is_accelerated": is_accelerated, "keep_rotation": keep_rotation}
+    stylization = Stylization(setup, cubeness, **options)
     compiling = stylization.compile_seconds
     setup_seconds = time.perf_counter() - begin - compiling
 

@@ -27,7 +27,7 @@ def plot_gaps(cases, path):
         handles, labels = axes.get_legend_handles_labels()
         entries |= dict(zip(labels, handles, strict=True))
     figure.legend(entries.values(), entries, loc="lower center", ncols=len(entries), frameon=False)
-    figure.suptitle("How near the best shape, and when")
+    figure.suptitle("How near the best shape, and when: as in the paper")
     _save(figure, path, bottom=0.07)
 
 
@@ -88,7 +88,8 @@ def plot_scaling(cases, power, factor, fit_from, path):
         ends = [fit_from, max(size for size, _ in times)]
         line = [factor * size**power for size in ends]
         axes.loglog(ends, line, color=LINE, label=f"seconds ~ vertices^{power:.2f}")
-    axes.set_title(f"Time over size: {cases[0]['mesh']}, cubeness {cases[0]['cubeness']}")
+    case = cases[0]
+    axes.set_title(f"Time over size: {case['mesh']}, cubeness {case['cubeness']}, as in the paper")
     axes.set_xlabel("vertices")
     axes.set_ylabel("seconds, set-up included")
     _write_numbers(axes)

@@ -5,17 +5,21 @@ from dataclasses import dataclass
 
 from . import scaling, startup
 from .best_energies import BestEnergies
+from .defaults import SETTINGS
 from .isolated import call
 from .machine import machine_line
+from .made_meshes import made_meshes
 from .meshes import known_meshes
 from .scaled_meshes import scaled_meshes
 
-PARTS = ("ten", "race", "phases", "scaling", "startup")
+PARTS = ("ten", "race", "phases", "scaling", "defaults", "startup")
 LARGE = 10_000
 """vertices from which the peers run only once"""
 LARGE_SCALING = 50_000
 """vertices from which a size is measured only once"""
-PHASES_CUBENESS = 0.4
+PHASES_CUBENESS = DEFAULTS_CUBENESS = 0.4
+COARSE = 2000
+"""vertices up to which Live is measured with the defaults"""
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,10 @@ class Plan:
     """those of the cases that PyMeshLab takes part in: the others take it minutes"""
     ten: tuple
     """meshes"""
+    defaults: tuple
+    """meshes, the made ones left aside"""
+    fineness: int
+    """of the made ones"""
 
 
 FULL = Plan(
@@ -45,6 +53,8 @@ FULL = Plan(
         *[("horse", 0.4), ("blob-10k", 0.2), ("blob-10k", 0.4)],
     ),
     ten=("homer", "bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
+    defaults=("bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
+    fineness=6,
 )
 QUICK = Plan(
     runs=1,
@@ -52,6 +62,8 @@ QUICK = Plan(
     cases=(("bunny", 0.2), ("horse", 0.4), ("blob-10k", 0.2)),
     pymeshlab=(("bunny", 0.2), ("blob-10k", 0.2)),
     ten=("bunny", "horse", "blob-10k"),
+    defaults=("bunny", "blob-10k"),
+    fineness=4,
 )
 
 
@@ -73,7 +85,7 @@ def measure(plan, folder, cache, parts, say):
     best = BestEnergies()
     cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
     results = {"machine": machine_line(), "runs": plan.runs}
-    results |= {"ten": [], "race": [], "phases": [], "scaling": [], "startup": {}}
+    results |= {part: [] for part in PARTS} | {"startup": {}}
     if "ten" in parts:
         for name in plan.ten:
             if name in meshes:
@@ -92,6 +104,8 @@ def measure(plan, folder, cache, parts, say):
         for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
             say(f"scaling: {mesh.vertices:,} vertices")
             results["scaling"].append(_one_size(mesh, plan, best))
+    if "defaults" in parts:
+        results["defaults"] = _all_defaults(plan, meshes, cache, say)
     if "startup" in parts:
         say("start-up")
         results["startup"] = startup.startup(plan.runs)
@@ -170,3 +184,29 @@ def _one_size(mesh, plan, best):
     figures = call("scaling", "one_size", path=str(mesh.path), runs=runs)
     known = best.get(mesh.name, mesh.vertices, scaling.CUBENESS)
     return _head(mesh, scaling.CUBENESS) | {"best": known} | figures
+
+
+def _all_defaults(plan, meshes, cache, say):
+    """Return the cases of the part "defaults": the largest mesh last, for its memory."""
+    known = [meshes[name] for name in plan.defaults if name in meshes]
+    cases = []
+    for mesh in (*known, *made_meshes(cache, plan.fineness).values()):
+        say(f"with the defaults: {mesh.name}")
+        cases.append(_defaults(mesh, plan.runs))
+    largest = scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices)[-1]
+    say(f"with the defaults: {largest.name}, {largest.vertices:,} vertices")
+    return [*cases, _defaults_alone(largest)]
+
+
+def _defaults(mesh, runs):
+    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
+    figures = call("defaults", "side_by_side", **arguments, runs=runs)
+    ticks = call("defaults", "ticks", **arguments) if mesh.vertices <= COARSE else []
+    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": ticks}
+
+
+def _defaults_alone(mesh):
+    """Measure a large mesh once with each, in processes of their own, for the memory."""
+    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
+    figures = {name: [call("defaults", "alone", **arguments, name=name)] for name in SETTINGS}
+    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": []}

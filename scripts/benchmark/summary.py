@@ -44,8 +44,18 @@ def end_gap(case, program):
 
 
 def ends_by_itself(case, program):
-    """Tell whether every run of "ours" or "plain" came to its own stop."""
+    """Tell whether every run of a program came to its own stop."""
     return all(run["reason"] == "converged" for run in case[program])
+
+
+def times_as_long(case):
+    """Return how many times as long a run with the defaults takes as one with the paper's."""
+    return median_of(case, "defaults", "seconds") / median_of(case, "paper", "seconds")
+
+
+def ticks_per_second(case):
+    """Return how often Live could show something new with the defaults."""
+    return len(case["ticks"]) / sum(case["ticks"])
 
 
 def seconds_to_end_of(case, peer):

@@ -171,16 +171,55 @@ def scaling(cases):
     )
 
 
+def defaults(cases):
+    """Return the table of the defaults beside the paper's settings."""
+    rows = []
+    for case in cases:
+        cells = [f"{round(summary.median_of(case, 'defaults', 'solved')):,}"]
+        for program in ("paper", "defaults"):
+            stop = seconds(summary.median_of(case, program, "seconds"))
+            iterations = round(summary.median_of(case, program, "iterations"))
+            cells.append(f"{stop} ({iterations}{_unless_own_stop(case, program)})")
+            cells.append(seconds(summary.median_of(case, program, "setup")))
+        cells.append(seconds(summary.median_of(case, "defaults", "links")))
+        cells.append(f"{summary.times_as_long(case):.2f}")
+        cells.append(f"{summary.ticks_per_second(case):.0f}" if case["ticks"] else NONE)
+        rows.append(_case_cells(case) + cells)
+    both = []
+    for name in ("as in the paper", "defaults"):
+        both += [f"{name}: to our stop (iterations)", "of it set-up"]
+    return table(
+        [*_CASE_HEADINGS, "solved with the defaults", *both, "of it finding links"]
+        + ["times as long", "ticks per second"],
+        rows,
+    )
+
+
+def memory_of_defaults(cases):
+    """Return the table of the memory with the defaults beside the paper's settings."""
+    rows = [
+        _case_cells(case)
+        + [cell for name in ("paper", "defaults") for cell in _memory_cells(case[name][0])]
+        for case in cases
+    ]
+    headings = [
+        f"{name}: {heading}"
+        for name in ("as in the paper", "defaults")
+        for heading in _MEMORY_HEADINGS
+    ]
+    return table([*_CASE_HEADINGS, *headings], rows)
+
+
 def startup(programs):
     """Return the table of the time to the first result."""
     monkey, bpy, solver = (median(programs[name]) for name in ("monkey", "bpy", "solver"))
     return table(
         ["from the start of the process to", "median"],
         [
-            ["the first Cubify of the monkey in Blender", seconds(monkey)],
+            ["the first Cubify of the monkey in Blender, with the defaults", seconds(monkey)],
             ["Blender imported, and nothing else", seconds(bpy)],
             ["difference: what CubicCraft adds", seconds(monkey - bpy)],
-            ["the first result of the solver without Blender", seconds(solver)],
+            ["the first result of the solver without Blender, as in the paper", seconds(solver)],
         ],
     )
 

@@ -10,6 +10,8 @@ from .ten_iterations import PAPER_SECONDS
 
 MILLION = range(900_000, 1_100_001)
 """vertices of the largest mesh"""
+FIFTY_THOUSAND = range(40_000, 60_001)
+"""vertices of the meshes that the defaults are judged by"""
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,7 @@ def targets(results):
         *_peer_targets(results["race"]),
         *_paper_targets(results["ten"]),
         *_scaling_targets(results["scaling"]),
+        *_defaults_targets(results["defaults"]),
         *_startup_targets(results["startup"]),
     ]
 
@@ -104,6 +107,23 @@ def _scaling_targets(cases):
     power, _ = fit_of(cases)
     if cases:
         yield Target("exponent of time over size", power, 1.15)
+
+
+def _defaults_targets(cases):
+    for case in cases:
+        name = f"{case['mesh']}, with the defaults"
+        if case["vertices"] in FIFTY_THOUSAND:
+            yield Target(f"{name}, times as long as in the paper", summary.times_as_long(case), 1.3)
+            links = summary.median_of(case, "defaults", "links")
+            yield Target(f"{name}, seconds of finding links", links, 0.3)
+        if case["ticks"]:
+            seconds = summary.median_of(case, "defaults", "seconds")
+            yield Target(f"{name}, seconds to our stop", seconds, 0.5)
+            rate = summary.ticks_per_second(case)
+            yield Target(f"{name}, ticks of Live per second", rate, 10, is_least=True)
+        if case["vertices"] in MILLION:
+            peak = case["defaults"][0]["peak"]
+            yield Target("1 M vertices, with the defaults, peak memory in GB", peak / 1e9, 4)
 
 
 def _startup_targets(programs):

@@ -2,10 +2,11 @@
 
 import pytest
 
-from scripts.benchmark import summary, tables
+from scripts.benchmark import page, summary, tables
+from scripts.benchmark.suite import PARTS
 from scripts.benchmark.targets import Target, targets
 
-NOTHING = {"ten": [], "race": [], "phases": [], "scaling": [], "startup": {}}
+NOTHING = {part: [] for part in PARTS} | {"startup": {}}
 
 
 def our_run(speed=1.0, energy=1.0, reason="converged"):
@@ -149,3 +150,50 @@ def test_start_up_targets():
     first, ours = targets(NOTHING | {"startup": startup})
     assert first.is_met
     assert not ours.is_met
+
+
+@pytest.fixture
+def with_defaults():
+    paper = {"seconds": 1.0, "iterations": 40, "setup": 0.2, "links": 0.0, "solved": 50_000}
+    ours = {"seconds": 1.2, "iterations": 30, "setup": 0.6, "links": 0.25, "solved": 51_000}
+    runs = {"reason": "converged", "peak": 300 * 1024**2, "above": 100 * 1024**2}
+    figures = {"paper": [paper | runs], "defaults": [ours | runs], "ticks": [0.025] * 4}
+    return {"mesh": "horse", "vertices": 50_000, "cubeness": 0.4} | figures
+
+
+def test_defaults(with_defaults):
+    row = cells(tables.defaults([with_defaults]))[2]
+    ours = ["1.20 s (30)", "0.60 s", "0.25 s", "1.20", "40"]
+    assert row[2:] == ["0.4", "51,000", "1.00 s (40)", "0.20 s", *ours]
+    assert cells(tables.defaults([with_defaults | {"ticks": []}]))[2][-1] == "-"
+
+
+def test_memory_of_defaults(with_defaults):
+    row = cells(tables.memory_of_defaults([with_defaults]))[2]
+    assert row[3:] == ["300 MiB", "100 MiB"] * 2
+
+
+@pytest.mark.parametrize(
+    ("vertices", "ticks", "names"),
+    [
+        (50_000, [], ["times as long as in the paper", "seconds of finding links"]),
+        (1_000, [0.1, 0.2], ["seconds to our stop", "ticks of Live per second"]),
+        (1_000_000, [], ["peak memory in GB"]),
+        (20_000, [], []),
+    ],
+)
+def test_targets_of_the_defaults(with_defaults, vertices, ticks, names):
+    case = with_defaults | {"vertices": vertices, "ticks": ticks}
+    found = targets(NOTHING | {"defaults": [case]})
+    assert [target.text.rpartition(", ")[2] for target in found] == names
+
+
+def test_the_page_says_which_settings_its_rows_have(case, with_defaults):
+    case |= {"peak": 1, "above": 1}
+    results = NOTHING | {"machine": "", "runs": 1, "race": [case], "scaling": [case]}
+    sections = "\n".join(page.page(results | {"defaults": [with_defaults]}, None)).split("\n#")
+    rows = [
+        section for section in sections if "\n| mesh |" in section or "\n| vertices |" in section
+    ]
+    assert len(rows) == 5
+    assert all("paper" in section.partition("\n|")[0] for section in rows)
