@@ -61,7 +61,8 @@ def page(rows):
         f" {os.cpu_count()} cores and no GPU.",
         "",
         "| mesh | vertices | ticks | per second | median | 95 % | worst"
-        " | delay, ticks alone: median | worst | with drawing: median | iterations per second | of the ticks |",
+        " | delay, ticks alone: median | worst | with drawing: median"
+        " | iterations per second | of the ticks |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long the ticks of Live take while its slider is dragged; run by scripts/benchmark_live.py.
 
-For a coarse monkey and each mesh in /share it drags for ten seconds, and writes to /share/ticks.json
+For a coarse monkey and each mesh in /share it drags for ten seconds. To /share/ticks.json it writes
 what each tick took, how long each change took to be seen, and how many iterations were done.
 Blender's own drawing is not part of the ticks.
 """
