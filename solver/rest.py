@@ -87,7 +87,7 @@ class RestMesh:
         where an artist has put many, as in a face, it is seen when they turn; but a zip of tiny
         triangles shall not turn a coat.
         """
-        return (self.areas**0.25 if self.is_refined else self.areas) + 1e-300
+        return (np.sqrt(np.sqrt(self.areas)) if self.is_refined else self.areas) + 1e-300
 
     @property
     def links(self):
