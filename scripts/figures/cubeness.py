@@ -2,7 +2,7 @@
 """Figure 5: one mesh at growing cubeness."""
 
 from .picture import Picture, side_by_side
-from .workshop import Workshop
+from .workshop import AS_IN_THE_PAPER, Workshop
 
 __all__ = ("compose",)
 
@@ -16,6 +16,6 @@ def compose(workshop: Workshop) -> Picture:
     (model,) = workshop.there(["bunny"], instead=["monkey"])
     groups = [workshop.group(model, model.original, "original", "grey")]
     for value in CUBENESS:
-        shape = workshop.cubified(model, value)
+        shape = workshop.cubified(model, value, **AS_IN_THE_PAPER)
         groups.append(workshop.group(model, shape, f"cubeness {value:g}", "green"))
     return side_by_side(groups, HEIGHT)

@@ -10,7 +10,7 @@ from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
 
 from .picture import Picture, side_by_side
-from .workshop import Model, Workshop, moved
+from .workshop import AS_IN_THE_PAPER, Model, Workshop, moved
 
 __all__ = ("compose",)
 
@@ -39,7 +39,8 @@ def compose(workshop: Workshop) -> Picture:
     groups = []
     for label, angles in ORIENTATIONS.items():
         # Left free, the whole mesh would turn toward the cube.
-        shape = workshop.cubified(model, CUBENESS, angles, rotation="KEEP")
+        settings = AS_IN_THE_PAPER | {"rotation": "KEEP"}
+        shape = workshop.cubified(model, CUBENESS, angles, **settings)
         group = workshop.group(model, shape, label, "green")
         _add_cube(group, model, angles, clay)
         groups.append(group)

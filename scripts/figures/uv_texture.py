@@ -14,7 +14,7 @@ from .workshop import Model, Workshop
 
 __all__ = ("compose",)
 
-CUBENESS = 0.4
+CUBENESS = 0.7
 GRID_PIXELS = 2048
 ROUGHNESS = 0.5
 HEIGHT = 560

@@ -22,7 +22,10 @@ from mathutils import Euler, Matrix
 
 from .cast import FILES, OWN_SHAPES, Role
 
-__all__ = ("Model", "Workshop", "moved")
+__all__ = ("AS_IN_THE_PAPER", "Model", "Workshop", "moved")
+
+AS_IN_THE_PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
+"""settings for figures that show what the energy of the paper does"""
 
 
 @dataclass(frozen=True)
