@@ -53,8 +53,8 @@ _REFINEMENTS = (
 )
 # The numbers are in files. 0 was Auto, which Blender reads as the default.
 _ROTATIONS = (
-    ("KEEP", "Keep", "Each part stands as before, and the sides of the cube are as asked for", 1),
-    ("FREE", "Free", "A part may turn as a whole, and fits the cube a little better", 2),
+    ("KEEP", "Keep", "No part turns or leans over as a whole", 1),
+    ("FREE", "Free", "A part may turn by some degrees, and fits the cube a little better", 2),
 )
 _DEVICES = (
     ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
@@ -153,8 +153,8 @@ class RunProperties:
     )
     rotation: EnumProperty(
         name="Rotation",
-        description="A part may turn by some degrees as a whole to fit the cube, unless it is held;"
-        " parts with handles are left as they are",
+        description="Whether parts stand as they do, or may turn as a whole to fit the cube."
+        " Parts with handles stand as their handles say",
         items=_ROTATIONS,
         default=Settings.rotation,
         options=_OPTIONS,

@@ -63,7 +63,7 @@ def report_all(operator, done, problems):
     if not done:
         operator.report({"ERROR"}, "; ".join(problems))
         return {"CANCELLED"}
-    for problem in problems:
-        operator.report({"WARNING"}, problem)
     operator.report({"INFO"}, done)
+    for problem in problems:  # last: Blender shows the last report
+        operator.report({"WARNING"}, problem)
     return {"FINISHED"}

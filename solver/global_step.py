@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
-from .no_turning import NoTurning
+from .no_turning import CYCLES, NoTurning
 
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
@@ -80,7 +80,7 @@ class GlobalStep:
     @cached_property
     def no_turning_by_cycles(self):
         """The same by multigrid, for a GPU or where nothing is factorised."""
-        return NoTurning(self._rest, ~self._has_pin, self.multigrid.solve)
+        return NoTurning(self._rest, ~self._has_pin, self.multigrid.solve, CYCLES)
 
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).

@@ -75,7 +75,9 @@ class SpokesAndRims:
         indices = (merged % n).astype(np.int32)
         indptr = np.searchsorted(merged, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
         gather = added(self.gather, gather)
-        transposed = np.argsort(merged % n * n + merged // n)
+        # the entries in the order of their columns, and in each of their rows
+        numbers = sp.csr_matrix((np.arange(len(merged)), indices, indptr), shape=(n, n))
+        transposed = numbers.tocsc().data
         return SpokesAndRims(
             indptr, indices, added(self.laplacian, laplacian), gather, gather[transposed]
         )
@@ -130,8 +132,8 @@ class _Pattern:
     def __init__(self, start, end, n):
         lower, upper = np.minimum(start, end), np.maximum(start, end)
         lower[start == end] = n  # sorted behind all others, and left out
-        order = _stable_order(upper, n + 1)
-        order = order[_stable_order(lower[order], n + 1)]
+        order = stable_order(upper, n + 1)
+        order = order[stable_order(lower[order], n + 1)]
         lower, upper = lower[order], upper[order]
         is_new = np.ones(len(order), dtype=bool)
         is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
@@ -149,7 +151,7 @@ class _Pattern:
         indptr = np.concatenate([[0], np.cumsum(left + 1 + right)])
         self.diagonal = indptr[:-1] + left
         self._upper_place = count + np.repeat(self.diagonal + 1 - (np.cumsum(right) - right), right)
-        transposed = _stable_order(upper, n)
+        transposed = stable_order(upper, n)
         self._lower_place = np.empty_like(count)
         self._lower_place[transposed] = count + np.repeat(
             indptr[:-1] - (np.cumsum(left) - left), left
@@ -179,7 +181,7 @@ class _Pattern:
         return values
 
 
-def _stable_order(keys, count):
+def stable_order(keys, count):
     """Return the stable order of integer keys below count, by counting instead of comparing."""
     rows = np.arange(len(keys) + 1, dtype=np.int32)
     one_per_row = sp.csr_matrix((keys, keys, rows), shape=(len(keys), count))

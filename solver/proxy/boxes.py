@@ -53,8 +53,9 @@ def box_frames(V, F, part):
 
 def _largest(of_face, area, unit, count):
     """Return the direction (count,3) of the largest triangle of each part."""
-    order = np.lexsort((area, of_face))
-    last = np.searchsorted(of_face[order], np.arange(count), side="right") - 1
-    is_there = (last >= 0) & (of_face[order[last]] == np.arange(count))
-    chosen = order[last]
-    return np.where((is_there & (area[chosen] > 0.0))[:, None], unit[chosen], 0.0)
+    largest = np.zeros(count)
+    np.maximum.at(largest, of_face, area)
+    is_largest = (area == largest[of_face]) & (area > 0.0)
+    result = np.zeros((count, 3))
+    result[of_face[is_largest]] = unit[is_largest]  # the last of equals
+    return result

@@ -1,7 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which triangles share an edge."""
+"""The edges of triangles, and which triangles share them."""
 
 import numpy as np
+
+from ..spokes_and_rims import stable_order
+
+
+def edges_of(start, end, n):
+    """Find which of many edges between n vertices are the same, in either direction.
+
+    Parameters
+    ----------
+    start, end : (h,) int arrays
+
+    Returns
+    -------
+    edges : (e,2) int array
+        Each edge once, the lower end first, in ascending order.
+    number : (h,) int array
+        Which of them each of those given is.
+    """
+    lower, upper = np.minimum(start, end), np.maximum(start, end)
+    order, is_new = _ordered(lower, upper, n)
+    number = np.empty(len(order), dtype=np.intp)
+    number[order] = np.cumsum(is_new) - 1
+    first = order[is_new]
+    return np.stack([lower[first], upper[first]], axis=1), number
 
 
 def faces_at_edges(F, n):
@@ -11,9 +35,17 @@ def faces_at_edges(F, n):
         Triangles between n vertices. Edges from a vertex to itself are no edges; of more than two
         triangles at one edge, each is paired with the next.
     """
-    start, end = F.astype(np.int64).ravel(), F[:, [1, 2, 0]].astype(np.int64).ravel()
-    key = np.minimum(start, end) * n + np.maximum(start, end)
-    order = np.argsort(key, kind="stable")
-    ordered = key[order]
-    is_same = (ordered[1:] == ordered[:-1]) & (start != end)[order][1:]
+    start, end = F.ravel(), F[:, [1, 2, 0]].ravel()
+    order, is_new = _ordered(np.minimum(start, end), np.maximum(start, end), n)
+    is_same = ~is_new[1:] & (start != end)[order][1:]
     return order[:-1][is_same] // 3, order[1:][is_same] // 3
+
+
+def _ordered(lower, upper, n):
+    """Return the stable order (h,) of pairs, and which are not as the one before them in it."""
+    order = stable_order(upper, n).astype(np.intp)
+    order = order[stable_order(lower[order], n)]
+    lower, upper = lower[order], upper[order]
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
+    return order, is_new

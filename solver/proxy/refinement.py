@@ -5,14 +5,19 @@ import numpy as np
 
 from ..cotangents import cotangents
 from .creases import mute_edges
+from .edges import edges_of
 from .samples import extents
 
 FINENESS = 40
 """edges along the largest extent of a part"""
-FINEST = 200
-"""edges along the largest extent of the mesh; small parts are not split further"""
+FINEST = 1000
+"""edges along the largest extent of all; smaller parts are not split further"""
 BUDGET = 8000
-"""vertices that a mesh may be split to..."""
+"""vertices that a mesh may be split to,..."""
+FOR_EACH_PART = 200
+"""...and so many more for each of its parts,..."""
+MOST = 16_000
+"""...but no more than this..."""
 GROWTH = 1.2
 """...or this many times its own, if that is more"""
 _STEP = 0.6  # of the longest edge, relative to its bound: a round splits what is longer
@@ -32,7 +37,7 @@ def longest_edges(V, F, part):
     return np.maximum(extents(V, part) / FINENESS, 1.0 / FINEST)
 
 
-def refine(V, F, bound):
+def refine(V, F, bound, parts=1):
     """Split edges at their midpoints until none is longer than its bound, or the budget is spent.
 
     At last a midpoint is put into narrow sides that have vertices in their creases only.
@@ -48,6 +53,8 @@ def refine(V, F, bound):
     F : (m,3) int array
     bound : (n,) float array
         How long edges may be, at each vertex; the same within a part.
+    parts : int
+        How many of them there are.
 
     Returns
     -------
@@ -59,7 +66,7 @@ def refine(V, F, bound):
     rounds : (r+1,) int array
         Where in `parents` each round begins, and the end.
     """
-    budget = max(BUDGET, int(GROWTH * len(V)))
+    budget = max(min(BUDGET + FOR_EACH_PART * (parts - 1), MOST), int(GROWTH * len(V)))
     parents, rounds = [np.empty((0, 2), np.int64)], [0]
     F, bound = F.astype(np.int64), bound.astype(np.float64)
     is_fine = False
@@ -93,12 +100,9 @@ def _mute(V, F, edge_of, count):
 
 def _edges(V, F, bound):
     """Return edges (e,2), the edge (m,3) opposite each corner, and lengths (e,) in their bounds."""
-    start, end = F[:, [1, 2, 0]].ravel(), F[:, [2, 0, 1]].ravel()
-    key = np.minimum(start, end) * len(V) + np.maximum(start, end)
-    unique, inverse = np.unique(key, return_inverse=True)
-    edges = np.stack([unique // len(V), unique % len(V)], axis=1)
+    edges, number = edges_of(F[:, [1, 2, 0]].ravel(), F[:, [2, 0, 1]].ravel(), len(V))
     length = np.linalg.norm(V[edges[:, 1]] - V[edges[:, 0]], axis=1)
-    return edges, inverse.reshape(F.shape), length / bound[edges[:, 0]]
+    return edges, number.reshape(F.shape), length / bound[edges[:, 0]]
 
 
 def _closed(is_split, ratio, edge_of):

@@ -39,8 +39,8 @@ def surface_of(V, F, options):
     at = at[first]
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
     if options.refine:
-        _, part = components(F, len(at))
-        at, F, parents, rounds = refine(at, F, longest_edges(at, F, part)[part])
+        count, part = components(F, len(at))
+        at, F, parents, rounds = refine(at, F, longest_edges(at, F, part)[part], count)
     of_input = np.full(len(V), -1)
     of_input[used] = group
     input_map = InputMap(of_input, used[first], parents, rounds)

@@ -22,11 +22,12 @@ As no vertex of the part lies inside the ball, a link never crosses another wall
 import numpy as np
 from scipy.spatial import cKDTree
 
+from .edges import edges_of
 from .links import links_between, no_links
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
-STRENGTH = 1.8
+STRENGTH = 1.4
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """about as many vertices are linked; each stands for the area around it"""
@@ -38,9 +39,10 @@ MOST_FAULTS = 0.05
 """share of edges at which triangles disagree, or are more than two"""
 
 _ROUNDS = 12
-_INEXACTNESS = 0.02  # of the nearest vertex: in the centre of a sphere all are
+_INEXACTNESS = 0.02  # of the nearest vertex
 _FACING = 0.9  # cosine between a link and the normal at either end
-_SETTLED = 0.99  # a ball that shrinks by less has come to its end
+_FIRST_RADIUS = 1.0  # larger than any ball in the unit box
+_CORE = 0.9  # of a ball, in which no other point may lie
 
 
 def thickness_links(V, F, normals, areas, part):
@@ -77,8 +79,8 @@ def thickness_links(V, F, normals, areas, part):
 def _opposite(V, normals, part, chosen, points):
     """Return the vertices whose balls end at another side, and where they do."""
     # parts are kept apart by a coordinate of their own
-    place = np.column_stack([V, 10.0 * part])
-    end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
+    place = np.column_stack([V, 10.0 * part]) if part.any() else V
+    end, radius = np.full(len(chosen), -1), np.full(len(chosen), _FIRST_RADIUS)
     if len(points) > len(chosen):  # what comes near the end is found among a tenth of the points
         _shrink(place, normals, chosen, chosen, end, radius)
     _shrink(place, normals, chosen, points, end, radius)
@@ -89,6 +91,9 @@ def _opposite(V, normals, part, chosen, points):
 def _shrink(place, normals, chosen, points, end, radius):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
+    What lies in the outermost shell of a ball is not inside: in the middle of a round part all
+    points are equally near, and no search is slower.
+
     end : (c,) int array
         The vertex that each ball ends at, -1 while it is none of another side.
     radius : (c,) array
@@ -98,7 +103,7 @@ def _shrink(place, normals, chosen, points, end, radius):
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
         centre = place[chosen[todo]]
-        centre[:, :3] -= radius[todo, None] * n[todo]
+        centre[:, :3] -= _CORE * radius[todo, None] * n[todo]
         _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)
         q = points[nearest]
         d = place[q, :3] - p[todo]
@@ -107,13 +112,11 @@ def _shrink(place, normals, chosen, points, end, radius):
         shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
         # half the angle between both contacts, from the centre: |d| / 2r
         sine = np.sqrt(squared) / np.maximum(2.0 * shrunk, 1e-300)
-        is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
-        goes_on = is_seen & (shrunk < _SETTLED * radius[todo])
-        end[todo[is_seen]] = q[is_seen]
-        radius[todo[is_seen]] = np.minimum(shrunk, radius[todo])[is_seen]
+        goes_on = is_other & (sine > np.sin(LEAST_ANGLE / 2)) & (shrunk < radius[todo])
         todo = todo[goes_on]
         if not len(todo):
             break
+        end[todo], radius[todo] = q[goes_on], shrunk[goes_on]
 
 
 def _are_facing(V, normals, i, j):
@@ -132,17 +135,16 @@ def outward_sign(V, F, part):
     count = int(part.max(initial=-1)) + 1
     corners = F.astype(np.int64)
     start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    key = low * len(V) + high
-    edge, inverse, uses = np.unique(key, return_inverse=True, return_counts=True)
-    balance = np.bincount(inverse.ravel(), np.where(start < end, 1.0, -1.0))
-    owner = part[edge // len(V)]
+    edges, number = edges_of(start, end, len(V))
+    uses = np.bincount(number)
+    balance = np.bincount(number, np.where(start < end, 1.0, -1.0))
+    owner = part[edges[:, 0]]
     is_border = uses == 1
     is_fault = ~is_border & ((uses > 2) | (balance != 0.0))
     faults = np.bincount(owner, is_fault, count) / np.maximum(
         np.bincount(owner, minlength=count), 1
     )
-    is_open = is_border[inverse.ravel()]
+    is_open = is_border[number]
     holes, volume_of_holes = _holes(V, start[is_open], end[is_open], part, count)
     a, b, c = V[corners[:, 0]], V[corners[:, 1]], V[corners[:, 2]]
     normal = np.cross(b - a, c - a)
