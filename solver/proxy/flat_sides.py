@@ -16,8 +16,6 @@ STIFFNESS = 0.15
 """weight of the triangles of a flat side"""
 LEAST_SHARE = 0.03
 """of the area of a part; a smaller side may be a facet of a round shape"""
-MOST_SHARE = 0.6
-"""A larger side is no side but a sheet, such as a card of hair, with nothing around it to hold."""
 COPLANAR = np.cos(np.radians(0.5))
 
 
@@ -39,5 +37,4 @@ def stiffness(V, F, part):
     count, side = components(no_triangle, len(F), pairs)
     of_part = np.bincount(part[F[:, 0]], areas)
     share = np.bincount(side, areas, count)[side] / np.maximum(of_part[part[F[:, 0]]], 1e-300)
-    is_side = (share >= LEAST_SHARE) & (share <= MOST_SHARE)
-    return np.where(is_side, STIFFNESS, 1.0)
+    return np.where(share >= LEAST_SHARE, STIFFNESS, 1.0)

@@ -38,7 +38,7 @@ def test_a_box_that_stands_askew_stays_and_one_that_is_free_becomes_straight(ang
     free = stylize(V, F, 0.4, proxy=ProxyOptions()).positions
     R = best_rotation(V, free, np.ones(len(V)))
     centred = [X - X.mean(axis=0) for X in (V, free)]
-    assert np.abs(centred[0] @ R - centred[1]).max() < 0.01
+    assert np.abs(centred[0] @ R - centred[1]).max() < 0.02
 
 
 def test_a_coarse_ball_becomes_a_cube():
