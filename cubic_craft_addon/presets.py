@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Presets of the settings, in the header of the panel: ours, and those in the user's folder."""
 
-from contextlib import suppress
 from pathlib import Path
 
 import bpy
@@ -20,19 +19,6 @@ class CUBIC_PT_presets(PresetPanel, bpy.types.Panel):
     preset_subdir = SUBFOLDER
     preset_operator = "script.execute_preset"
     preset_add_operator = ADD_OPERATOR
-
-    @staticmethod
-    def reset_cb(_context, filepath):
-        """Bring a preset up to date before Blender executes it, which would stop half-way.
-
-        *Rotation* once had the value AUTO.
-        """
-        path = Path(filepath)
-        with suppress(OSError, UnicodeError):  # then Blender says what is wrong with it
-            text = path.read_text(encoding="utf-8")
-            today = text.replace(".rotation = 'AUTO'", ".rotation = 'KEEP'")
-            if today != text:
-                path.write_text(today, encoding="utf-8")
 
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory((CUBIC_PT_presets,))

@@ -222,7 +222,8 @@ class Run:
         state = self.stylization
         if self._coarse is None:
             return state.rotations, state.positions
-        return glance_up(*self._coarse.placed(), state.rest)
+        positions, R = self._coarse.placed()
+        return glance_up(positions, R, state.rest)
 
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""

@@ -77,7 +77,7 @@ class SpokesAndRims:
         gather = added(self.gather, gather)
         # the entries in the order of their columns, and in each of their rows
         numbers = sp.csr_matrix((np.arange(len(merged)), indices, indptr), shape=(n, n))
-        transposed = numbers.tocsc().data
+        transposed = np.asarray(numbers.tocsc().data, dtype=np.intp)
         return SpokesAndRims(
             indptr, indices, added(self.laplacian, laplacian), gather, gather[transposed]
         )

@@ -14,7 +14,7 @@ side at a distance, is not linked; and vertices of one part never are, however n
 """
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from .closest_point import closest_points
 from .links import links_to_triangles, no_links
@@ -23,7 +23,7 @@ from .samples import extents, surface_samples
 CONTACT = 0.01
 LAYER = 0.03
 """of the largest extent of the larger part..."""
-OF_SMALLER = 5.0
+OF_SMALLER = 20.0
 """...or of this many times that of the smaller one, if that is less: a ground may be endless"""
 SAMPLES = 30_000
 """about as many vertices are linked"""
@@ -98,7 +98,7 @@ def _nearest_middles(V, chosen, part, middles, face, corners, reach):
             asking, asked = chosen[vertex_bit == value], face[face_bit != value]
             if not len(asking) or not len(asked):
                 continue
-            tree = cKDTree(middles[asked], balanced_tree=False, compact_nodes=False)
+            tree = KDTree(middles[asked], balanced_tree=False, compact_nodes=False)
             k = min(_CANDIDATES, len(asked))
             _, found = tree.query(V[asking], k=k, distance_upper_bound=reach, workers=-1)
             found = found.reshape(len(asking), k)

@@ -20,14 +20,14 @@ As no vertex of the part lies inside the ball, a link never crosses another wall
 """
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from .edges import edges_of
 from .links import links_between, no_links
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
-STRENGTH = 1.4
+STRENGTH = 1.8
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """about as many vertices are linked; each stands for the area around it"""
@@ -39,10 +39,9 @@ MOST_FAULTS = 0.05
 """share of edges at which triangles disagree, or are more than two"""
 
 _ROUNDS = 12
-_INEXACTNESS = 0.02  # of the nearest vertex
+_INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball all are, and none is found soon
 _FACING = 0.9  # cosine between a link and the normal at either end
-_FIRST_RADIUS = 1.0  # larger than any ball in the unit box
-_CORE = 0.9  # of a ball, in which no other point may lie
+_SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
 def thickness_links(V, F, normals, areas, part):
@@ -80,7 +79,7 @@ def _opposite(V, normals, part, chosen, points):
     """Return the vertices whose balls end at another side, and where they do."""
     # parts are kept apart by a coordinate of their own
     place = np.column_stack([V, 10.0 * part]) if part.any() else V
-    end, radius = np.full(len(chosen), -1), np.full(len(chosen), _FIRST_RADIUS)
+    end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
     if len(points) > len(chosen):  # what comes near the end is found among a tenth of the points
         _shrink(place, normals, chosen, chosen, end, radius)
     _shrink(place, normals, chosen, points, end, radius)
@@ -91,20 +90,18 @@ def _opposite(V, normals, part, chosen, points):
 def _shrink(place, normals, chosen, points, end, radius):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
-    What lies in the outermost shell of a ball is not inside: in the middle of a round part all
-    points are equally near, and no search is slower.
-
     end : (c,) int array
         The vertex that each ball ends at, -1 while it is none of another side.
     radius : (c,) array
     """
-    tree = cKDTree(place[points], balanced_tree=False, compact_nodes=False)
+    tree = KDTree(place[points], balanced_tree=False, compact_nodes=False)
     p, n = place[chosen, :3], normals[chosen]
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
         centre = place[chosen[todo]]
-        centre[:, :3] -= _CORE * radius[todo, None] * n[todo]
-        _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)
+        centre[:, :3] -= radius[todo, None] * n[todo]
+        # its stub takes the share for a whole number
+        _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)  # pyright: ignore[reportArgumentType]
         q = points[nearest]
         d = place[q, :3] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
@@ -112,11 +109,13 @@ def _shrink(place, normals, chosen, points, end, radius):
         shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
         # half the angle between both contacts, from the centre: |d| / 2r
         sine = np.sqrt(squared) / np.maximum(2.0 * shrunk, 1e-300)
-        goes_on = is_other & (sine > np.sin(LEAST_ANGLE / 2)) & (shrunk < radius[todo])
+        is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
+        goes_on = is_seen & (shrunk < _SETTLED * radius[todo])
+        end[todo[is_seen]] = q[is_seen]
+        radius[todo[is_seen]] = np.minimum(shrunk, radius[todo])[is_seen]
         todo = todo[goes_on]
         if not len(todo):
             break
-        end[todo], radius[todo] = q[goes_on], shrunk[goes_on]
 
 
 def _are_facing(V, normals, i, j):

@@ -125,8 +125,9 @@ def test_each_objects_own_axes_count_relative_to_the_object(trio):
             bpy.ops.cubic_craft.cubify(space=space, together=together, tolerance=1e-5)
             shapes[space, together] = [position_of(obj.data) for obj in (body, turned)]
         one, other = shapes[space, "PARTS"], shapes[space, "SELECTION"]
-        np.testing.assert_allclose(one[0], other[0], atol=0.01)
-        np.testing.assert_allclose(one[1], other[1], atol=0.01)
+        # links are sampled in the box of all that is solved
+        np.testing.assert_allclose(one[0], other[0], atol=0.02)
+        np.testing.assert_allclose(one[1], other[1], atol=0.02)
     away = shapes["OBJECT", "SELECTION"][1] - shapes["WORLD", "SELECTION"][1]
     assert np.abs(away).max() > 0.1
 

@@ -65,19 +65,3 @@ def test_a_preset_of_ours_cannot_be_removed_and_goes_with_the_extension(extensio
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     assert bpy.utils.preset_find("As_in_the_Paper", "cubic_craft") is None
     bpy.ops.preferences.addon_enable(module=extension.__name__)
-
-
-def test_a_preset_from_before_is_applied_to_its_end(monkey, preset):
-    """It lacks the settings that are new, and has a value that there is no more."""
-    lines = Path(preset).read_text().splitlines()
-    new = ("solidity", "together", "refine")
-    old = [line for line in lines if not any(f".{name} =" in line for name in new)]
-    text = "\n".join(old).replace(".rotation = 'KEEP'", ".rotation = 'AUTO'")
-    assert "'AUTO'" in text
-    Path(preset).write_text(text)
-    other = add_monkey("Other")
-    other.cubic_craft.solidity, other.cubic_craft.rotation = 0.7, "FREE"
-    bpy.ops.script.execute_preset(filepath=preset, menu_idname="CUBIC_PT_presets")
-    assert other.cubic_craft.rotation == "KEEP"
-    assert other.cubic_craft.cubeness == pytest.approx(0.9)
-    assert other.cubic_craft.solidity == pytest.approx(0.7)
