@@ -20,6 +20,8 @@ MOST = 16_000
 """...but no more than this..."""
 GROWTH = 1.2
 """...or this many times its own, if that is more"""
+OVERDRAFT = 1.5
+"""times the budget, at most, with the vertices of narrow sides"""
 _STEP = 0.6  # of the longest edge, relative to its bound: a round splits what is longer
 
 
@@ -75,6 +77,8 @@ def refine(V, F, bound, parts=1):
         is_fine, is_split = _to_be_split(V, F, edge_of, ratio, len(edges))
         if len(V) + np.count_nonzero(is_split) > budget:
             is_fine, is_split = True, _mute(V, F, edge_of, len(edges))
+        if is_fine and len(V) + np.count_nonzero(is_split) > OVERDRAFT * budget:
+            break
         new = edges[is_split]
         number = np.full(len(edges), -1)
         number[is_split] = len(V) + np.arange(len(new))
