@@ -158,7 +158,7 @@ def _draw_text(layout, text, icon):
     column = layout.column(align=True)
     line = ""
     for word in [*text.split(), ""]:
-        if line and (not word or len(line) + len(word) > 36):
+        if line and (not word or len(line) + len(word) > 38):
             column.label(text=line, icon=icon)
             icon = "BLANK1"
             line = ""
