@@ -42,7 +42,7 @@ class NoTurning:
     """
 
     def __init__(self, rest, is_free, solve, solves=1):
-        self._rest, self._is_free = rest, is_free
+        self._rest = rest
         weight = rest.standing
         share = weight / rest.sum_parts(weight)[rest.component]
         centre = self._sums(share[:, None] * rest.V)

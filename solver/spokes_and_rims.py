@@ -132,11 +132,8 @@ class _Pattern:
     def __init__(self, start, end, n):
         lower, upper = np.minimum(start, end), np.maximum(start, end)
         lower[start == end] = n  # sorted behind all others, and left out
-        order = stable_order(upper, n + 1)
-        order = order[stable_order(lower[order], n + 1)]
+        order, is_new = ordered_pairs(lower, upper, n + 1)
         lower, upper = lower[order], upper[order]
-        is_new = np.ones(len(order), dtype=bool)
-        is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
         self._edge = np.empty(len(order), dtype=np.intp)
         self._edge[order] = np.cumsum(is_new) - 1
         is_new &= lower < n
@@ -151,7 +148,7 @@ class _Pattern:
         indptr = np.concatenate([[0], np.cumsum(left + 1 + right)])
         self.diagonal = indptr[:-1] + left
         self._upper_place = count + np.repeat(self.diagonal + 1 - (np.cumsum(right) - right), right)
-        transposed = stable_order(upper, n)
+        transposed = _stable_order(upper, n)
         self._lower_place = np.empty_like(count)
         self._lower_place[transposed] = count + np.repeat(
             indptr[:-1] - (np.cumsum(left) - left), left
@@ -181,7 +178,17 @@ class _Pattern:
         return values
 
 
-def stable_order(keys, count):
+def ordered_pairs(lower, upper, n):
+    """Return the stable order (h,) of pairs below n, and which are not as the one before in it."""
+    order = _stable_order(upper, n).astype(np.intp)
+    order = order[_stable_order(lower[order], n)]
+    lower, upper = lower[order], upper[order]
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
+    return order, is_new
+
+
+def _stable_order(keys, count):
     """Return the stable order of integer keys below count, by counting instead of comparing."""
     rows = np.arange(len(keys) + 1, dtype=np.int32)
     one_per_row = sp.csr_matrix((keys, keys, rows), shape=(len(keys), count))

@@ -8,7 +8,7 @@ stair, is given a cube of its own, along its own sides.
 
 import numpy as np
 
-from ..edge_vectors import double_area_vectors, edge_vectors
+from ..rest_measures import triangle_areas_and_normals
 
 TOLERANCE = np.cos(np.radians(1.0))
 """between a side and the axes"""
@@ -28,11 +28,7 @@ def box_frames(V, F, part):
     part : (n,) int array
     """
     count = int(part.max()) + 1
-    vectors = np.empty((len(F), 3))
-    for block, edges in edge_vectors(V, F):
-        vectors[block] = double_area_vectors(edges).T
-    area = np.linalg.norm(vectors, axis=1)
-    unit = vectors / np.where(area > 0.0, area, 1.0)[:, None]
+    area, unit = triangle_areas_and_normals(V, F)
     of_face = part[F[:, 0]]
     total = np.bincount(of_face, area, count)
     first = _largest(of_face, area, unit, count)

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..spokes_and_rims import stable_order
+from ..spokes_and_rims import ordered_pairs
 
 
 def edges_of(start, end, n):
@@ -21,7 +21,7 @@ def edges_of(start, end, n):
         Which of them each of those given is.
     """
     lower, upper = np.minimum(start, end), np.maximum(start, end)
-    order, is_new = _ordered(lower, upper, n)
+    order, is_new = ordered_pairs(lower, upper, n)
     number = np.empty(len(order), dtype=np.intp)
     number[order] = np.cumsum(is_new) - 1
     first = order[is_new]
@@ -36,16 +36,6 @@ def faces_at_edges(F, n):
         triangles at one edge, each is paired with the next.
     """
     start, end = F.ravel(), F[:, [1, 2, 0]].ravel()
-    order, is_new = _ordered(np.minimum(start, end), np.maximum(start, end), n)
+    order, is_new = ordered_pairs(np.minimum(start, end), np.maximum(start, end), n)
     is_same = ~is_new[1:] & (start != end)[order][1:]
     return order[:-1][is_same] // 3, order[1:][is_same] // 3
-
-
-def _ordered(lower, upper, n):
-    """Return the stable order (h,) of pairs, and which are not as the one before them in it."""
-    order = stable_order(upper, n).astype(np.intp)
-    order = order[stable_order(lower[order], n)]
-    lower, upper = lower[order], upper[order]
-    is_new = np.ones(len(order), dtype=bool)
-    is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
-    return order, is_new

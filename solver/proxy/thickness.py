@@ -16,7 +16,7 @@ A link is accepted between a vertex and the vertex that its ball ends at, if
   has ended at its own neighbourhood, as in every convex corner;
 - the surfaces face away from each other.
 
-As no vertex of the part lies inside the ball, a link never crosses another wall of it.
+As next to no vertex of the part lies inside the ball, a link does not cross another wall of it.
 """
 
 import numpy as np
