@@ -15,7 +15,6 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from benchmark.best_energies import BestEnergies  # noqa: E402
-from benchmark.page import write_page  # noqa: E402
 from benchmark.suite import (  # noqa: E402
     FULL,
     PARTS,
@@ -25,6 +24,7 @@ from benchmark.suite import (  # noqa: E402
     renew_best_energies,
 )
 from benchmark.targets import targets  # noqa: E402
+from benchmark.written import write_page  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
 

@@ -3,27 +3,12 @@
 
 from . import summary, tables
 from .fit import FIT_FROM, FITTED_GAP, fit_of
-from .plots import plot_gaps, plot_scaling
 from .race import PLAIN_GAP, PLAIN_ITERATIONS, PLAIN_SECONDS
 from .suite import COARSE, DEFAULTS_CUBENESS, LARGE, LARGE_SCALING, PHASES_CUBENESS
 from .targets import FIFTY_THOUSAND, targets
 from .ten_iterations import CUBENESS, ITERATIONS
 
 GAPS_IMAGE, SCALING_IMAGE = "benchmark_gaps.png", "benchmark_scaling.png"
-
-
-def write_page(results, folder):
-    """Write ``benchmarks.md`` and its images into a folder; return the path of the page."""
-    images = folder / "images"
-    power, factor = fit_of(results["scaling"])
-    if results["race"]:
-        plot_gaps(results["race"], images / GAPS_IMAGE)
-    if results["scaling"]:
-        plot_scaling(results["scaling"], power, factor, FIT_FROM, images / SCALING_IMAGE)
-    path = folder / "benchmarks.md"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("\n\n".join(page(results, power)) + "\n", encoding="utf-8")
-    return path
 
 
 def page(results, power):
