@@ -14,6 +14,7 @@ from .settings import Settings
 
 _SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
+_SMALLEST_TURN = 1e-6  # radians; a cube that is turned by less is taken as not turned
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,8 @@ class Placement:
     stretch: np.ndarray
     """(3,3) symmetric stretch S of A = T S, up to rounding"""
     orientation: np.ndarray
-    """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame"""
+    """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame; one of
+    the 24 that are the same for a cube"""
 
     @property
     def is_mirrored(self):
@@ -84,6 +86,7 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
         As `stretch_and_orientation`.
     """
     stretch, orientation = stretch_and_orientation(obj, settings)
+    orientation = _without_right_angles(orientation)
     return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation)
 
 
@@ -104,7 +107,7 @@ def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement |
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
     orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
-    return Placement(linear, offset, turn, stretch, orientation)
+    return Placement(linear, offset, turn, stretch, _without_right_angles(orientation))
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -134,14 +137,15 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
 def world_axes(obj: bpy.types.Object, settings: Settings):
     """Return the axes of the cube in world space, as the columns of a (3,3) array.
 
+    Those of a mirrored object, which the angles are relative to, are left-handed.
+
     Raises
     ------
     CubicCraftError
         As `stretch_and_orientation`.
     """
     turn, _ = _turn_and_stretch(obj)
-    _, orientation = stretch_and_orientation(obj, settings)
-    return turn @ orientation.T
+    return turn @ _into_space(obj, settings, turn).T @ _axes(settings)
 
 
 def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
@@ -193,6 +197,16 @@ def _into_space(obj, settings, turn):
         )
     frame = settings.frame.matrix_world.to_quaternion().to_matrix()
     return np.array(frame, dtype=np.float64).T @ turn
+
+
+def _without_right_angles(orientation):
+    """Return the identity where a cube looks as if it were not turned.
+
+    So an object that stands by a right angle, as imported files do, or is mirrored, gets the bits
+    of one that is not.
+    """
+    is_like = np.allclose(orientation, np.round(orientation), rtol=0.0, atol=_SMALLEST_TURN)
+    return np.eye(3) if is_like else orientation
 
 
 def _proper(matrix):

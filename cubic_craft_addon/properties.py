@@ -24,8 +24,16 @@ from .object_properties import PROPERTY, object_properties
 from .settings import Settings
 
 _SPACES = (
-    ("OBJECT", "Object", "The angles are relative to the object's own axes"),
-    ("WORLD", "World", "The angles are relative to the axes of the world"),
+    (
+        "OBJECT",
+        "Object",
+        "The angles are relative to the object's own axes; it takes the cube along",
+    ),
+    (
+        "WORLD",
+        "World",
+        "The angles are relative to the axes of the world, however the object turns",
+    ),
     ("FRAME", "Frame", "The angles are relative to the axes of another object"),
 )
 _RESULTS = (
@@ -53,8 +61,8 @@ _REFINEMENTS = (
 )
 # The numbers are in files. 0 was Auto, which Blender reads as the default.
 _ROTATIONS = (
-    ("KEEP", "Keep", "No part turns or leans over as a whole", 1),
-    ("FREE", "Free", "A part may turn by some degrees, and fits the cube a little better", 2),
+    ("KEEP", "No", "No part turns or leans over as a whole: what stands upright stays upright", 1),
+    ("FREE", "Yes", "A part may turn by some degrees, and fits the cube a little better", 2),
 )
 _DEVICES = (
     ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
@@ -152,7 +160,7 @@ class RunProperties:
         options=_OPTIONS,
     )
     rotation: EnumProperty(
-        name="Rotation",
+        name="Parts May Turn",
         description="Whether parts stand as they do, or may turn as a whole to fit the cube."
         " Parts with handles stand as their handles say",
         items=_ROTATIONS,

@@ -18,7 +18,7 @@ class Settings:
     cubeness: float = 0.4
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Euler XYZ angles in radians"""
-    space: str = "OBJECT"
+    space: str = "WORLD"
     """what the angles are relative to: OBJECT, WORLD or FRAME"""
     frame: bpy.types.Object | None = None
     """the object that is the FRAME"""

@@ -63,6 +63,7 @@ def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], l
     can differ.
     """
     tasks, problems = [], []
+    unlike: dict[Task, list[str]] = {}
     for obj in objects:
         try:
             task = Task(obj, choice)
@@ -73,11 +74,17 @@ def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], l
         if twin is None or task.settings.result == "NEW_OBJECT":
             tasks.append(task)
         elif not twin.is_like(task):
-            problems.append(
-                f'"{obj.name}" shares its mesh with "{twin.obj.name}" and has taken its shape;'
-                " make it single-user for a shape of its own"
-            )
-    return tasks, problems
+            unlike.setdefault(twin, []).append(f'"{obj.name}"')
+    return tasks, problems + [_in_one_mesh(twin, names) for twin, names in unlike.items()]
+
+
+def _in_one_mesh(twin, names):
+    """Say that objects have the shape of another: in one sentence, for there may be hundreds."""
+    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and has taken its shape;'
+    if len(names) == 1:
+        return f"{shares} make it single-user for a shape of its own"
+    others = "another object" if len(names) == 2 else f"{len(names) - 1} others"
+    return f"{shares} so have {others}; make them single-user for shapes of their own"
 
 
 def key_of(tasks: Sequence[Task]) -> tuple:

@@ -19,7 +19,7 @@ def show(session):
         layout.label(text="Cancel", icon="EVENT_ESC")
         layout.label(text="Cancel", icon="MOUSE_RMB")
         layout.label(text="", icon="EVENT_CTRL")
-        layout.label(text="Take Back", icon="EVENT_Z")
+        layout.label(text="Undo", icon="EVENT_Z")
 
     bpy.context.workspace.status_text_set(draw)
     _is_shown = True

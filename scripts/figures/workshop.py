@@ -93,7 +93,7 @@ class Workshop:
 
         Parameters
         ----------
-        orientation : Euler angles of the cube in degrees
+        orientation : Euler angles of the cube in degrees, relative to the mesh
         others : of `cubic_craft_addon.settings.Settings`
 
         Raises
@@ -103,7 +103,7 @@ class Workshop:
         """
         radians = tuple(math.radians(angle) for angle in orientation)
         settings = self.extension.settings.Settings(
-            cubeness=cubeness, orientation=radians, **others
+            cubeness=cubeness, orientation=radians, space="OBJECT", **others
         )
         key = (model.name, settings)
         if key not in self._solved:

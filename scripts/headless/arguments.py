@@ -22,7 +22,8 @@ PAPER = {"solidity": 0.0, "together": "off", "refine": "off", "rotation": "free"
 EPILOG = """\
 The picture shows the original beside one result per cubeness. With --turntable it becomes a
 sequence name_0001.png ... in which every object turns once about its vertical axis.
-Orientation 0 0 0 means the axes of the object, which for an .obj are those of the file.
+Orientation 0 0 0 means the axes of the scene, where Z is up; with --space object those of each
+object, which for an .obj are those of the file.
 In Blender: blender -b -P scripts/headless_render.py -- [options]
 
 Several files, or folders of them, go to a folder: --output-folder DIR. A file that cannot be used
@@ -157,7 +158,14 @@ def _add_method(parser: argparse.ArgumentParser) -> None:
         type=_number(-36000.0, 36000.0),
         default=[0.0, 0.0, 0.0],
         metavar=("X", "Y", "Z"),
-        help="Euler angles of the cube in degrees, relative to the object",
+        help="Euler angles of the cube in degrees, as in the panel",
+    )
+    group.add_argument(
+        "--space",
+        choices=("world", "object"),
+        default="world",
+        help="what they are relative to: the axes of the scene that the file is read into, where Z"
+        " is up, or those of each object (default: world)",
     )
     group.add_argument(
         "--pin", nargs="+", default=[], metavar="GROUP", help="vertex groups that stay in place"

@@ -92,6 +92,7 @@ def _settings(
     """Return the Settings for one object; a group that only others have does not concern it."""
     return extension.settings.Settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
+        space=options.space.upper(),
         handles=handles,
         map_group=options.map if options.map in obj.vertex_groups else "",
         solidity=options.solidity,

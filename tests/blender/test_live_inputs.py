@@ -28,6 +28,25 @@ def test_the_frame_object_restarts_it(live, begin):
     assert bits(obj) == shape
 
 
+def test_it_follows_the_object_that_is_turned_in_the_world(live, begin):
+    obj = add_monkey()
+    session = begin(obj, together="PARTS")
+    tick_to_rest(session)
+    before = bits(obj)
+    obj.location.x += 1.0
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert bits(obj) == before, "where it stands does not matter"
+    obj.rotation_euler.z = 0.6
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert bits(obj) != before
+    confirm(live, session)
+    shape = bits(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
+
+
 def test_the_frame_object_may_be_deleted(live, begin):
     obj = add_monkey()
     frame = bpy.data.objects.new("Frame", None)
@@ -132,7 +151,7 @@ def test_a_handle_added_live_counts(live, begin):
 def test_moving_object_and_handles_together_restarts_nothing(live, begin):
     obj, _, _ = add_posable()
     empty = pose(obj)
-    session = begin(obj)
+    session = begin(obj, space="OBJECT")  # which takes the cube along
     tick_to_rest(session)
     done = session.meshes[0].iteration
     obj.location = (0.3, 5.1, -2.7)

@@ -170,7 +170,22 @@ def test_the_object_that_differs_from_its_twin_is_named():
     twin.scale.z = 3.0
     bpy.context.view_layer.update()
     select(first, twin)
-    assert "shares its mesh" in reports_of(cubify)
+    report = reports_of(cubify)
+    assert '"Twin" shares its mesh with "First" and has taken its shape; make it single' in report
+
+
+def test_objects_that_differ_from_their_twin_are_named_at_once():
+    first = add_monkey("First")
+    twins = [first.copy() for _ in range(3)]
+    for number, twin in enumerate(twins):
+        twin.name = f"Twin {number}"
+        bpy.context.collection.objects.link(twin)
+        twin.rotation_euler.z = 0.3 + number
+    bpy.context.view_layer.update()
+    select(first, *twins)
+    report = reports_of(cubify)
+    assert report.count("shares its mesh") == 1
+    assert '"Twin 0" shares its mesh' in report and "so have 2 others" in report
 
 
 def test_a_new_object_shows_how_it_was_made_and_is_changed_by_the_next_click():

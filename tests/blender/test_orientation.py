@@ -2,13 +2,14 @@
 """Which way the cube stands: spaces, the object's scale, and Auto Orient."""
 
 import importlib
+import math
 
 import bpy
 import numpy as np
 import pytest
 from mathutils import Euler
 from rich_mesh import position_of
-from scene import add_monkey, add_triangles, cubify
+from scene import add_monkey, add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh
 
 
@@ -20,6 +21,66 @@ def test_world_orientation_equals_turning_the_cube_against_the_object():
     inverse = obj.matrix_world.to_3x3().inverted().to_euler()
     cubify(space="OBJECT", orientation=tuple(inverse))
     np.testing.assert_allclose(position_of(obj.data), by_world, atol=1e-4)
+
+
+def test_the_angles_are_relative_to_the_world_unless_told_otherwise():
+    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
+    assert obj.cubic_craft.space == "WORLD"
+    cubify(orientation=(0.0, 0.0, 0.4))
+    shape = position_of(obj.data)
+    bpy.ops.cubic_craft.restore()
+    cubify(space="WORLD", orientation=(0.0, 0.0, 0.4))
+    assert position_of(obj.data).tobytes() == shape.tobytes()
+    bpy.ops.cubic_craft.restore()
+    cubify(space="OBJECT", orientation=(0.0, 0.0, 0.4))
+    assert np.abs(position_of(obj.data) - shape).max() > 1e-2
+
+
+RIGHT = math.pi / 2
+
+
+@pytest.mark.parametrize("together", ["PARTS", "SELECTION"])
+@pytest.mark.parametrize(
+    ("turn", "scale"),
+    [
+        ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
+        ((0.0, 0.0, 0.0), (2.0, 0.5, 1.3)),
+        ((RIGHT, 0.0, 0.0), (1.0, 1.0, 1.0)),  # as imported files stand
+        ((RIGHT, 0.0, -RIGHT), (0.01, 0.01, 0.01)),
+        ((0.0, 0.0, 0.0), (-1.0, 1.0, 1.0)),
+    ],
+)
+def test_an_object_that_stands_straight_has_the_same_bits_in_both_spaces(turn, scale, together):
+    obj = add_triangles()
+    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), turn, scale
+    bpy.context.view_layer.update()
+    shapes = []
+    for space in ("OBJECT", "WORLD"):
+        cubify(space=space, together=together, cubeness=0.7)
+        shapes.append(position_of(obj.data).tobytes())
+        bpy.ops.cubic_craft.restore()
+    assert shapes[0] == shapes[1] != position_of(obj.data).tobytes()
+
+
+def test_an_imported_obj_turns_about_the_axis_that_is_up(tmp_path):
+    """An .obj has Y up, and stands by an X rotation of a right angle."""
+    path = tmp_path / "monkey.obj"
+    standing = add_triangles()
+    bpy.ops.object.select_all(action="DESELECT")
+    standing.select_set(True)
+    bpy.ops.wm.obj_export(filepath=str(path), export_selected_objects=True)
+    bpy.ops.wm.obj_import(filepath=str(path))
+    imported = bpy.context.selected_objects[0]
+    assert imported.rotation_euler.x == pytest.approx(RIGHT)
+    for obj in (standing, imported):
+        select(obj)
+        cubify(orientation=(0.0, 0.0, 0.5), cubeness=0.8)
+    world = np.array(imported.matrix_world)[:3, :3]
+    shape = position_of(standing.data)
+    # The file has six digits, of which a run that has not converged makes more.
+    np.testing.assert_allclose(position_of(imported.data) @ world.T, shape, atol=0.02)
+    cubify(space="OBJECT", orientation=(0.0, 0.0, 0.5), cubeness=0.8)
+    assert np.abs(position_of(imported.data) @ world.T - shape).max() > 0.1
 
 
 def test_the_frame_object_gives_the_orientation():
@@ -114,6 +175,16 @@ def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
     np.testing.assert_allclose(along.max(axis=1), 1.0, atol=1e-4)
     lengths = np.linalg.norm(points[7::2] - points[6::2], axis=1)
     np.testing.assert_allclose(lengths, 2 * np.linalg.norm(axes[0]), rtol=1e-5)
+
+
+def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(extension):
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
+    obj.scale.x = -1.0
+    bpy.context.view_layer.update()
+    points, _ = overlay.lines_of(obj)
+    axes = points[1:6:2] - points[0:6:2]
+    np.testing.assert_allclose(axes / np.linalg.norm(axes[0]), np.eye(3), atol=1e-6)
 
 
 def test_the_overlay_leaves_no_handler_behind(extension):

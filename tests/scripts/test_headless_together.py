@@ -61,6 +61,7 @@ def test_the_paper_is_its_options_in_full(source, tmp_path):
     in_full, by_options = run(source, tmp_path, *words)
     assert paper["settings"] == in_full["settings"]
     assert paper["settings"] == {
+        "space": "world",
         "solidity": 0.0,
         "together": "off",
         "refine": "off",

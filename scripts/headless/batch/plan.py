@@ -13,7 +13,7 @@ from .sources import Source
 __all__ = ("FORWARDED", "Job", "plan")
 
 FORWARDED = (
-    *("object", "cubeness", "orientation", "pin", "handles_file", "map"),
+    *("object", "cubeness", "orientation", "space", "pin", "handles_file", "map"),
     *("solidity", "together", "refine", "rotation"),
     *("max_iterations", "tolerance", "device"),
     *("engine", "samples", "resolution", "turn", "turntable", "no_render", "verbose"),
