@@ -6,13 +6,14 @@ told.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import bpy
 
 from ..solver import CubicCraftError
 from .handles import Handle
+from .handles.own_pose import Pose
 from .handles.pose import posed_handles
 from .object_properties import object_properties
 from .properties import RunProperties, settings_of, value_of
@@ -33,6 +34,9 @@ class Choice:
     frame: bpy.types.Object | None = None
     handles: tuple[Handle, ...] | None = None
     """in place of those of the objects"""
+    poses: Mapping[int, Mapping[int, Pose]] = field(default_factory=dict)
+    """in place of those that handles have of themselves, by ``session_uid`` of the object and
+    number of the handle (`identify`)"""
 
     def settings_for(self, obj: bpy.types.Object) -> Settings:
         """Return the settings with which an object is to be cubified.
@@ -45,7 +49,8 @@ class Choice:
         changes = {name: value for name, value in self.values.items() if name in _PLAIN}
         handles = self.handles
         if handles is None:
-            handles = posed_handles(obj) if self.uses_own_handles(obj) else ()
+            poses = self.poses.get(obj.session_uid)
+            handles = posed_handles(obj, poses) if self.uses_own_handles(obj) else ()
         if self.values.get("space") == "FRAME":
             changes["frame"] = self.frame
         return replace(settings_of(obj, handles), **changes)

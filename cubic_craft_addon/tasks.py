@@ -16,6 +16,7 @@ from .assembly import Member, Prepared, prepare, read_member
 from .choice import Choice
 from .failures import UNFORESEEN, in_words
 from .handles.baked_pose import remember_pose
+from .handles.own_pose import keep_poses
 from .object_frame import placement_alone, placement_in_world
 from .object_properties import object_properties
 from .settings_rollback import settings_kept
@@ -169,6 +170,7 @@ def _write(choice, task, status):
     """Write one solution, or nothing at all."""
 
     def remember(target):
+        keep_poses(target, choice.poses.get(task.uid, {}))
         # A shape key poses nothing: its basis is still the original.
         is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
         remember_pose(target, is_posed=is_posed)

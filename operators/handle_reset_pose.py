@@ -1,38 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reset Pose: what the handles follow goes back to where nothing moves."""
+"""Reset Pose: the handles, and what they follow, go back to where nothing moves."""
 
 import bpy
 
+from ..cubic_craft_addon.handles.handle import IDENTITY
+from ..cubic_craft_addon.handles.own_pose import has_pose, set_own_pose
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
+from ..cubic_craft_addon.object_properties import object_properties
 from .active_handle import poll_mesh
 
 
 class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
-    """Put what the handles follow back to where it was when they began to follow it."""
+    """Take the handles' own poses away, and put what they follow back to where it began."""
 
     bl_idname = "cubic_craft.handle_reset_pose"
     bl_label = "Reset Pose"
     bl_description = (
-        "Put the objects that the handles follow back to where they were at the beginning; the"
-        " next Cubify then leaves the vertices of the handles in place"
+        "Put the handles, and the objects that they follow, back to where they were at the"
+        " beginning; the next Cubify then leaves the vertices of the handles in place"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context):
-        """There is a handle that follows something."""
+        """There is a handle that is posed or follows something."""
         if not poll_mesh(cls, context):
             return False
-        if not any(True for _ in followed(panel_object(context))):
-            cls.poll_message_set("No handle follows anything")
+        obj = panel_object(context)
+        is_posed = any(map(has_pose, object_properties(obj).handles))
+        if not is_posed and not any(True for _ in followed(obj)):
+            cls.poll_message_set("No handle is posed or follows anything")
             return False
         return True
 
     def execute(self, context):
-        """Put each target back."""
+        """Take each pose away, and put each target back."""
         obj = panel_object(context)
         for handle, target in followed(obj):
             if target != obj:
                 reset(obj, handle)
+        for handle in object_properties(obj).handles:
+            if has_pose(handle):
+                set_own_pose(handle, IDENTITY)
         return {"FINISHED"}

@@ -3,8 +3,8 @@
 
 Apply makes the posed shape the original, and so does an edit by hand. The next Cubify starts from
 that, where the vertices are with their targets already; without a new rest it would move them by
-the same way once more. So each handle remembers the relation of its target (see `pose`) with
-which the mesh was last written.
+the same way once more. So each handle remembers the relation of its target (see `pose`), and the
+pose of its own, with which the mesh was last written.
 """
 
 import bpy
@@ -12,7 +12,8 @@ from mathutils import Matrix
 
 from .. import mesh_bridge
 from ..object_properties import has_properties, object_properties
-from .pose import followed, relation
+from .own_pose import has_pose, pose_since_baked
+from .pose import live_target, relation
 
 
 def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
@@ -26,14 +27,14 @@ def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
     """
     mesh = mesh_bridge.mesh_of(obj)
     users = _users(mesh) if mesh.users > 1 else [obj]
-    targets = [target for _, target in followed(obj)] if is_posed else []
+    written = list(object_properties(obj).handles) if is_posed else []
     for user in users:
         for handle in object_properties(user).handles:
-            handle.is_baked = False
-        for handle, target in followed(user):
-            if target in targets:
-                handle.baked = Matrix(relation(user, handle).tolist())
-                handle.is_baked = True
+            handle.is_baked = any(_is_as(handle, other) for other in written)
+            if handle.is_baked:
+                is_led = live_target(handle) is not None
+                now = Matrix(relation(user, handle).tolist()) if is_led else handle.rest
+                handle.baked, handle.baked_pose = now, handle.pose
 
 
 def rest_in_pose(mesh: bpy.types.Mesh) -> None:
@@ -42,6 +43,7 @@ def rest_in_pose(mesh: bpy.types.Mesh) -> None:
         for handle in object_properties(user).handles:
             if handle.is_baked:
                 handle.rest = handle.baked
+                handle.pose = pose_since_baked(handle)
                 handle.is_baked = False
 
 
@@ -52,6 +54,14 @@ def settle(objects: list[bpy.types.Object]) -> None:
         is_baked = any(handle.is_baked for handle in object_properties(obj).handles)
         if is_baked and not mesh_bridge.has_original(mesh):
             rest_in_pose(mesh)
+
+
+def _is_as(handle, other):
+    """Tell whether a handle moves vertices as the other one, with which the mesh was written."""
+    target = live_target(handle)
+    if target is not None or live_target(other) is not None:
+        return target == live_target(other)
+    return has_pose(handle) and handle.group == other.group and handle.pose == other.pose
 
 
 def _users(mesh):

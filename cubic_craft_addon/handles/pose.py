@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pose: where the targets of an object's handles have gone since they were bound.
+"""The pose: where the handles are, and where their targets have gone since they were bound.
 
 A target's *relation* to the object is its matrix in the object's coordinates; B is the relation
-when the handle was bound, C is the one now, and the handle's vertices are mapped by M = C B^-1.
+when the handle was bound, C is the one now, and the handle's vertices are mapped by M = C B^-1 P,
+where P is the pose that the handle has of itself (see `own_pose`).
 
 Invariant: M is the same, bit for bit, as long as object and target move together; Live starts anew
 whenever it changes. That is why the relation of a child comes from its own transform: its matrix in
@@ -12,7 +13,7 @@ the world carries the rounding (32 bit) of wherever the object is.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import bpy
@@ -22,11 +23,11 @@ from mathutils import Matrix
 from ...solver.errors import CubicCraftError
 from ..object_properties import has_properties, object_properties
 from .handle import IDENTITY, Handle
+from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
 
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
 
-_SMALLEST_SCALE = 1e-6  # relative; a flatter target or object has no inverse worth the name
 _STILL = 1e-6  # relative; a target that has moved less has not moved
 _DIGITS = 5  # of a matrix that comes by way of the world
 
@@ -42,10 +43,18 @@ def object_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
     return posed_handles(obj) if object_properties(obj).use_handles else ()
 
 
-def posed_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
+def posed_handles(
+    obj: bpy.types.Object, poses: Mapping[int, Pose] | None = None
+) -> tuple[Handle, ...]:
     """Return the handles of the object as they are posed now, switched on or off.
 
-    Cheap: it looks at no vertex. A handle whose target was deleted is pinned where it is at rest.
+    Cheap: it looks at no vertex. A handle whose target was deleted is where its own pose says.
+
+    Parameters
+    ----------
+    obj
+    poses : mapping of int to Pose, optional
+        In place of those that the handles of these numbers (`identify`) have of themselves.
 
     Raises
     ------
@@ -54,7 +63,11 @@ def posed_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
         the message names the object and the cure.
     """
     return tuple(
-        Handle(_group(obj, number, item), threshold=item.threshold, matrix=_matrix(obj, item))
+        Handle(
+            _group(obj, number, item),
+            threshold=item.threshold,
+            matrix=_matrix(obj, item, (poses or {}).get(item.uid) or own_pose(item)),
+        )
         for number, item in enumerate(object_properties(obj).handles, start=1)
     )
 
@@ -66,7 +79,6 @@ def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
     """
     target = handle.target
     object_properties(target).is_target = True
-    handle.is_baked = False
     parent = target.parent
     handle.is_foreign = parent is not None and parent != obj and parent.type == "MESH"
     if target == obj:
@@ -78,7 +90,7 @@ def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
     except CubicCraftError:
         handle.target = None
     else:
-        handle.rest = Matrix(matrix.tolist())
+        handle.rest = handle.baked = Matrix(matrix.tolist())
 
 
 def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
@@ -131,8 +143,17 @@ def _group(obj, number, handle):
     return handle.group
 
 
-def _matrix(obj, handle):
+def _matrix(obj, handle, pose):
     """Return M as 16 numbers, row by row."""
+    check_pose(obj, handle, pose)
+    motion = _motion(obj, handle)
+    if IDENTITY in (motion, pose):
+        return pose if motion == IDENTITY else motion
+    return tuple((np.reshape(motion, (4, 4)) @ np.reshape(pose, (4, 4))).ravel().tolist())
+
+
+def _motion(obj, handle):
+    """Return what the target does, C B^-1, as 16 numbers, row by row."""
     target = live_target(handle)
     if target is None:
         return IDENTITY
@@ -212,7 +233,7 @@ def _is_in_a_scene(target):
 def _check_invertible(matrix, obj, target):
     if np.isfinite(matrix).all():
         sizes = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-        if sizes[-1] > _SMALLEST_SCALE * sizes[0]:
+        if sizes[-1] > SMALLEST_SCALE * sizes[0]:
             return
     whose = "it" if target == obj else f'"{target.name}"'
     raise CubicCraftError(

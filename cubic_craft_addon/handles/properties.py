@@ -10,6 +10,7 @@ from bpy.props import (
     EnumProperty,
     FloatProperty,
     FloatVectorProperty,
+    IntProperty,
     PointerProperty,
     StringProperty,
 )
@@ -71,9 +72,24 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
         subtype="MATRIX",
         default=_IDENTITY,
     )
+    pose: FloatVectorProperty(
+        name="Pose",
+        description="Matrix in object space by which the vertices are moved, before what they"
+        " follow moves them on (a mathutils.Matrix)",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
     baked: FloatVectorProperty(
         name="Baked",
         description="Matrix of the target, relative to the object, when the mesh was written",
+        size=(4, 4),
+        subtype="MATRIX",
+        default=_IDENTITY,
+    )
+    baked_pose: FloatVectorProperty(
+        name="Baked Pose",
+        description="The pose when the mesh was written",
         size=(4, 4),
         subtype="MATRIX",
         default=_IDENTITY,
@@ -85,6 +101,10 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
     is_foreign: BoolProperty(
         name="Foreign Target",
         description="The target belonged to another mesh when it was picked",
+    )
+    uid: IntProperty(
+        name="Number",
+        description="What tells the handle from the others of its object, 0 as long as none asked",
     )
 
 

@@ -70,7 +70,7 @@ def test_what_is_missing_is_said_before_the_click():
     for verb in ("remove", "move", "follow"):
         with pytest.raises(RuntimeError, match="Add a handle first"):
             getattr(bpy.ops.cubic_craft, f"handle_{verb}")()
-    with pytest.raises(RuntimeError, match="No handle follows anything"):
+    with pytest.raises(RuntimeError, match="No handle is posed or follows anything"):
         bpy.ops.cubic_craft.handle_reset_pose()
     bpy.context.view_layer.objects.active = None
     for verb in ("add", "remove", "move", "follow", "pin_selection", "reset_pose"):
