@@ -16,7 +16,9 @@ import numpy as np
 from .. import solver
 from . import handles, mesh_bridge
 from .assembly import Prepared
+from .floor import kept_on_floor
 from .kernel_cache import use_extension_folder
+from .mirrored_cubes import orientations
 
 
 @dataclass(frozen=True)
@@ -30,13 +32,17 @@ class Solution:
     result: solver.Result
     """of all that was solved with it"""
     setup_seconds: float
+    vertices: int
+    """number of vertices of all objects that were solved at once"""
     objects: int = 1
     """number of objects that were solved at once, this one included"""
+    matching: int | None = None
+    """number of vertices that have a mirror image, where Symmetry is asked for"""
 
     @property
-    def vertices(self):
-        """Number of vertices of all objects that were solved at once."""
-        return len(self.result.positions)
+    def own_vertices(self):
+        """Number of vertices of the object."""
+        return len(self.positions)
 
     @property
     def seconds(self):
@@ -106,10 +112,18 @@ def glance(prepared: Prepared, run: solver.Run, with_rotations: bool):
 def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
     """Return what a run has come to, for each member; it cannot go on after that."""
     result = run.result()
-    count = len(prepared.members)
+    found = _read_back(prepared, result.positions, result.rotations)
     return tuple(
-        Solution(positions, rotations, result, prepared.seconds, count)
-        for positions, rotations in _read_back(prepared, result.positions, result.rotations)
+        Solution(
+            positions,
+            rotations,
+            result,
+            prepared.seconds,
+            prepared.vertices,
+            len(prepared.members),
+            member.whole.matching,
+        )
+        for member, (positions, rotations) in zip(prepared.members, found, strict=True)
     )
 
 
@@ -152,21 +166,26 @@ def _cubeness(prepared):
         return values[0] * factors[0]
     return np.concatenate(
         [
-            np.broadcast_to(value * factor, member.vertices)
+            member.of_whole(value * factor)
             for member, value, factor in zip(prepared.members, values, factors, strict=True)
         ]
     )
 
 
 def _orientation(prepared):
-    """Return the orientation, (3,3), or (N,3,3) where the objects' axes differ."""
-    all_of_them = [placement.orientation for placement in prepared.placements]
-    first = all_of_them[0]
+    """Return the orientation, (3,3), or (N,3,3) where the objects' axes differ.
+
+    Beyond a plane of symmetry the cube is mirrored as well.
+    """
+    found = [orientations(member.whole, placement) for member, placement, _ in prepared.parts()]
+    first = found[0][0]
     # The rounding of world matrices is no difference.
-    if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in all_of_them):
+    if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in found):
         return first
-    counts = [member.vertices for member in prepared.members]
-    return np.repeat(np.stack(all_of_them), counts, axis=0)
+    counts = [len(member.whole.source) for member in prepared.members]
+    return np.concatenate(
+        [np.broadcast_to(Q, (count, 3, 3)) for Q, count in zip(found, counts, strict=True)]
+    )
 
 
 def _targets(prepared):
@@ -174,7 +193,11 @@ def _targets(prepared):
     return np.concatenate(
         [
             placement.place(
-                handles.targets(member.shape.original, member.handle_of, member.settings.handles)
+                member.whole.images(
+                    handles.targets(
+                        member.shape.original, member.handle_of, member.settings.handles
+                    )
+                )
             )
             for member, placement, _ in prepared.parts()
         ]
@@ -184,12 +207,20 @@ def _targets(prepared):
 def _read_back(prepared, positions, rotations):
     """Return what the solver gives, for each member in its object's coordinates."""
     at_rest = prepared.setup.rest.input_positions
+    if prepared.settings.floor:
+        positions = kept_on_floor(prepared.setup, positions, prepared.placements[0].up)
+    is_held = np.zeros(len(at_rest), dtype=bool)
+    is_held[prepared.setup.pinned_input] = True
     found = []
-    for member, placement, part in prepared.parts():
+    for member, placement, whole_part in prepared.parts():
+        part = slice(whole_part.start, whole_part.start + member.vertices)
         own = placement.read_back(positions[part]).astype(np.float32)
         # What the solver holds must not move by a rounding of the placement.
         is_still = (positions[part] == at_rest[part]).all(axis=1) | prepared.is_idle
         own[is_still] = member.shape.original[is_still]
         turned = None if rotations is None else placement.read_rotations_back(rotations[part])
+        member.whole.settle(own, is_held[part] | is_still)
+        if turned is not None:
+            member.whole.settle_rotations(turned, is_held[part])
         found.append((own, turned))
     return found

@@ -36,6 +36,8 @@ class Placement:
     orientation: np.ndarray
     """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame; one of
     the 24 that are the same for a cube"""
+    up: np.ndarray
+    """(3,) unit vector that points up in the world"""
 
     @property
     def is_mirrored(self):
@@ -62,6 +64,12 @@ class Placement:
         centred = placed - self.offset if self.offset.any() else placed
         return centred @ np.linalg.inv(self.linear).T
 
+    def mirror(self, mirror):
+        """Return the Mirror of an object's coordinates in those that it is solved in."""
+        linear = self.linear @ mirror.linear @ np.linalg.inv(self.linear)
+        offset = self.linear @ mirror.offset + self.offset - linear @ self.offset
+        return solver.Mirror(mirror.partner, linear, offset)
+
     def read_rotations_back(self, rotations):
         """Return the rotations (n,3,3) of surroundings of vertices in object coordinates.
 
@@ -87,7 +95,8 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     """
     stretch, orientation = stretch_and_orientation(obj, settings)
     orientation = _without_right_angles(orientation)
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation)
+    turn, _ = _turn_and_stretch(obj)
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2])
 
 
 def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
@@ -106,8 +115,9 @@ def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement |
     turn, stretch = _turn_and_stretch(obj)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
-    return Placement(linear, offset, turn, stretch, _without_right_angles(orientation))
+    orientation = proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
+    orientation, up = _without_right_angles(orientation), np.array([0.0, 0.0, 1.0])
+    return Placement(linear, offset, turn, stretch, orientation, up)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -131,7 +141,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
     turn, stretch = _turn_and_stretch(obj)
-    return stretch, _proper(_axes(settings).T @ _into_space(obj, settings, turn))
+    return stretch, proper(_axes(settings).T @ _into_space(obj, settings, turn))
 
 
 def world_axes(obj: bpy.types.Object, settings: Settings):
@@ -154,7 +164,7 @@ def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
     Of the 24 that are the same for a cube, these are the smallest.
     """
     turn, _ = _turn_and_stretch(obj)
-    axes = _proper(_into_space(obj, settings, turn) @ orientation.T)
+    axes = proper(_into_space(obj, settings, turn) @ orientation.T)
     return Matrix(solver.nearest_to_identity(axes.T).T).to_euler()
 
 
@@ -209,6 +219,6 @@ def _without_right_angles(orientation):
     return np.eye(3) if is_like else orientation
 
 
-def _proper(matrix):
+def proper(matrix):
     """Return the rotation that is the same for a cube, which looks alike in a mirror."""
     return matrix if np.linalg.det(matrix) > 0.0 else -matrix

@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 from bpy.props import (
     BoolProperty,
+    BoolVectorProperty,
     CollectionProperty,
     EnumProperty,
     FloatProperty,
@@ -165,6 +166,21 @@ class RunProperties:
         " Parts with handles stand as their handles say",
         items=_ROTATIONS,
         default=Settings.rotation,
+        options=_OPTIONS,
+    )
+    symmetry: BoolVectorProperty(
+        name="Symmetry",
+        description="Halves that are mirror images about the object's origin stay so, exactly. A"
+        " Mirror modifier is followed without it",
+        subtype="XYZ",
+        default=Settings.symmetry,
+        options=_OPTIONS,
+    )
+    floor: BoolProperty(
+        name="Keep on Floor",
+        description="The lowest point keeps its height in the world; not of parts that handles or"
+        " the cubeness map hold",
+        default=Settings.floor,
         options=_OPTIONS,
     )
     device: EnumProperty(

@@ -37,6 +37,10 @@ class Settings:
     """AUTO solves coarse meshes on a finer copy, OFF as they are"""
     rotation: str = "KEEP"
     """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
+    symmetry: tuple[bool, bool, bool] = (False, False, False)
+    """about which axes of the object halves stay mirror images"""
+    floor: bool = False
+    """whether what stands on the ground keeps its height"""
     device: str = "AUTO"
     """AUTO, CPU, GPU or NUMPY"""
     max_iterations: int = 1000

@@ -12,15 +12,17 @@ import numpy as np
 
 from ..solver import CubicCraftError
 from . import cubify, mesh_bridge
-from .assembly import Member, Prepared, prepare, read_member
+from .assembly import Prepared, prepare
 from .choice import Choice
 from .failures import UNFORESEEN, in_words
 from .handles.baked_pose import remember_pose
 from .handles.own_pose import keep_poses
+from .member import Member, read_member
 from .object_frame import placement_alone, placement_in_world
 from .object_properties import object_properties
 from .settings_rollback import settings_kept
 from .taichi_news import taichi_news
+from .whole import modifier_reflections
 
 _log = logging.getLogger(__name__)
 
@@ -33,13 +35,15 @@ class Task:
         self.uid = obj.session_uid
         self.settings = choice.settings_for(obj)
         self.solution: cubify.Solution | None = None
+        self._reflections = modifier_reflections(obj)
         self._alone = placement_alone(obj, self.settings)
         self.in_world = placement_in_world(obj, self.settings)
 
     @property
     def key(self):
         """All that decides the solution beside the mesh; free of references to Blender's data."""
-        return replace(self.settings, frame=None), self._alone.key
+        up = self._alone.up.tobytes() if self.settings.floor else b""
+        return replace(self.settings, frame=None), self._reflections, up, self._alone.key
 
     @property
     def key_in_world(self):
@@ -52,6 +56,8 @@ class Task:
         return (
             self.mesh == other.mesh
             and self.settings == other.settings
+            and self._reflections == other._reflections
+            and (not self.settings.floor or np.allclose(one.up, two.up))
             and np.allclose(one.linear, two.linear)
             and np.allclose(one.orientation, two.orientation)
         )
@@ -185,6 +191,8 @@ def _status(solution):
     r = solution.result
     end = "converged" if r.converged else "not converged, raise Max Iterations"
     of_what = f" of {solution.objects} objects" if solution.objects > 1 else ""
+    if solution.matching is not None:
+        of_what += f", {solution.matching:,} of {solution.own_vertices:,} match"
     return (
         f"{solution.vertices:,} vertices{of_what}, {r.iterations} iterations, energy"
         f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"

@@ -5,7 +5,7 @@ import bpy
 
 from .. import solver
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.assembly import read_shape
+from ..cubic_craft_addon.member import read_shape
 from ..cubic_craft_addon.object_frame import angles_of, placement_alone
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import settings_of

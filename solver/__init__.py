@@ -22,12 +22,15 @@ if TYPE_CHECKING:
     from .setup import Setup
     from .stop_rule import StopRule
     from .stylization import Energy, Stylization
+    from .symmetry import NO_PARTNER, Mirror, commuting, partners
 
 __all__ = [
     "DEVICES",
+    "NO_PARTNER",
     "PAPER",
     "CubicCraftError",
     "Energy",
+    "Mirror",
     "Progress",
     "ProxyOptions",
     "RestMesh",
@@ -37,7 +40,9 @@ __all__ = [
     "StopRule",
     "Stylization",
     "auto_orient",
+    "commuting",
     "nearest_to_identity",
+    "partners",
     "problem_with_taichi",
     "rest_mesh",
     "run",
@@ -50,6 +55,8 @@ __all__ = [
 _MODULES = {
     "DEVICES": "backends",
     "Energy": "stylization",
+    "Mirror": "symmetry",
+    "NO_PARTNER": "symmetry",
     "PAPER": "proxy.options",
     "Progress": "progress",
     "ProxyOptions": "proxy.options",
@@ -60,7 +67,9 @@ _MODULES = {
     "StopRule": "stop_rule",
     "Stylization": "stylization",
     "auto_orient": "auto_orientation",
+    "commuting": "symmetry",
     "nearest_to_identity": "auto_orientation",
+    "partners": "symmetry",
     "problem_with_taichi": "backends",
     "rest_mesh": "rest",
     "run": "runner",

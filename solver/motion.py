@@ -61,6 +61,8 @@ class Motion:
         U = self._setup.global_step.positions(
             self._local.right_hand_side(), self.point, keep_rotation
         )
+        for mirror in self._setup.mirrors:
+            mirror.impose(U)
         way, point = U - self._U, U - self.point
         displacement = _largest(way)
         if rest.component_count > 1:

@@ -7,10 +7,14 @@ import numpy as np
 
 from .errors import CubicCraftError
 from .global_step import GlobalStep
+from .symmetry import NO_PARTNER, Mirror, commuting, partners
 
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, of a ring that is left free beside what is still:
 it moves by less than that is long."""
+
+MATCHING = 1e-3
+"""Largest distance, in the unit box, between a midpoint and the image of its partner."""
 
 
 class Setup:
@@ -24,6 +28,9 @@ class Setup:
     still : (N,) array_like of bool, optional
         Vertices of the input that are asked to stay where they are. They are held, but for one ring
         next to what moves if that is narrow: so the surface bends there without a crease.
+    mirrors : sequence of Mirror, optional
+        Of the input, in its unit: halves that stay mirror images of each other. What is held is
+        left out.
 
     Raises
     ------
@@ -38,9 +45,11 @@ class Setup:
         Those that are not loose, as indices into ``rest.V``.
     has_pin : (component_count,) bool array
         Components with a pinned vertex.
+    mirrors : tuple of Mirror
+        Of the solved vertices, in the unit box.
     """
 
-    def __init__(self, rest, pinned=(), still=None):
+    def __init__(self, rest, pinned=(), still=None, mirrors=()):
         pinned = np.asarray(pinned)
         if pinned.size and not np.issubdtype(pinned.dtype, np.integer):
             raise CubicCraftError(f"pinned must list vertices by number, not be {pinned.dtype}")
@@ -60,7 +69,15 @@ class Setup:
         self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
         self.has_pin = np.zeros(rest.component_count, dtype=bool)
         self.has_pin[rest.component[self.pinned]] = True
+        self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
+
+    def _solved(self, mirrors):
+        """Return mirrors of the input as those of the solved vertices."""
+        is_pinned = np.zeros(len(self.rest.V), dtype=bool)
+        is_pinned[self.pinned] = True
+        found = [_solved(self.rest, mirror).without(is_pinned) for mirror in mirrors]
+        return commuting(found)
 
     @cached_property
     def coarse(self):
@@ -83,3 +100,24 @@ def _held_by(rest, still):
     is_still[F[is_left].ravel()] = False
     used, place = rest.place
     return used[still[used] & is_still[place]]
+
+
+def _solved(rest, mirror):
+    """Return a Mirror of the input as one of the solved vertices, in the unit box."""
+    offset = rest.box.to_unit(mirror.image(rest.box.origin[None]))[0]
+    solved = np.full(len(rest.input_positions) + 1, NO_PARTNER)
+    used, place = rest.place
+    solved[used] = place
+    partner = np.full(len(rest.V), NO_PARTNER)
+    partner[place] = solved[mirror.partner[used]]
+    # Midpoints are found where they are: the diagonals that they lie on need not have images.
+    is_added = np.ones(len(rest.V), dtype=bool)
+    is_added[place] = False
+    added = np.flatnonzero(is_added)
+    if len(added):
+        V = rest.V[added]
+        other = partners(V, V @ mirror.linear.T + offset, MATCHING)
+        partner[added] = np.where(other == NO_PARTNER, NO_PARTNER, added[other])
+    is_mutual = partner[partner] == np.arange(len(partner))
+    partner[~is_mutual] = NO_PARTNER
+    return Mirror(partner, mirror.linear, offset)

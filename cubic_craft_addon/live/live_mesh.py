@@ -7,7 +7,7 @@ import bpy
 
 from ... import solver
 from .. import mesh_bridge
-from ..assembly import Member, read_shape
+from ..member import Member, read_shape
 from ..tasks import Task
 from .live_run import LiveRun
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from ... import solver
 from .. import cubify
-from ..assembly import Member, Prepared
+from ..assembly import Prepared
+from ..member import Member
 from ..tasks import Task, key_of, prepare_all
 
 _FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles

@@ -96,8 +96,22 @@ class TaichiMotion:
         self._cycle.run()
         whole = self._whole(keep_rotation)
         self._kernels.move(*self._move_arguments(*whole, momentum, further))
+        if self._setup.mirrors:
+            self._impose_mirrors()
         displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
         return float(displacement), float(distance)
+
+    def _impose_mirrors(self):
+        """Make the positions symmetric, and with them where the next local step looks.
+
+        In NumPy: it takes the arrays from a GPU and back, but only those who ask for symmetry wait.
+        """
+        arrays = self._local.arrays
+        for kept in (self._U, self.point):
+            values = np.array(arrays.fetch(kept))
+            for mirror in self._setup.mirrors:
+                mirror.impose(values)
+            arrays.put(kept, values)
 
     def _moments_arguments(self):
         return (

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object of what is solved at once, read from Blender into plain arrays.
+
+`read_member` changes nothing.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import time
+from dataclasses import dataclass
+from functools import cached_property
+
+import bpy
+import numpy as np
+
+from .. import solver
+from ..solver.components import components
+from ..solver.mesh_checks import check_mesh
+from . import handles, mesh_bridge
+from .object_frame import Placement, placement_alone, placement_in_world
+from .requirements import check_requirements
+from .settings import Settings
+from .whole import Whole, modifier_reflections
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What is read once from a mesh: the original shape and its virtual triangulation."""
+
+    original: np.ndarray
+    """(n,3) float32 positions, object space"""
+    triangles: np.ndarray
+    """(m,3) int"""
+
+    def is_like(self, other: Shape) -> bool:
+        """Tell whether both are the same, bit for bit."""
+        if self is other:
+            return True
+        is_same = self.original.tobytes() == other.original.tobytes()
+        return is_same and np.array_equal(self.triangles, other.triangles)
+
+    @cached_property
+    def components(self):
+        """Number of connected parts, loose vertices not counted."""
+        count = len(self.original)
+        used = np.unique(self.triangles)
+        return components(self.triangles, count)[0] - (count - len(used))
+
+
+@dataclass(frozen=True)
+class Member:
+    """One object of an assembly, free of references to Blender's data."""
+
+    uid: int
+    """``session_uid`` of the object"""
+    name: str
+    shape: Shape
+    whole: Whole
+    """the shape with what its Mirror modifier adds"""
+    settings: Settings
+    alone: Placement
+    in_world: Placement | None
+    """None where it cannot be solved with others"""
+    handle_of: np.ndarray
+    """(n,) int, the number of the handle that holds each vertex, or -1"""
+    map_weights: np.ndarray | float
+    """(n,) factors of the cubeness, or 1"""
+    seconds: float
+    """that reading it took"""
+
+    @property
+    def vertices(self):
+        """Number of vertices."""
+        return len(self.shape.original)
+
+    @property
+    def triangles(self):
+        """Number of triangles of the virtual triangulation."""
+        return len(self.shape.triangles)
+
+    @property
+    def components(self):
+        """Number of connected parts, loose vertices not counted."""
+        return self.shape.components
+
+    @property
+    def is_held(self):
+        """(n,) bool, the vertices that handles hold."""
+        return self.handle_of >= 0
+
+    def of_whole(self, values):
+        """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
+        return np.broadcast_to(values, (self.vertices, *np.shape(values)[1:]))[self.whole.source]
+
+    @property
+    def is_still(self):
+        """(n,) bool, the vertices that nothing asks to change.
+
+        Where the map is 0. Not where a handle is posed: then the rest is asked to follow.
+        """
+        if any(handle.matrix != handles.IDENTITY for handle in self.settings.handles):
+            return np.zeros(self.vertices, dtype=bool)
+        return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
+
+
+def read_shape(obj: bpy.types.Object) -> Shape:
+    """Read the original shape of an object.
+
+    Raises
+    ------
+    CubicCraftError
+        The object cannot be used; the message names it and the cure.
+    """
+    check_requirements()
+    mesh_bridge.check_editable(obj)
+    mesh = mesh_bridge.mesh_of(obj)
+    original = mesh_bridge.original_positions(mesh)
+    return Shape(original, mesh_bridge.triangles(mesh, original))
+
+
+def read_member(
+    obj: bpy.types.Object,
+    settings: Settings,
+    known: Member | None = None,
+    *,
+    weights_changed: bool = False,
+) -> Member:
+    """Read and check an object.
+
+    Parameters
+    ----------
+    obj, settings
+    known : Member, optional
+        Of the same object: what has not changed since is taken from it. The shape never has.
+    weights_changed : bool
+        The weights of vertex groups may have.
+
+    Raises
+    ------
+    CubicCraftError
+        The object or a setting cannot be used; the message names the object and the cure.
+    """
+    begin = time.perf_counter()
+    alone, in_world = placement_alone(obj, settings), placement_in_world(obj, settings)
+    shape = known.shape if known else read_shape(obj)
+    if known is None or known.alone.shape_key != alone.shape_key:
+        _check_alone(obj.name, alone, shape)
+    reflections = modifier_reflections(obj)
+    if weights_changed:
+        known = None
+    return Member(
+        obj.session_uid,
+        obj.name,
+        shape,
+        _whole(shape, reflections, settings, known),
+        settings,
+        alone,
+        in_world,
+        _handle_of(obj, settings, known),
+        _map_weights(obj, settings, known),
+        time.perf_counter() - begin,
+    )
+
+
+def _check_alone(name, placement, shape):
+    """Refuse a shape for itself, so that it does not spoil an assembly, which cannot tell whose."""
+    try:
+        check_mesh(placement.place(shape.original), shape.triangles)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f'"{name}": {error}') from error
+
+
+def _handle_of(obj, settings, known):
+    groups = [handle.members for handle in settings.handles]
+    if known and groups == [handle.members for handle in known.settings.handles]:
+        return known.handle_of
+    return handles.handle_of(obj, settings.handles)
+
+
+def _map_weights(obj, settings, known):
+    if not settings.map_group:
+        return 1.0
+    choice = (settings.map_group, settings.map_invert)
+    if known and choice == (known.settings.map_group, known.settings.map_invert):
+        return known.map_weights
+    weights = mesh_bridge.group_weights(obj, settings.map_group)
+    return 1.0 - weights if settings.map_invert else weights
+
+
+def _whole(shape, reflections, settings, known):
+    before = known and (known.whole.reflections, known.settings.symmetry)
+    if known and known.shape is shape and before == (reflections, settings.symmetry):
+        return known.whole
+    return Whole(shape.original, shape.triangles, reflections, settings.symmetry)

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The cube beyond a plane of symmetry: the image of that on this side."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .object_frame import Placement, proper
+from .whole import Whole
+
+_ALIKE = 1e-5  # a turn by less makes no difference
+
+
+def orientations(whole: Whole, placement: Placement) -> np.ndarray:
+    """Return the orientation of the cube for all vertices (1,3,3), or for each of them (N,3,3).
+
+    For all, where the cube is its own image about every plane.
+    """
+    Q = placement.orientation
+    turns = [np.eye(3)]
+    for reflection in whole.mirrored:
+        linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
+        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
+        turns += [turn @ U @ Vt for turn in turns]
+    if all(_looks_alike(Q @ turn @ Q.T) for turn in turns):
+        return Q[None]
+    return np.stack([proper(Q @ turn) for turn in turns])[whole.sides()]
+
+
+def _looks_alike(turn):
+    """Tell whether a cube that is turned or mirrored so looks as before."""
+    sizes = np.abs(turn)
+    return np.minimum(sizes, np.abs(sizes - 1.0)).max() <= _ALIKE
