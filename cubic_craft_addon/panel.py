@@ -11,6 +11,7 @@ from .handles.pose import object_handles
 from .object_properties import object_properties
 from .presets import CUBIC_PT_presets
 from .requirements import check_requirements
+from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
 
@@ -105,6 +106,8 @@ def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
     for name in ("together", "solidity", "refine", "rotation"):
         layout.prop(properties, name)
+    draw_symmetry(layout, obj, properties)
+    layout.prop(properties, "floor")
 
 
 def _draw_map(layout, obj):

@@ -84,6 +84,8 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         layout.prop(self, "orientation")
         for name in ("together", "solidity", "refine", "rotation"):
             layout.prop(self, name)
+        layout.row(align=True).prop(self, "symmetry", toggle=True)
+        layout.prop(self, "floor")
         layout.prop(self, "use_handles")
         groups = panel_object(context)
         if groups is not None:

@@ -140,7 +140,7 @@ class Workshop:
         bpy.context.window.scene = model.scene
         with self._bar.task(f"{model.name}, cubeness {settings.cubeness:g}") as task:
             try:
-                member = self.extension.assembly.read_member(model.object, settings)
+                member = self.extension.member.read_member(model.object, settings)
                 prepared = self.extension.assembly.prepare([member])
                 (solution,) = self.extension.cubify.solve(prepared)
             except self.extension.solver.CubicCraftError as error:

@@ -213,6 +213,16 @@ def _add_shape(parser: argparse.ArgumentParser) -> None:
         help="whether each part is held in its orientation, or may turn as a whole (default: keep)",
     )
     group.add_argument(
+        "--symmetry",
+        type=_axes,
+        default="",
+        metavar="AXES",
+        help="x, y, z or several: halves that are mirror images about the object's origin stay so",
+    )
+    group.add_argument(
+        "--floor", action="store_true", help="what stands on the ground keeps its height"
+    )
+    group.add_argument(
         "--paper",
         action="store_true",
         help="as in the paper: solidity 0, together off, refine off, rotation free; each of them "
@@ -313,6 +323,13 @@ def _number(low: float, high: float) -> Callable[[str], float]:
         return value
 
     return number
+
+
+def _axes(text: str) -> str:
+    axes = text.lower()
+    if set(axes) - set("xyz") or len(set(axes)) < len(axes):
+        raise argparse.ArgumentTypeError(f"{text!r} is none of x, y, z, xy, xz, yz and xyz")
+    return "".join(sorted(axes))
 
 
 def _integer(low: int, high: int) -> Callable[[str], int]:

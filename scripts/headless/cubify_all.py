@@ -23,7 +23,7 @@ class Sculpture:
     users: list[bpy.types.Object]
     """the first of them was solved"""
     member: Any
-    """cubic_craft_addon.assembly.Member"""
+    """cubic_craft_addon.member.Member"""
     prepared: Any
     """cubic_craft_addon.assembly.Prepared of all that was solved at once with it"""
     solutions: list[Any]
@@ -53,7 +53,7 @@ def cubify_all(
     for obj in loaded.objects:
         by_mesh.setdefault(obj.data.name_full, []).append(obj)
     members = [
-        extension.assembly.read_member(
+        extension.member.read_member(
             users[0], _settings(users[0], handles[users[0].name], options, extension)
         )
         for users in by_mesh.values()
@@ -99,6 +99,8 @@ def _settings(
         together=options.together.upper(),
         refine=options.refine.upper(),
         rotation=options.rotation.upper(),
+        symmetry=tuple(axis in options.symmetry for axis in "xyz"),
+        floor=options.floor,
         device=options.device.upper(),
         max_iterations=options.max_iterations,
         tolerance=options.tolerance,

@@ -23,6 +23,7 @@ class Extension:
         self.assembly = _room("cubic_craft_addon.assembly")
         self.cubify = _room("cubic_craft_addon.cubify")
         self.handles = _room("cubic_craft_addon.handles")
+        self.member = _room("cubic_craft_addon.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.settings = _room("cubic_craft_addon.settings")
         self.solver = _room("solver")

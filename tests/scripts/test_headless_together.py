@@ -19,6 +19,7 @@ twin = bpy.data.objects.new("Twin", bpy.data.objects["Body"].data)
 bpy.context.collection.objects.link(twin)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
+MIRRORED = np.array([1, -1, 1], np.float32)
 FAST = ("--no-render", "--device", "numpy", "--max-iterations", 20)
 
 
@@ -55,6 +56,23 @@ def test_all_meshes_of_a_file_are_one(source, tmp_path):
     np.testing.assert_array_equal(shapes["Body"], shapes["Twin"])
 
 
+def in_order(V):
+    return V[np.lexsort(V.T + np.float32(0))]
+
+
+def test_symmetry_and_floor(source, tmp_path):
+    """The far ball is turned about Z, and symmetric in its own axes."""
+    report, shapes = run(source, tmp_path, "--symmetry", "y", "--floor", "--together", "parts")
+    assert (report["settings"]["symmetry"], report["settings"]["floor"]) == ("y", True)
+    _, free = run(source, tmp_path, "--together", "parts")
+    V = shapes["Far"]
+    assert (in_order(V) == in_order(V * MIRRORED)).all()
+    other = free["Far"]
+    assert (in_order(other) != in_order(other * MIRRORED)).any()
+    assert V[:, 2].min() == pytest.approx(-1.0, abs=1e-6)
+    assert free["Far"][:, 2].min() != pytest.approx(-1.0, abs=1e-3)
+
+
 def test_the_paper_is_its_options_in_full(source, tmp_path):
     paper, by_name = run(source, tmp_path, "--paper")
     words = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
@@ -66,6 +84,8 @@ def test_the_paper_is_its_options_in_full(source, tmp_path):
         "together": "off",
         "refine": "off",
         "rotation": "free",
+        "symmetry": "",
+        "floor": False,
     }
     for name, shape in by_name.items():
         np.testing.assert_array_equal(shape, by_options[name])

@@ -97,6 +97,8 @@ def change_setting(rng):
             ("together", rng.choice(["OFF", "PARTS", "SELECTION"])),
             ("refine", rng.choice(["AUTO", "OFF"])),
             ("rotation", rng.choice(["KEEP", "FREE"])),
+            ("symmetry", tuple(rng.random() < 0.4 for _ in range(3))),
+            ("floor", rng.random() < 0.5),
             ("device", rng.choice(["AUTO", "NUMPY"])),
             ("max_iterations", rng.choice([1, 5, 40])),
             ("tolerance", rng.choice([1e-5, 1e-3, 1.0])),
