@@ -9,6 +9,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
@@ -132,6 +133,7 @@ def write(
     solution: Solution,
     result: str,
     remember: Callable[[bpy.types.Object], None] = lambda target: None,
+    run: dict[str, Any] | None = None,
 ) -> bpy.types.Object:
     """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
 
@@ -142,6 +144,8 @@ def write(
         Called with the object that gets the cubic shape, before the step that cannot be taken back:
         if it raises, or what follows, all meshes and objects are as they were before. What it has
         done to the settings of an object that was there is for the caller to put back.
+    run : dict, optional
+        What to note on the mesh, a `LastRun`.
 
     Returns
     -------
@@ -149,12 +153,15 @@ def write(
         The object that now has the cubic shape.
     """
     if result == "NEW_OBJECT":
-        return mesh_bridge.write_new_object(obj, solution.positions, solution.rotations, remember)
+        return mesh_bridge.write_new_object(
+            obj, solution.positions, solution.rotations, remember, run
+        )
     remember(obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(obj, solution.positions)
+        mesh_bridge.write_shape_key(obj, solution.positions, run)
     else:
-        mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), solution.positions, solution.rotations)
+        mesh = mesh_bridge.mesh_of(obj)
+        mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run)
     return obj
 
 

@@ -4,16 +4,21 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import live, mesh_bridge, overlay
+from . import live, mesh_bridge, overlay, status_panel
 from .handles import panel as handles_panel
 from .handles.owner import panel_object
 from .handles.pose import object_handles
+from .last_run import last_run
+from .modes import is_mode_usable
 from .object_properties import object_properties
 from .presets import CUBIC_PT_presets
 from .requirements import check_requirements
 from .symmetry_panel import draw_symmetry
+from .text_fit import room_for_text, wrapped
+from .up_to_date import changes_since
 
 DEFAULT_TAB = "Cubic Craft"
+_BOX = 2.0  # widths of an icon that a box and the icon in it take from a line
 
 
 class CUBIC_PT_main(bpy.types.Panel):
@@ -43,7 +48,7 @@ class CUBIC_PT_main(bpy.types.Panel):
             return
         if obj != context.active_object:
             layout.label(text=obj.name, icon="MESH_DATA")
-        _draw_cubify(layout, obj)
+        _draw_cubify(context, layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
             if identifier == handles_panel.SECTION:
@@ -53,15 +58,18 @@ class CUBIC_PT_main(bpy.types.Panel):
                 draw(body, obj)
 
 
-def _draw_cubify(layout, obj):
+def _draw_cubify(context, layout, obj):
     session = live.current()
-    problem = "; ".join(session.all_problems) if session else _problem(obj)
-    if problem:
-        _draw_text(layout.box(), problem, "ERROR")
+    run = last_run(obj)
+    changes = changes_since(obj, run) if run and not session else []
     layout.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5
-    row.operator("cubic_craft.cubify", icon="MESH_CUBE")
+    row.operator(
+        "cubic_craft.cubify",
+        text="Update" if changes else "Cubify",
+        icon="FILE_REFRESH" if changes else "MESH_CUBE",
+    )
     row = row.row(align=True)
     row.operator(
         "cubic_craft.live",
@@ -74,19 +82,18 @@ def _draw_cubify(layout, obj):
     row = layout.row(align=True)
     row.operator("cubic_craft.restore", icon="LOOP_BACK")
     row.operator("cubic_craft.apply", icon="CHECKMARK")
-    if session:
-        _draw_live(layout, obj, session)
-    elif object_properties(obj).status:
-        _draw_text(layout, object_properties(obj).status, "INFO")
+    problem = "; ".join(session.all_problems) if session else _problem(context, obj)
+    if problem:
+        _draw_problem(context, layout, problem)
+    status_panel.draw(context, layout, obj, run, changes)
 
 
-def _draw_live(layout, obj, session):
-    mesh = session.mesh_of(obj)
-    if mesh is None:
-        layout.label(text="Another mesh is live", icon="INFO")
-        return
-    text, progress = mesh.status
-    layout.progress(text=text, factor=progress)
+def _draw_problem(context, layout, text):
+    column = layout.box().column(align=True)
+    icon = "ERROR"
+    for line in wrapped(text, room_for_text(context, _BOX)):
+        column.label(text=line, icon=icon)
+        icon = "BLANK1"
 
 
 def _draw_orientation(layout, obj):
@@ -104,8 +111,10 @@ def _draw_orientation(layout, obj):
 
 def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
-    for name in ("together", "solidity", "refine", "rotation"):
-        layout.prop(properties, name)
+    layout.prop(properties, "together")
+    layout.prop(properties, "solidity", slider=True)
+    layout.prop(properties, "refine")
+    layout.prop(properties, "rotation")
     draw_symmetry(layout, obj, properties)
     layout.prop(properties, "floor")
 
@@ -130,7 +139,7 @@ def _draw_solver(layout, obj):
 
 
 _SECTIONS = (
-    ("CUBIC_PT_shape", "Shape", _draw_shape, False),
+    ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
     ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
     (handles_panel.SECTION, "Handles", handles_panel.draw, False),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
@@ -139,8 +148,10 @@ _SECTIONS = (
 )
 
 
-def _problem(obj):
+def _problem(context, obj):
     """Return what would make Cubify refuse the object, or an empty text."""
+    if not is_mode_usable(context):
+        return ""  # the way out is offered in place of a message
     try:
         check_requirements()
         mesh_bridge.check_usable(obj)
@@ -154,18 +165,6 @@ def _problem(obj):
     if properties.space == "FRAME" and properties.frame is None:
         return "No frame object is set; pick one or choose another space"
     return ""
-
-
-def _draw_text(layout, text, icon):
-    """Draw a text on as many lines as the sidebar's usual width needs."""
-    column = layout.column(align=True)
-    line = ""
-    for word in [*text.split(), ""]:
-        if line and (not word or len(line) + len(word) > 38):
-            column.label(text=line, icon=icon)
-            icon = "BLANK1"
-            line = ""
-        line = f"{line} {word}".strip()
 
 
 def move_to_tab(tab):

@@ -21,6 +21,7 @@ from bpy.props import (
 from .handles import Handle
 from .handles.pose import object_handles
 from .handles.properties import CubicCraftHandle
+from .last_run import last_run
 from .object_properties import PROPERTY, object_properties
 from .settings import Settings
 
@@ -73,6 +74,12 @@ _DEVICES = (
 )
 
 
+def _status(properties):
+    """Say it of the mesh, which other objects may show, too."""
+    run = last_run(properties.id_data)
+    return run.status if run else ""
+
+
 _OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
 
 
@@ -84,11 +91,13 @@ class RunProperties:
 
     cubeness: FloatProperty(
         name="Cubeness",
-        description="How strongly the surface turns toward the sides of the cube; 0 keeps it",
+        description="How strongly the surface turns toward the sides of the cube: 0 keeps it, 0.1"
+        " goes a third of the way, 0.4 most of it. More than the slider has, up to 10, can be"
+        " typed",
         default=Settings.cubeness,
         min=0.0,
         max=10.0,
-        soft_max=1.0,
+        soft_max=0.5,
         step=1,
         precision=3,
         options=_OPTIONS,
@@ -235,7 +244,8 @@ class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
     )
     status: StringProperty(
         name="Last Run",
-        description="What the last run did",
+        description="What the run did that the mesh has its shape from",
+        get=_status,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import bpy
 import numpy as np
@@ -17,11 +17,12 @@ from .choice import Choice
 from .failures import UNFORESEEN, in_words
 from .handles.baked_pose import remember_pose
 from .handles.own_pose import keep_poses
+from .last_run import LastRun, run_of
 from .member import Member, read_member
 from .object_frame import placement_alone, placement_in_world
-from .object_properties import object_properties
 from .settings_rollback import settings_kept
 from .taichi_news import taichi_news
+from .up_to_date import what_matters
 from .whole import modifier_reflections
 
 _log = logging.getLogger(__name__)
@@ -49,6 +50,12 @@ class Task:
     def key_in_world(self):
         """The same for a task that is solved with others."""
         return self.key, self.in_world and self.in_world.key
+
+    @property
+    def run(self) -> LastRun:
+        """What there is to say about the solution, once it is solved."""
+        assert self.solution is not None
+        return run_of(self.solution, what_matters(self.settings))
 
     def is_like(self, other: Task) -> bool:
         """Tell whether both have the same solution, each being solved alone."""
@@ -153,18 +160,18 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     """
     # All texts come before the first write: what follows a write must not fail.
     solutions = [task.solution for task in tasks if task.solution is not None]
-    statuses = [_status(solution) for solution in solutions]
+    runs = [task.run for task in tasks]
     written, problems = 0, taichi_news() if tasks else []
     try:
-        for task, status in zip(tasks, statuses, strict=True):
-            _write(choice, task, status)
+        for task, run in zip(tasks, runs, strict=True):
+            _write(choice, task, run)
             written += 1
     except UNFORESEEN as error:
         _log.exception("Writing a result failed")  # this object has been put back
         reason = in_words(error)
         problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
     if written == 1:
-        return f"Cubified: {statuses[0]}", problems
+        return f"Cubified: {runs[0].status}", problems
     if written:
         # What was solved at once has been waited for once.
         waits = {id(s.result): s.total_seconds for s in solutions[:written]}
@@ -172,7 +179,7 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     return "", problems
 
 
-def _write(choice, task, status):
+def _write(choice, task, run):
     """Write one solution, or nothing at all."""
 
     def remember(target):
@@ -181,19 +188,6 @@ def _write(choice, task, status):
         is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
         remember_pose(target, is_posed=is_posed)
         choice.remember_on(target, task.settings)
-        object_properties(target).status = status
 
     with settings_kept([task.mesh]):
-        cubify.write(task.obj, task.solution, task.settings.result, remember)
-
-
-def _status(solution):
-    r = solution.result
-    end = "converged" if r.converged else "not converged, raise Max Iterations"
-    of_what = f" of {solution.objects} objects" if solution.objects > 1 else ""
-    if solution.matching is not None:
-        of_what += f", {solution.matching:,} of {solution.own_vertices:,} match"
-    return (
-        f"{solution.vertices:,} vertices{of_what}, {r.iterations} iterations, energy"
-        f" {max(r.energy.total, 0.0):.5f}, {end}, {solution.total_seconds:.2f} s on {r.device}"
-    )
+        cubify.write(task.obj, task.solution, task.settings.result, remember, asdict(run))

@@ -18,10 +18,12 @@ from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.baked_pose import settle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
+from ..cubic_craft_addon.last_run import last_run
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties
 from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..cubic_craft_addon.tasks import plan, prepare_all, write_all
+from ..cubic_craft_addon.up_to_date import changes_since
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
 from .unforeseen import reporting
@@ -53,6 +55,19 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
     )
 
     @classmethod
+    def description(cls, context, properties):
+        """Say in the tooltip of the button what a result was made with that is out of date."""
+        obj = panel_object(context)
+        run = None if obj is None else last_run(obj)
+        changes = changes_since(obj, run) if obj is not None and run is not None else []
+        if not changes:
+            return cls.bl_description
+        return (
+            "Make the selected meshes cubic once more, with the settings as they are now."
+            f" Changed since the last run: {', '.join(changes)}"
+        )
+
+    @classmethod
     def poll(cls, context):
         """There is a mesh that can be cubified."""
         return poll_usable(cls, context)
@@ -82,8 +97,10 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
-        for name in ("together", "solidity", "refine", "rotation"):
-            layout.prop(self, name)
+        layout.prop(self, "together")
+        layout.prop(self, "solidity", slider=True)
+        layout.prop(self, "refine")
+        layout.prop(self, "rotation")
         layout.row(align=True).prop(self, "symmetry", toggle=True)
         layout.prop(self, "floor")
         layout.prop(self, "use_handles")

@@ -3,11 +3,8 @@
 
 import logging
 
-import bpy
-
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.failures import UNFORESEEN, in_words
-from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..solver import CubicCraftError
 from .selection import report_all, selected_meshes
@@ -37,7 +34,6 @@ def for_each_original(operator, context, action, done):
         try:
             mesh_bridge.check_usable(obj)
             with settings_kept([obj.data]):
-                _forget_status(obj.data)
                 action(obj)
         except CubicCraftError as error:
             problems.append(str(error))
@@ -48,9 +44,3 @@ def for_each_original(operator, context, action, done):
         else:
             names.append(obj.name)
     return report_all(operator, f"{done} {', '.join(names)}" if names else "", problems)
-
-
-def _forget_status(mesh):
-    for user in bpy.data.user_map(subset=[mesh])[mesh]:
-        if isinstance(user, bpy.types.Object) and user.library is None:
-            object_properties(user).status = ""

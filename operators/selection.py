@@ -3,9 +3,8 @@
 
 from ..cubic_craft_addon import live, mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object, posed_mesh
+from ..cubic_craft_addon.modes import MESSAGE, is_mode_usable
 from ..solver import CubicCraftError
-
-_MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
 
 
 def selected_meshes(context):
@@ -30,8 +29,8 @@ def poll_meshes(operator_class, context):
     if live.current() is not None:
         operator_class.poll_message_set("Confirm or cancel Live first")
         return False
-    if context.mode not in _MODES:
-        operator_class.poll_message_set("Switch to Object Mode first")
+    if not is_mode_usable(context):
+        operator_class.poll_message_set(MESSAGE)
         return False
     if not selected_meshes(context):
         operator_class.poll_message_set("Select a mesh object first")

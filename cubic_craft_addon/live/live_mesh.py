@@ -48,8 +48,8 @@ class LiveMesh:
 
     @property
     def status(self):
-        """A line for the artist, and how far the run has come, from 0 to 1."""
-        return self.run.status if self.run else ("", 0.0)
+        """Lines for the artist, from long to short, and how far the run has come, from 0 to 1."""
+        return self.run.status if self.run else (("",), 0.0)
 
     @property
     def solution(self):

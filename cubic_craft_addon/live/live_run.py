@@ -139,17 +139,19 @@ class LiveRun:
 
     @property
     def status(self):
-        """A line for the artist, and how far the run has come, from 0 to 1."""
+        """Lines for the artist, from long to short, and how far the run has come, from 0 to 1."""
         energy = self._run.stylization.energy if self._run else None
         if self._run is None or energy is None:
             is_coarse = self._run is not None and self._run.is_on_coarser_mesh
-            return ("First on a coarser mesh" if is_coarse else ""), 0.0
-        text = f"Iteration {self.iteration}, energy {max(energy.total, 0.0):.5f}"
+            return (("First on a coarser mesh", "Coarser mesh") if is_coarse else ("",)), 0.0
+        energy_now = f"energy {max(energy.total, 0.0):.5f}"
         if self._solutions is None:
-            return text, self._progress.update(self._run.stylization)
+            text = f"Iteration {self.iteration}"
+            return (f"{text}, {energy_now}", text), self._progress.update(self._run.stylization)
         solution = next(iter(self._solutions.values()))
-        end = "converged" if solution.result.converged else "not converged"
-        return f"{text}, {end}", 1.0
+        end = "Converged" if solution.result.converged else "Not converged"
+        text = f"{end}, {self.iteration} iterations"
+        return (f"{text}, {energy_now}", text, end), 1.0
 
     # -- what it has come to -----------------------------------------------------------------------
 

@@ -37,6 +37,8 @@ class Event(Enum):
     """there is nothing that could be written"""
     CONFIRM = auto()
     CANCEL = auto()
+    NOTHING_LEFT = auto()
+    """the artist takes back more than he has changed"""
     UNDONE = auto()
     """Blender has undone or redone a step; the data may be anything"""
     LOST = auto()
@@ -79,6 +81,7 @@ _ENDINGS = {
     event: _END
     for event in (
         Event.CANCEL,
+        Event.NOTHING_LEFT,
         Event.LOST,
         Event.MODE_LEFT,
         Event.LOAD,
@@ -87,6 +90,14 @@ _ENDINGS = {
         Event.FAILED,
     )
 }
+
+_FAREWELLS = {
+    Event.NOTHING_LEFT: "Live has ended: there was no change left to take back, and the shape is as"
+    " before Live",
+    Event.MODE_LEFT: "Live has ended because the mode was changed, and the shape is as before Live",
+    Event.LOST: "Live has ended because its object is gone from the scene",
+}
+"""what the artist is told of endings that he did not ask for, and may not have noticed"""
 
 # What is not in the table changes nothing.
 _TABLE = {
@@ -133,12 +144,18 @@ class Machine:
     Attributes
     ----------
     state : State
+    farewell : str
+        Why it has ended, where that needs to be said.
     """
 
     def __init__(self):
         self.state = State.WORKING
+        self.farewell = ""
 
     def on(self, event):
         """Take in an Event and return a tuple of Actions."""
-        self.state, actions = _TABLE[self.state].get(event, (self.state, ()))
+        before = self.state
+        self.state, actions = _TABLE[before].get(event, (before, ()))
+        if self.state is State.ENDED and before is not State.ENDED:
+            self.farewell = _FAREWELLS.get(event, "")
         return actions

@@ -99,6 +99,11 @@ class Session:
         return self._machine.state is State.ENDED
 
     @property
+    def farewell(self):
+        """What there is to say about how it has ended, beside `error`."""
+        return self._machine.farewell
+
+    @property
     def is_finishing(self):
         """Whether it has been confirmed and is on its way to the end."""
         return self._machine.state is State.FINISHING
@@ -176,7 +181,7 @@ class Session:
         if earlier is TakeBack.BLENDER:
             return False
         if earlier is TakeBack.LIVE:
-            self.on(Event.CANCEL)
+            self.on(Event.NOTHING_LEFT)
         else:
             properties.set_live_values(earlier)
         return True

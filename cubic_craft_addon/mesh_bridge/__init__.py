@@ -14,6 +14,7 @@ from .preview import Preview
 from .preview_end import end_all_previews, end_preview, has_preview
 from .restore import forget, has_traces, restore
 from .results import write_mesh, write_shape_key
+from .run_note import read_run
 from .triangulation import triangles
 from .vertex_groups import group_weights
 
@@ -31,6 +32,7 @@ __all__ = (
     "mesh_of",
     "original_positions",
     "read_positions",
+    "read_run",
     "restore",
     "set_groups_aside",
     "triangles",

@@ -2,6 +2,7 @@
 """Write a result to a copy of the object; the source stays as it is, bit for bit."""
 
 from collections.abc import Callable
+from typing import Any
 
 import bpy
 import numpy as np
@@ -17,6 +18,7 @@ def write_new_object(
     positions: np.ndarray,
     rotations: np.ndarray,
     prepare: Callable[[bpy.types.Object], None] = lambda new: None,
+    run: dict[str, Any] | None = None,
 ) -> bpy.types.Object:
     """Copy an object with its mesh and write a result to the copy's mesh.
 
@@ -30,6 +32,7 @@ def write_new_object(
     positions : (n,3) numpy array, object space
     rotations : (n,3,3) numpy array
     prepare : called with the new object once it has the result, before it takes the place of `obj`
+    run : what to note of the run (see `note`)
 
     Returns
     -------
@@ -48,7 +51,7 @@ def write_new_object(
     assert new_mesh is not None and new is not None
     try:
         new.data = new_mesh  # first, so that its active shape key follows when ours is removed
-        write_mesh(new_mesh, positions, rotations)
+        write_mesh(new_mesh, positions, rotations, run)
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
         _link_beside(obj, new)

@@ -12,11 +12,15 @@ It is JSON text, because custom properties cannot hold lists of texts, with some
 ``"live"``
     a preview is on: what ``"mesh"`` says, of the shape shown last. An empty ``fingerprint`` is of
     a shape that is just being written.
+``"run"``
+    beside ``"mesh"`` or ``"key"``: the ``settings`` that the result was made with, and how the run
+    went. What it means is for `cubic_craft_addon.last_run` to say.
 
 A property of that name which is anything else is not ours, and is never changed.
 """
 
 import json
+from types import NoneType
 from typing import Any
 
 import bpy
@@ -29,6 +33,18 @@ _VERSION = 1
 
 _MESH_PART = {"fingerprint": str, "keys": list}
 _MESH_KEY = {"name": str, "fingerprint": str, "attribute": str}
+_RUN_PART: dict[str, Any] = {
+    "settings": dict,
+    "vertices": int,
+    "objects": int,
+    "iterations": int,
+    "energy": float,
+    "converged": bool,
+    "seconds": float,
+    "device": str,
+    "matching": (int, NoneType),
+    "own_vertices": int,
+}
 _KEY_PART = {"name": str, "fingerprint": str, "base": str, "offsets": list, "made_basis": bool}
 
 
@@ -78,11 +94,13 @@ def check_note(mesh: bpy.types.Mesh) -> None:
 
 def _is_ours(note: dict[str, Any]) -> bool:
     """Tell whether a note says only what we write, so that nobody else must check it."""
-    if not note or not note.keys() <= {"mesh", "key", "live"}:
+    if not note or not note.keys() <= {"mesh", "key", "live", "run"}:
         return False
     for part in (note[name] for name in ("mesh", "live") if name in note):
         if not _fits(part, _MESH_PART) or not all(_fits(key, _MESH_KEY) for key in part["keys"]):
             return False
+    if "run" in note and not _fits(note["run"], _RUN_PART):
+        return False
     if "key" in note:
         part = note["key"]
         if not _fits(part, _KEY_PART):
@@ -91,6 +109,6 @@ def _is_ours(note: dict[str, Any]) -> bool:
     return True
 
 
-def _fits(part: Any, types: dict[str, type]) -> bool:
+def _fits(part: Any, types: dict[str, Any]) -> bool:
     """Tell whether a part of a note has the entries that it should have."""
     return isinstance(part, dict) and all(isinstance(part.get(n), t) for n, t in types.items())

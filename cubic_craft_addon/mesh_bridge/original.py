@@ -137,11 +137,12 @@ def store_original(
 
 
 def drop_stored(mesh: bpy.types.Mesh) -> None:
-    """Remove the stored original, valid or stale; the shapes stay as they are."""
+    """Remove the stored original, valid or stale, and the run; the shapes stay as they are."""
     for name in our_attributes(mesh):
         remove_attribute(mesh, name)
     note = read_note(mesh)
     note.pop("mesh", None)
+    note.pop("run", None)
     write_note(mesh, note)
 
 

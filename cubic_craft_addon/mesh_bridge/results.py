@@ -5,6 +5,8 @@ Either always starts from the original and takes the place of an earlier result 
 computed and checked before the first write.
 """
 
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -17,11 +19,17 @@ from .original import drop_stored, original_shapes, store_original, stored_resul
 from .preview_end import end_preview
 from .rollback import all_or_nothing
 from .rotations import matrices_from_quaternions
+from .run_note import note_run
 from .settled import carry_finite, settled, settled_rotations
 from .shapes import write_shapes
 
 
-def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray) -> None:
+def write_mesh(
+    mesh: bpy.types.Mesh,
+    positions: np.ndarray,
+    rotations: np.ndarray,
+    run: dict[str, Any] | None = None,
+) -> None:
     """Write a result to the mesh: the base moves and the shape keys are carried along.
 
     Parameters
@@ -29,6 +37,7 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
     mesh : a mesh in Object Mode
     positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
     rotations : (n,3,3) numpy array, the local rotation of each vertex
+    run : what to note of the run (see `note`)
 
     Raises
     ------
@@ -48,17 +57,21 @@ def write_mesh(mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarra
     with all_or_nothing(mesh):
         drop_stored(mesh)
         store_original(mesh, original, written, quaternions)
+        note_run(mesh, run)
         write_shapes(mesh, written)
         remove_cubic_key(mesh, cubic_key)
 
 
-def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
+def write_shape_key(
+    obj: bpy.types.Object, positions: np.ndarray, run: dict[str, Any] | None = None
+) -> None:
     """Write a result to the shape key "Cubic"; everything else has its original shape.
 
     Parameters
     ----------
     obj : an object with a mesh, in Object Mode
     positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+    run : what to note of the run (see `note`)
 
     Raises
     ------
@@ -81,4 +94,5 @@ def write_shape_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
             write_shapes(mesh, original)
         drop_stored(mesh)
         write_cubic_key(obj, positions)
+        note_run(mesh, run)
         mark_moved(mesh)

@@ -8,11 +8,15 @@ at: all attributes and all simple RNA properties of the version of Blender at ha
 """
 
 import fnmatch
+import re
 from collections.abc import Iterable
 from typing import Any
 
 import bpy
 import numpy as np
+
+# In our note: how long a run took is another number each time.
+_SECONDS = re.compile(r'"seconds": [-+.e0-9]+')
 
 # Of an ID itself or of this session, not of its content.
 _NOT_CONTENT = {"rna_type", "session_uid", "name_full", "tag", "is_evaluated", "is_updated"}
@@ -228,6 +232,8 @@ def _custom(struct: Any) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     if hasattr(value, "to_dict"):
         return value.to_dict()
+    if isinstance(value, str):
+        return _SECONDS.sub("", value)
     return value.to_list() if hasattr(value, "to_list") else value
 
 

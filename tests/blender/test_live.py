@@ -130,7 +130,7 @@ def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
     while mesh.run._run.iterations < 6:
         session.tick(bpy.context)
     assert mesh.run._run.is_on_coarser_mesh and mesh.iteration == 0
-    assert bits(obj) != before and mesh.status[0] == "First on a coarser mesh"
+    assert bits(obj) != before and mesh.status[0][0] == "First on a coarser mesh"
     confirm(live, session)
     select(twin)
     bpy.ops.cubic_craft.cubify(cubeness=0.6)

@@ -13,7 +13,7 @@ from scene import add_monkey
 @pytest.fixture
 def problem(extension):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.panel")
-    return panel._problem
+    return lambda obj: panel._problem(bpy.context, obj)
 
 
 def test_a_good_mesh_has_no_problem(problem):
@@ -42,16 +42,33 @@ def test_a_mesh_without_faces_is_named(problem):
     assert "Suzanne" in problem(obj)
 
 
-def test_edit_mode_is_named(problem):
+@pytest.mark.parametrize(
+    ("mode", "is_usable"),
+    [
+        ("EDIT", False),
+        ("SCULPT", False),
+        ("VERTEX_PAINT", False),
+        ("TEXTURE_PAINT", False),
+        ("WEIGHT_PAINT", True),
+    ],
+)
+def test_in_other_modes_the_way_out_takes_the_place_of_a_message(
+    extension, problem, mode, is_usable
+):
+    modes = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.modes")
     obj = add_monkey()
-    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.mode_set(mode=mode)
     try:
-        assert "Edit Mode" in problem(obj)
+        assert problem(obj) == ""
+        assert modes.is_mode_usable(bpy.context) is is_usable
+        assert bpy.ops.cubic_craft.cubify.poll() is is_usable
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-@pytest.mark.parametrize(("module", "count"), [("panel", 4), ("handles.panel", 6)])
+@pytest.mark.parametrize(
+    ("module", "count"), [("panel", 4), ("status_panel", 1), ("handles.panel", 6)]
+)
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")
@@ -70,3 +87,18 @@ def test_what_is_wrong_with_a_handle_is_named(problem):
     assert problem(obj) == '"Suzanne" has no vertex group "Ears"; pick another one'
     obj.cubic_craft.use_handles = False
     assert problem(obj) == ""
+
+
+def test_texts_fit_the_room_that_there_is(extension):
+    text_fit = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.text_fit")
+    text = '"Suzanne" has no vertex group "Ears"; pick another one'
+    wide = text_fit.width_of(text)
+    assert text_fit.wrapped(text, wide) == [text]
+    for room in (0.6 * wide, 0.3 * wide):
+        lines = text_fit.wrapped(text, room)
+        assert " ".join(lines) == text and len(lines) >= wide / room
+        assert max(map(text_fit.width_of, lines)) <= room
+    assert text_fit.wrapped(text, 1.0) == text.split()
+    assert text_fit.wrapped("", wide) == []
+    for room, fits in ((2 * wide, text), (0.9 * wide, text[:20]), (1.0, "Ears")):
+        assert text_fit.longest_that_fits((text, text[:20], "Ears"), room) == fits

@@ -4,6 +4,7 @@
 EXPECT_DEVICE in the environment ("taichi-cpu", "numpy") names the backend that must have run.
 """
 
+import importlib
 import os
 
 import bpy
@@ -72,15 +73,62 @@ def check_status():
         assert "taichi" in status or "numpy" in status, status
 
 
+def changes():
+    """Return what the panel calls out of date."""
+    addon = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
+    run = importlib.import_module(f"{addon}.last_run").last_run(bpy.data.objects[NAME])
+    changes_since = importlib.import_module(f"{addon}.up_to_date").changes_since
+    return changes_since(bpy.data.objects[NAME], run) if run else None
+
+
+def change_and_update(first, place):
+    """Drag the slider without Live: the panel says so, and the same button makes it up to date."""
+    slider = yield from gui.find_button("cubic_craft.cubeness")
+    yield from gui.drag_slider(slider, 0.8, 0.2)
+    assert is_bitwise(positions(), first)
+    assert changes() == ["Cubeness"]
+    assert (yield from place_of_next_section()) == place, "the panel has jumped"
+    yield from gui.screenshot("changed.png")
+    yield from cubify(first)
+    assert changes() == []
+
+
+def place_of_next_section():
+    """Return how far down the first button is that is below the line on the last run."""
+    return (yield from gui.find_button("cubic_craft.together")).top
+
+
+def leave_edit_mode_by_button():
+    """In Edit Mode the line on the last run is the way out."""
+    yield from gui.move_mouse(gui.viewport_point(0.2, 0.2))
+    yield from gui.keys("TAB")
+    yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
+    button = yield from gui.find_button("object.mode_set")
+    place = yield from place_of_next_section()
+    yield from gui.screenshot("edit_mode.png")
+    yield from gui.click(button)
+    yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
+    return place
+
+
 def test():
     add_monkey()
     original = positions()
     yield from gui.open_sidebar("Cubic Craft")
     yield from gui.screenshot("original.png")
+    assert changes() is None
+    place = yield from place_of_next_section()
+    assert (yield from leave_edit_mode_by_button()) == place, "the panel has jumped"
+    assert is_bitwise(positions(), original)
 
     first = yield from cubify(original)
     check_status()
+    assert changes() == []
+    assert (yield from place_of_next_section()) == place, "the panel has jumped"
     yield from gui.screenshot("cubified.png")
+    yield from change_and_update(first, place)
+    yield from gui.undo()  # the update
+    yield from gui.undo()  # the slider
     yield from gui.undo()
     assert is_bitwise(positions(), original), "Ctrl-Z has not brought the original back"
     yield from gui.screenshot("undone.png")

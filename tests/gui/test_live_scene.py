@@ -83,6 +83,21 @@ def hidden(original):
         assert scene.positions() == original
 
 
+def last_report():
+    """Return the last line that Blender has for the artist, as its Info editor copies it."""
+    area = max(bpy.context.screen.areas, key=lambda area: area.type == "OUTLINER")
+    before = area.ui_type
+    area.ui_type = "INFO"
+    try:
+        with bpy.context.temp_override(area=area, region=area.regions[-1]):
+            bpy.ops.info.select_all(action="SELECT")
+            bpy.ops.info.report_copy()
+    finally:
+        area.ui_type = before
+    lines = [line for line in bpy.context.window_manager.clipboard.splitlines() if line.strip()]
+    return lines[-1] if lines else ""
+
+
 def edited(original):
     """Tab into Edit Mode and back, once while it works and once at rest."""
     for is_at_rest in (False, True):
@@ -92,6 +107,8 @@ def edited(original):
         yield from scene.press("TAB")
         yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
         yield from scene.wait_over()
+        yield from gui.wait_until(lambda: "Live has ended" in last_report(), what="a word of it")
+        assert "the mode was changed" in last_report()
         yield from gui.screenshot("edit_mode.png")
         yield from scene.press("TAB")
         yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")

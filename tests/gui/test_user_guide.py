@@ -134,6 +134,19 @@ def picture_of_top(name):
     cut((yield from whole(name)), name, left, bottom, right, place.y + place.height)
 
 
+def picture_of_changed():
+    """Change a setting since Cubify, and unfold the line on the last run."""
+    apply = yield from gui.find_button("cubic_craft.apply")
+    line = apply.at(0.5)[0], round(apply.bottom - 16 * SCALE)
+    scene.settings().cubeness = 0.25
+    yield from gui.click(line)
+    yield from gui.wait_redraw("UI")
+    yield from picture_of_top("changed")
+    yield from gui.click(line)
+    yield from gui.wait_redraw("UI")
+    scene.settings().cubeness = 0.4
+
+
 def picture_of_presets():
     """Keep two presets, and open their list in the header of the panel."""
     with gui.in_region():
@@ -233,6 +246,7 @@ def test():
     yield from open_solver()
     yield from picture_of_redo()
     yield from picture_of_top("cubify")
+    yield from picture_of_changed()
     yield from picture_of_presets()
     yield from picture_of_live()
     yield from picture_of_map()

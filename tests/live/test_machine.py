@@ -9,6 +9,7 @@ Action, Event, Machine, State = machine.Action, machine.Event, machine.Machine, 
 
 ENDINGS = (
     Event.CANCEL,
+    Event.NOTHING_LEFT,
     Event.LOST,
     Event.MODE_LEFT,
     Event.LOAD,
@@ -43,6 +44,27 @@ def test_every_ending_puts_back_first_and_cleans_up_last(state, event):
     assert m.state is State.ENDED
     assert actions[0] is Action.PUT_BACK and actions[-1] is Action.CLEAN_UP
     assert Action.WRITE not in actions
+
+
+@pytest.mark.parametrize(
+    ("event", "word"),
+    [(Event.NOTHING_LEFT, "take back"), (Event.MODE_LEFT, "mode"), (Event.LOST, "gone")],
+)
+@pytest.mark.parametrize("state", RUNNING)
+def test_endings_that_nobody_asked_for_are_told(state, event, word):
+    m = in_state(state)
+    m.on(event)
+    told = m.farewell
+    assert told.startswith("Live has ended") and word in told
+    m.on(Event.CANCEL)
+    assert m.farewell == told
+
+
+@pytest.mark.parametrize("event", [Event.CANCEL, Event.CLOSED, Event.LOAD, Event.DISABLED])
+def test_endings_that_were_asked_for_are_not(event):
+    m = Machine()
+    m.on(event)
+    assert m.state is State.ENDED and m.farewell == ""
 
 
 @pytest.mark.parametrize("event", Event)

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The modes of Blender in which meshes can be made cubic."""
+
+import bpy
+
+_MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
+
+MESSAGE = "Switch to Object Mode first"
+"""what to say in any other"""
+
+
+def is_mode_usable(context: bpy.types.Context) -> bool:
+    """Tell whether meshes can be read and written in the present mode."""
+    return context.mode in _MODES

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Texts that fit the sidebar as it is: Blender cuts off what is too long, and wraps nothing."""
+
+from collections.abc import Iterable
+
+import blf
+import bpy
+
+_FONT = 0  # that of the interface
+_UNIT = 20  # pixels at scale 1: the height of a button, the width of an icon
+_TABS = 1.0  # units, at the right edge
+_MARGINS = 2.8  # units, left and right of a line of text together, with its padding
+
+
+def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
+    """Return how wide a line of text in the panel may be.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Of a panel that is being drawn.
+    taken : float
+        What else is in the line, in widths of an icon.
+
+    Returns
+    -------
+    float
+        In the pixels of `width_of`.
+    """
+    view = context.region.view2d  # the artist may have zoomed the sidebar
+    width = view.region_to_view(context.region.width, 0)[0] - view.region_to_view(0, 0)[0]
+    unit = _UNIT * context.preferences.system.ui_scale
+    return width - (_TABS + _MARGINS + taken) * unit
+
+
+def width_of(text: str) -> float:
+    """Return the width of a text in the interface, in pixels."""
+    preferences = bpy.context.preferences
+    points = preferences.ui_styles[0].widget.points
+    blf.size(_FONT, points * preferences.system.ui_scale)
+    return blf.dimensions(_FONT, text)[0]
+
+
+def longest_that_fits(texts: Iterable[str], room: float) -> str:
+    """Return the first of some texts, from long to short, that fits; the last if none does."""
+    text = ""
+    for text in texts:
+        if width_of(text) <= room:
+            break
+    return text
+
+
+def wrapped(text: str, room: float) -> list[str]:
+    """Return the lines of a text, broken between words; a word that is too long has its own."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and width_of(longer) <= room:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
