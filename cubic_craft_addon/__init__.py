@@ -2,6 +2,7 @@
 """The Blender side that is not an operator."""
 
 from . import (
+    edited,
     group_renames,
     live,
     overlay,
@@ -22,6 +23,7 @@ _modules = (
     handles_panel,
     presets,
     panel,
+    edited,
     group_renames,
 )
 

@@ -15,6 +15,7 @@ from ..solver import CubicCraftError
 from .handles import Handle
 from .handles.own_pose import Pose
 from .handles.pose import posed_handles
+from .mesh_bridge import Start
 from .object_properties import object_properties
 from .properties import RunProperties, settings_of, value_of
 from .settings import Settings
@@ -60,10 +61,14 @@ class Choice:
         is_on = self.values.get("use_handles", object_properties(obj).use_handles)
         return self.handles is None and is_on
 
+    def start_of(self, obj: bpy.types.Object) -> Start:
+        """Return what an object starts from where it was edited by hand since its last result."""
+        return self.values.get("start", object_properties(obj).start)
+
     def remember_on(self, target: bpy.types.Object, settings: Settings) -> None:
         """Keep what was used on the object that was made, so that its panel shows how."""
         properties = object_properties(target)
-        values = dict(self.values)
+        values = {name: value for name, value in self.values.items() if name != "start"}
         if settings.space == "FRAME":
             values["frame"] = settings.frame
         if settings.result == "NEW_OBJECT":
@@ -73,6 +78,8 @@ class Choice:
             is_outdated = getattr(properties, name) == "" != value
             if is_outdated or value_of(properties, name) != value:
                 setattr(properties, name, value)
+        if properties.start != Settings.start:
+            properties.start = Settings.start  # it has been for this run
 
 
 def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:

@@ -39,6 +39,8 @@ class Solution:
     """number of objects that were solved at once, this one included"""
     matching: int | None = None
     """number of vertices that have a mirror image, where Symmetry is asked for"""
+    start: mesh_bridge.Start = "HERE"
+    """what was solved where the mesh was edited by hand since its last result"""
 
     @property
     def own_vertices(self):
@@ -123,6 +125,7 @@ def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
             prepared.vertices,
             len(prepared.members),
             member.whole.matching,
+            member.shape.start,
         )
         for member, (positions, rotations) in zip(prepared.members, found, strict=True)
     )
@@ -154,14 +157,14 @@ def write(
     """
     if result == "NEW_OBJECT":
         return mesh_bridge.write_new_object(
-            obj, solution.positions, solution.rotations, remember, run
+            obj, solution.positions, solution.rotations, remember, run, solution.start
         )
     remember(obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(obj, solution.positions, run)
+        mesh_bridge.write_shape_key(obj, solution.positions, run, solution.start)
     else:
         mesh = mesh_bridge.mesh_of(obj)
-        mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run)
+        mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)
     return obj
 
 

@@ -31,6 +31,8 @@ class Shape:
     """(n,3) float32 positions, object space"""
     triangles: np.ndarray
     """(m,3) int"""
+    start: mesh_bridge.Start = "HERE"
+    """what it was to be read from, where the mesh was edited by hand since its last result"""
 
     def is_like(self, other: Shape) -> bool:
         """Tell whether both are the same, bit for bit."""
@@ -103,8 +105,14 @@ class Member:
         return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
 
 
-def read_shape(obj: bpy.types.Object) -> Shape:
+def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shape:
     """Read the original shape of an object.
+
+    Parameters
+    ----------
+    obj
+    start : {"HERE", "ORIGINAL"}
+        What counts as original where the mesh was edited by hand since its last result.
 
     Raises
     ------
@@ -114,8 +122,8 @@ def read_shape(obj: bpy.types.Object) -> Shape:
     check_requirements()
     mesh_bridge.check_editable(obj)
     mesh = mesh_bridge.mesh_of(obj)
-    original = mesh_bridge.original_positions(mesh)
-    return Shape(original, mesh_bridge.triangles(mesh, original))
+    original = mesh_bridge.original_positions(mesh, start)
+    return Shape(original, mesh_bridge.triangles(mesh, original), start)
 
 
 def read_member(
@@ -142,7 +150,7 @@ def read_member(
     """
     begin = time.perf_counter()
     alone, in_world = placement_alone(obj, settings), placement_in_world(obj, settings)
-    shape = known.shape if known else read_shape(obj)
+    shape = known.shape if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)
     reflections = modifier_reflections(obj)

@@ -4,7 +4,7 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import live, mesh_bridge, overlay, status_panel
+from . import edited, live, mesh_bridge, overlay, status_panel
 from .handles import panel as handles_panel
 from .handles.owner import panel_object
 from .handles.pose import object_handles
@@ -62,6 +62,7 @@ def _draw_cubify(context, layout, obj):
     session = live.current()
     run = last_run(obj)
     changes = changes_since(obj, run) if run and not session else []
+    edited.draw(layout, obj)
     layout.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5

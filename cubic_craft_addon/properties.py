@@ -80,7 +80,28 @@ def _status(properties):
     return run.status if run else ""
 
 
+_STARTS = (
+    ("HERE", "From Here", "Start from the mesh as it is now; the former original is then lost"),
+    ("ORIGINAL", "From the Original", "Start from the original; what was edited since is lost"),
+)
 _OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
+
+
+class StartProperty:
+    """Mixin of what the operator and the object share, but Live and presets have not.
+
+    Each object keeps its own, for one run: on a mesh that is edited once more, a click is to lose
+    nothing that was not asked for.
+    """
+
+    start: EnumProperty(
+        name="Start",
+        description="What Cubify and Live start from: the mesh was edited by hand since it was"
+        " cubified",
+        items=_STARTS,
+        default=Settings.start,
+        options={"SKIP_SAVE"},
+    )
 
 
 class RunProperties:
@@ -219,7 +240,7 @@ class RunProperties:
     )
 
 
-class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
+class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
     frame: PointerProperty(

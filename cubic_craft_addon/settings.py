@@ -9,6 +9,7 @@ import bpy
 
 from .. import solver
 from .handles import Handle
+from .mesh_bridge import Start
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +28,8 @@ class Settings:
     map_group: str = ""
     """name of the vertex group that scales the cubeness, or empty"""
     map_invert: bool = False
+    start: Start = "HERE"
+    """where to start a mesh that was edited by hand since its last result: HERE or ORIGINAL"""
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
     solidity: float = 0.1

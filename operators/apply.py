@@ -32,3 +32,4 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
 def _apply(obj):
     rest_in_pose(obj.data)
     mesh_bridge.forget(obj.data)
+    return ""

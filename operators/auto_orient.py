@@ -46,7 +46,7 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
         for obj in selected_meshes(context):
             try:
                 settings = settings_of(obj, handles=())
-                found.append((obj, _best_angles(obj, settings, read_shape(obj))))
+                found.append((obj, _best_angles(obj, settings, read_shape(obj, settings.start))))
             except CubicCraftError as error:
                 problems.append(str(error))
         for obj, angles in found:

@@ -8,10 +8,10 @@ way, nothing has changed.
 import math
 
 import bpy
-from bpy.props import CollectionProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from .. import solver
-from ..cubic_craft_addon import cubify
+from ..cubic_craft_addon import cubify, mesh_bridge
 from ..cubic_craft_addon.assembly import assemblies
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..cubic_craft_addon.handles import Handle
@@ -20,7 +20,7 @@ from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.last_run import last_run
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.properties import RunProperties
+from ..cubic_craft_addon.properties import RunProperties, StartProperty
 from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..cubic_craft_addon.tasks import plan, prepare_all, write_all
 from ..cubic_craft_addon.up_to_date import changes_since
@@ -31,7 +31,7 @@ from .unforeseen import reporting
 _PROGRESS_STEPS = 100
 
 
-class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
+class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     """Turn the selected meshes into cubic sculptures; each starts from its original shape."""
 
     bl_idname = "cubic_craft.cubify"
@@ -52,6 +52,11 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         description="Handles in place of those of the objects",
         type=CubicCraftGivenHandle,
         options={"SKIP_SAVE"},
+    )
+
+    is_edited: BoolProperty(
+        description="The mesh was edited before this run: the redo panel offers what to start from",
+        options={"HIDDEN", "SKIP_SAVE"},
     )
 
     @classmethod
@@ -79,7 +84,7 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         _adopt_settings(self, objects)
         choice = _choice(self, objects[0])
         with settings_kept([obj.data for obj in objects]):
-            settle(objects)
+            settle(objects, choice.start_of)
             tasks, problems = plan(choice, objects)
             solved, unsolved = _solve_all(tasks, context.window_manager)
             summary, unwritten = write_all(choice, solved)
@@ -92,6 +97,8 @@ class CUBIC_CRAFT_OT_cubify(RunProperties, bpy.types.Operator):
         """Draw the redo panel."""
         layout = self.layout
         layout.use_property_split = True
+        if self.is_edited:
+            layout.row().prop(self, "start", expand=True)
         layout.prop(self, "cubeness", slider=True)
         layout.prop(self, "space")
         if self.space == "FRAME":
@@ -121,13 +128,17 @@ def _adopt_settings(operator, objects):
             continue
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
+    if len(objects) == 1:
+        operator.is_edited = mesh_bridge.is_edited(mesh_bridge.mesh_of(objects[0]))
+        if not operator.properties.is_property_set("start"):
+            operator.start = source.start
     is_framed = operator.space == "FRAME" and source.frame is not None
     if is_framed and not operator.properties.is_property_set("frame"):
         operator.frame = source.frame.name
 
 
 def _choice(operator, active):
-    names = tuple(name for name in ALL if operator.properties.is_property_set(name))
+    names = tuple(n for n in (*ALL, "start") if operator.properties.is_property_set(n))
     frame = find_frame(operator.frame, active) if operator.space == "FRAME" else None
     is_given = operator.properties.is_property_set("handles")
     return Choice(values_of(operator, names), frame, _handles(operator) if is_given else None)

@@ -7,25 +7,30 @@ from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.failures import UNFORESEEN, in_words
 from ..cubic_craft_addon.settings_rollback import settings_kept
 from ..solver import CubicCraftError
-from .selection import report_all, selected_meshes
+from .selection import poll_any_usable, report_all, selected_meshes
 
 _log = logging.getLogger(__name__)
 
 
 def poll_originals(operator_class, context):
-    """Tell whether a selected mesh holds something of ours; cheap, as it runs at every redraw."""
-    if any(mesh_bridge.has_traces(obj.data) for obj in selected_meshes(context)):
-        return True
-    operator_class.poll_message_set("The mesh has its original shape; Cubify it first")
-    return False
+    """Tell whether a selected mesh holds something of ours that can be changed.
+
+    Cheap, as it runs at every redraw.
+    """
+    objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_traces(obj.data)]
+    if not objects:
+        operator_class.poll_message_set("The mesh has its original shape; Cubify it first")
+        return False
+    return poll_any_usable(operator_class, objects)
 
 
 def for_each_original(operator, context, action, done):
     """Call ``action(obj)`` once per selected mesh that holds something of ours, and report.
 
-    The action changes the mesh as its last step, or not at all.
+    The action changes the mesh as its last step, or not at all. It returns what else there is to
+    say, or an empty text.
     """
-    problems, names = [], []
+    problems, names, remarks = [], [], []
     meshes = set()
     for obj in selected_meshes(context):
         if obj.data in meshes or not mesh_bridge.has_traces(obj.data):
@@ -34,7 +39,7 @@ def for_each_original(operator, context, action, done):
         try:
             mesh_bridge.check_usable(obj)
             with settings_kept([obj.data]):
-                action(obj)
+                remark = action(obj)
         except CubicCraftError as error:
             problems.append(str(error))
         except UNFORESEEN as error:
@@ -43,4 +48,8 @@ def for_each_original(operator, context, action, done):
             problems.append(f'"{obj.name}" is unchanged: {in_words(error)}')
         else:
             names.append(obj.name)
-    return report_all(operator, f"{done} {', '.join(names)}" if names else "", problems)
+            remarks.append(remark)
+    if not names:
+        return report_all(operator, "", problems)
+    texts = [f"{done} {', '.join(names)}", *dict.fromkeys(filter(None, remarks))]
+    return report_all(operator, "; ".join(texts), problems)

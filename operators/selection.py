@@ -40,10 +40,15 @@ def poll_meshes(operator_class, context):
 
 def poll_usable(operator_class, context):
     """Tell whether there is a mesh that can be cubified, and say what is wrong with the first."""
-    if not poll_meshes(operator_class, context):
-        return False
+    return poll_meshes(operator_class, context) and poll_any_usable(
+        operator_class, selected_meshes(context)
+    )
+
+
+def poll_any_usable(operator_class, objects):
+    """Tell whether one of the objects can be used, and say what is wrong with the first."""
     problems = []
-    for obj in selected_meshes(context):
+    for obj in objects:
         try:
             mesh_bridge.check_usable(obj)
         except CubicCraftError as error:

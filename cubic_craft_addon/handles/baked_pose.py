@@ -7,6 +7,8 @@ the same way once more. So each handle remembers the relation of its target (see
 pose of its own, with which the mesh was last written.
 """
 
+from collections.abc import Callable
+
 import bpy
 from mathutils import Matrix
 
@@ -47,12 +49,14 @@ def rest_in_pose(mesh: bpy.types.Mesh) -> None:
                 handle.is_baked = False
 
 
-def settle(objects: list[bpy.types.Object]) -> None:
-    """Do so for each mesh object whose mesh was edited by hand since it was written."""
+def settle(
+    objects: list[bpy.types.Object], start_of: Callable[[bpy.types.Object], mesh_bridge.Start]
+) -> None:
+    """Do so for each mesh object that starts from where it is, as edited since it was written."""
     for obj in objects:
         mesh = mesh_bridge.mesh_of(obj)
         is_baked = any(handle.is_baked for handle in object_properties(obj).handles)
-        if is_baked and not mesh_bridge.has_original(mesh):
+        if is_baked and mesh_bridge.starts_here(mesh, start_of(obj)):
             rest_in_pose(mesh)
 
 

@@ -33,6 +33,7 @@ class LiveMesh:
         self.run: LiveRun | None = None
         self.member: Member | None = None
         self._is_shown = is_shown
+        self._start = task.settings.start
         self._preview: mesh_bridge.Preview | None = None
         self._shown_moment = None
 
@@ -73,7 +74,9 @@ class LiveMesh:
         The preview must have been ended.
         """
         try:
-            is_like = self.member is not None and read_shape(task.obj).is_like(self.member.shape)
+            is_like = self.member is not None and self.member.shape.is_like(
+                read_shape(task.obj, task.settings.start)
+            )
         except solver.CubicCraftError:
             is_like = False  # reading it once more will say why
         if not is_like:
@@ -84,7 +87,7 @@ class LiveMesh:
     def begin_preview(self, mesh: bpy.types.Mesh) -> None:
         """Keep what the preview will overwrite, on the mesh itself."""
         if self._is_shown:
-            self._preview = mesh_bridge.Preview(mesh)
+            self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
 
     def show(self, mesh: bpy.types.Mesh) -> bool:

@@ -14,6 +14,7 @@ from .. import mesh_bridge
 from ..assembly import assemblies
 from ..choice import Choice
 from ..handles.baked_pose import settle
+from ..object_properties import object_properties
 from ..tasks import Task, plan, write_all
 from . import handlers, properties, status_bar, wake
 from .history import History, TakeBack
@@ -66,7 +67,7 @@ class Session:
         self._last_step = _last_step()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
-        settle(objects)
+        settle(objects, lambda obj: object_properties(obj).start)
         properties.adopt(objects[0])
         self._values = properties.live_values()
         self._history = History(self._values)

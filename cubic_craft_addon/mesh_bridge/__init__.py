@@ -9,7 +9,14 @@ Restore and Apply remove without a trace.
 from .checks import check_editable, check_usable, mesh_of
 from .group_names import set_groups_aside
 from .new_object import write_new_object
-from .original import has_original, original_positions, read_positions
+from .original import (
+    Start,
+    has_original,
+    is_edited,
+    original_positions,
+    read_positions,
+    starts_here,
+)
 from .preview import Preview
 from .preview_end import end_all_previews, end_preview, has_preview
 from .restore import forget, has_traces, restore
@@ -20,6 +27,7 @@ from .vertex_groups import group_weights
 
 __all__ = (
     "Preview",
+    "Start",
     "check_editable",
     "check_usable",
     "end_all_previews",
@@ -29,12 +37,14 @@ __all__ = (
     "has_original",
     "has_preview",
     "has_traces",
+    "is_edited",
     "mesh_of",
     "original_positions",
     "read_positions",
     "read_run",
     "restore",
     "set_groups_aside",
+    "starts_here",
     "triangles",
     "write_mesh",
     "write_new_object",

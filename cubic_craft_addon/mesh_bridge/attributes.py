@@ -26,7 +26,7 @@ ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
 LIVE = "cubic_craft_live"
 
-_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE})(\.position|\.key\d+)?")
+_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE})(\.position|\.key\d+|\.written|\.mark)?")
 
 
 def is_our_name(name: str) -> bool:

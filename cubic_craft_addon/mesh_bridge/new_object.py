@@ -10,6 +10,7 @@ import numpy as np
 from .attributes import check_names
 from .checks import check_writable, mesh_of
 from .note import check_note
+from .original import Start
 from .results import write_mesh
 
 
@@ -19,6 +20,7 @@ def write_new_object(
     rotations: np.ndarray,
     prepare: Callable[[bpy.types.Object], None] = lambda new: None,
     run: dict[str, Any] | None = None,
+    start: Start = "HERE",
 ) -> bpy.types.Object:
     """Copy an object with its mesh and write a result to the copy's mesh.
 
@@ -33,6 +35,7 @@ def write_new_object(
     rotations : (n,3,3) numpy array
     prepare : called with the new object once it has the result, before it takes the place of `obj`
     run : what to note of the run (see `note`)
+    start : what the result was made from where the mesh was edited by hand since the last one
 
     Returns
     -------
@@ -51,7 +54,7 @@ def write_new_object(
     assert new_mesh is not None and new is not None
     try:
         new.data = new_mesh  # first, so that its active shape key follows when ours is removed
-        write_mesh(new_mesh, positions, rotations, run)
+        write_mesh(new_mesh, positions, rotations, run, start)
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
         _link_beside(obj, new)

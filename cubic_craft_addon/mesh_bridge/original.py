@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The original of a mesh that we have written to: kept, found again, or given up.
 
-The original lies in point attributes of the mesh, so it is saved, copied and undone with it. It
-is valid while the base of the mesh is what we wrote, bit for bit. Any edit since then makes the
-edited shape the original.
+The original lies in point attributes of the mesh, so it is saved, copied, joined and undone with
+it, and beside it what we wrote. Where the base is that, be it transformed as a whole or in parts,
+the original is transformed alike. Where vertices have been moved by hand, the artist has the choice
+to start from there or from the original (`Start`).
 """
 
-from typing import Any
+from typing import Any, Literal
 
 import bpy
 import numpy as np
@@ -21,13 +22,20 @@ from .attributes import (
     read_attribute,
     remove_attribute,
 )
+from .carried_back import carry_back
 from .cubic_key import find_cubic_key
 from .fingerprint import fingerprint
+from .marks import make_marks
 from .note import read_note, write_note
-from .rotations import matrices_from_quaternions
-from .shapes import Shapes, carry, read_shapes
+from .recognition import UNCHANGED, Recognised, recognise
+from .shapes import Shapes, read_shapes
+
+Start = Literal["HERE", "ORIGINAL"]
+"""what a mesh starts from that was edited by hand since we wrote it: its shape, or the original"""
 
 _POSITION = f"{ORIGINAL}.position"  # only where it is not equal to the base
+_WRITTEN = f"{ORIGINAL}.written"
+_MARK = f"{ORIGINAL}.mark"
 
 
 def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -45,7 +53,7 @@ def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     return _finite(_base(mesh), mesh)
 
 
-def original_positions(mesh: bpy.types.Mesh) -> np.ndarray:
+def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarray:
     """Read the base as it was before we wrote to it, or as it is where it is not ours.
 
     Returns
@@ -57,57 +65,98 @@ def original_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     CubicCraftError
         Edit Mode, or coordinates that are not finite.
     """
-    stored = stored_result(mesh)
-    if stored is None:
-        return read_positions(mesh)
-    return _finite(_stored_base(mesh), mesh)
+    present = _base(mesh)
+    recognised = _start_of(mesh, start)
+    if recognised is None:
+        return _finite(present, mesh)
+    return _finite(recognised.moved(_stored_base(mesh), present), mesh)
 
 
 def has_original(mesh: bpy.types.Mesh | None) -> bool:
     """Tell whether the mesh holds a result of ours that `restore` can take back.
 
-    It hashes the positions (2 ms per 100 000 vertices). False where there is no mesh, or one
-    that cannot be read, as in Edit Mode.
+    It compares the positions (2 ms per 100 000 vertices, more where they have changed). False where
+    there is no mesh, or one that cannot be read, as in Edit Mode.
     """
     if not isinstance(mesh, bpy.types.Mesh) or mesh.is_editmode:
         return False
     try:
-        return stored_result(mesh) is not None or find_cubic_key(mesh) is not None
+        return recognise_result(mesh) is not None or find_cubic_key(mesh) is not None
     except CubicCraftError:
         return False
 
 
-def stored_result(mesh: bpy.types.Mesh) -> dict[str, Any] | None:
-    """Return the part "mesh" of the note while it is valid: the base is still what we wrote."""
-    stored = read_note(mesh).get("mesh")
-    if stored is None or fingerprint(_base(mesh)) != stored["fingerprint"]:
+def starts_here(mesh: bpy.types.Mesh, start: Start = "HERE") -> bool:
+    """Tell whether what we wrote to the mesh is what the next result starts from.
+
+    So it is where the mesh was edited by hand since. False where we have written nothing.
+    """
+    return has_stored(mesh) and _start_of(mesh, start) is None
+
+
+def is_edited(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether the mesh was edited by hand since we wrote it, and its original is still there.
+
+    As expensive as `has_original`.
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh is in Edit Mode, or has shape keys that do not fit.
+    """
+    recognised = recognise_result(mesh)
+    return recognised is not None and recognised.is_edited
+
+
+def recognise_result(mesh: bpy.types.Mesh) -> Recognised | None:
+    """Find out what has become of the result on the mesh; None where it has no original."""
+    if not has_stored(mesh):
         return None
-    if read_attribute(mesh, ORIGINAL, 3) is None:
-        return None  # the artist deleted it
-    return stored
+    base = _base(mesh)
+    stored = read_note(mesh).get("mesh")
+    if stored is not None and fingerprint(base) == stored["fingerprint"]:
+        return UNCHANGED
+    marks, written = read_attribute(mesh, _MARK, 3), read_attribute(mesh, _WRITTEN, 3)
+    if marks is None or written is None:
+        return None  # deleted, or by a version that had none
+    if stored is not None and _has_other_reference(mesh, stored):
+        return None
+    return recognise(marks, written, base)
 
 
-def original_shapes(mesh: bpy.types.Mesh) -> Shapes:
+def has_stored(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether the mesh holds an original, valid or stale. Cheap: it reads no positions."""
+    return ORIGINAL in our_attributes(mesh, (ORIGINAL,))
+
+
+def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
     """Read all shapes as they were before we wrote to them, our own shape key left out.
 
     Shape keys that are still as we wrote them get their original bits, also under another name.
     Those that the artist has added or edited since are carried back onto the original.
     """
     present = read_shapes(mesh, skip=find_cubic_key(mesh))
-    stored = stored_result(mesh)
-    if stored is None:
+    recognised = _start_of(mesh, start)
+    if recognised is None:
         return present
-    base = _stored_base(mesh)
-    quaternions = read_attribute(mesh, ROTATION, 4)
-    if quaternions is None:
-        back = np.broadcast_to(np.eye(3), (len(base), 3, 3))
-    else:
-        back = matrices_from_quaternions(quaternions).transpose(0, 2, 1)
-    original = carry(present, base, back, _known_keys(mesh, stored, present))
-    position = read_attribute(mesh, _POSITION, 3)
-    if position is None or present.reference is None:
-        return original
-    return Shapes(position, original.keys, original.reference, original.relative)
+    stored_base = _stored_base(mesh)
+    base = recognised.moved(stored_base, present.base)
+    if present.reference is None:
+        return Shapes(base, {}, None, {})
+    entries = read_note(mesh).get("mesh", {}).get("keys", [])
+    points = {e["name"]: read_attribute(mesh, e["attribute"], 3) for e in entries}
+    stored = {name: values for name, values in points.items() if values is not None}
+    keys = carry_back(
+        present,
+        recognised,
+        base,
+        read_attribute(mesh, ROTATION, 4),
+        _known_keys(mesh, entries, present) if recognised.is_in_place else {},
+        stored | {present.reference: stored_base},
+    )
+    position = read_attribute(mesh, _POSITION, 3) if recognised.is_whole else None
+    position = base if position is None else recognised.moved(position, present.position)
+    return Shapes(position, keys, present.reference, present.relative)
 
 
 def store_original(
@@ -123,6 +172,8 @@ def store_original(
     """
     add_attribute(mesh, ORIGINAL, original.base)
     add_attribute(mesh, ROTATION, quaternions)
+    add_attribute(mesh, _WRITTEN, written.base)
+    add_attribute(mesh, _MARK, make_marks(original.base, written.base))
     if original.position.tobytes() != original.base.tobytes():
         add_attribute(mesh, _POSITION, original.position)
     entries = []
@@ -146,12 +197,26 @@ def drop_stored(mesh: bpy.types.Mesh) -> None:
     write_note(mesh, note)
 
 
+def _start_of(mesh: bpy.types.Mesh, start: Start) -> Recognised | None:
+    """Return what has become of the result, where its original is what is asked for."""
+    recognised = recognise_result(mesh)
+    is_left = recognised is not None and recognised.is_edited and start == "HERE"
+    return None if is_left else recognised
+
+
+def _has_other_reference(mesh: bpy.types.Mesh, stored: dict[str, Any]) -> bool:
+    """Tell whether the artist has deleted Basis, so that another shape key has become the base."""
+    if mesh.shape_keys is None:
+        return False
+    return mesh.shape_keys.reference_key.name in {entry["name"] for entry in stored["keys"]}
+
+
 def _known_keys(
-    mesh: bpy.types.Mesh, stored: dict[str, Any], present: Shapes
+    mesh: bpy.types.Mesh, entries: list[dict[str, Any]], present: Shapes
 ) -> dict[str, np.ndarray]:
     """Find the original points of the shape keys that are still as we wrote them."""
-    by_print = {entry["fingerprint"]: entry for entry in stored["keys"]}
-    by_both = {(entry["name"], entry["fingerprint"]): entry for entry in stored["keys"]}
+    by_print = {entry["fingerprint"]: entry for entry in entries}
+    by_both = {(entry["name"], entry["fingerprint"]): entry for entry in entries}
     known = {}
     for name in present.relative:
         seen = fingerprint(present.keys[name])
@@ -169,7 +234,7 @@ def _base(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _stored_base(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Read the base that `stored_result` has found to be there."""
+    """Read the base that `recognise_result` has found to be there."""
     values = read_attribute(mesh, ORIGINAL, 3)
     assert values is not None
     return values

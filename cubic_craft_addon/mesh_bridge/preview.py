@@ -16,7 +16,7 @@ from .attributes import LIVE, check_names
 from .checks import check_writable
 from .cubic_key import find_cubic_key
 from .note import check_note, read_note
-from .original import original_shapes
+from .original import Start, original_shapes
 from .preview_end import end_preview
 from .preview_store import marked, store_live, write_live_part
 from .rotations import matrices_from_quaternions
@@ -31,8 +31,13 @@ class Preview:
     anew at each call.
     """
 
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
+    def __init__(self, mesh: bpy.types.Mesh, start: Start = "HERE") -> None:
         """Store on the mesh what is there now; one that is on already is ended first.
+
+        Parameters
+        ----------
+        mesh
+        start : what the run starts from where the mesh was edited by hand since the last result
 
         Raises
         ------
@@ -46,7 +51,7 @@ class Preview:
         end_preview(mesh)
         cubic_key = find_cubic_key(mesh)
         self._cubic_key = cubic_key.name if cubic_key is not None else None
-        self._original = original_shapes(mesh)
+        self._original = original_shapes(mesh, start)
         self._loose = loose_vertices(mesh)
         self._keys = _key_names(mesh)
         store_live(mesh, read_shapes(mesh))

@@ -4,12 +4,11 @@
 import bpy
 
 from ...solver.errors import CubicCraftError
-from .arrays import mark_moved
 from .attributes import our_attributes
 from .checks import check_writable, mesh_of
 from .cubic_key import find_cubic_key, remove_cubic_key
 from .note import read_note, write_note
-from .original import drop_stored, has_original, original_shapes, stored_result
+from .original import drop_stored, has_original, has_stored, original_shapes
 from .preview_end import end_preview
 from .rollback import all_or_nothing
 from .shapes import write_shapes
@@ -17,6 +16,9 @@ from .shapes import write_shapes
 
 def restore(obj: bpy.types.Object) -> None:
     """Give a mesh its original bits back and remove everything of ours from it.
+
+    Where the mesh has been transformed since, as a whole or in parts, so is the original. Where it
+    has been edited by hand, that is lost.
 
     Raises
     ------
@@ -28,18 +30,17 @@ def restore(obj: bpy.types.Object) -> None:
     end_preview(mesh)
     if not has_original(mesh):
         if has_traces(mesh):
+            how = " so that its original cannot be told any more" if has_stored(mesh) else ""
             raise CubicCraftError(
-                f"'{obj.name}' has been edited since it was cubified, and its present shape is "
-                "the original now: Apply removes what is left of the former one"
+                f"'{obj.name}' has been edited since it was cubified{how}, and its present shape "
+                "is the original now: Apply removes what is left of the former one"
             )
         raise CubicCraftError(f"'{obj.name}' has no original to restore: cubify it first")
     cubic_key = find_cubic_key(mesh)
-    original = original_shapes(mesh)
+    original = original_shapes(mesh, "ORIGINAL")
     with all_or_nothing(mesh):
-        if stored_result(mesh) is not None:
-            write_shapes(mesh, original)
+        write_shapes(mesh, original)
         drop_stored(mesh)
-        mark_moved(mesh)
         remove_cubic_key(mesh, cubic_key)
 
 

@@ -15,7 +15,7 @@ from .arrays import loose_vertices, mark_moved
 from .attributes import check_names
 from .checks import check_writable, mesh_of
 from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
-from .original import drop_stored, original_shapes, store_original, stored_result
+from .original import Start, drop_stored, original_shapes, store_original
 from .preview_end import end_preview
 from .rollback import all_or_nothing
 from .rotations import matrices_from_quaternions
@@ -29,6 +29,7 @@ def write_mesh(
     positions: np.ndarray,
     rotations: np.ndarray,
     run: dict[str, Any] | None = None,
+    start: Start = "HERE",
 ) -> None:
     """Write a result to the mesh: the base moves and the shape keys are carried along.
 
@@ -38,6 +39,7 @@ def write_mesh(
     positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
     rotations : (n,3,3) numpy array, the local rotation of each vertex
     run : what to note of the run (see `note`)
+    start : what the result was made from where the mesh was edited by hand since the last one
 
     Raises
     ------
@@ -49,7 +51,7 @@ def write_mesh(
     check_names(mesh)
     end_preview(mesh)
     cubic_key = find_cubic_key(mesh)
-    original = original_shapes(mesh)
+    original = original_shapes(mesh, start)
     loose = loose_vertices(mesh)
     positions = settled(mesh, positions, original.base, loose)
     quaternions = settled_rotations(mesh, rotations, loose)
@@ -63,7 +65,10 @@ def write_mesh(
 
 
 def write_shape_key(
-    obj: bpy.types.Object, positions: np.ndarray, run: dict[str, Any] | None = None
+    obj: bpy.types.Object,
+    positions: np.ndarray,
+    run: dict[str, Any] | None = None,
+    start: Start = "HERE",
 ) -> None:
     """Write a result to the shape key "Cubic"; everything else has its original shape.
 
@@ -72,6 +77,7 @@ def write_shape_key(
     obj : an object with a mesh, in Object Mode
     positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
     run : what to note of the run (see `note`)
+    start : what the result was made from where the mesh was edited by hand since the last one
 
     Raises
     ------
@@ -87,11 +93,10 @@ def write_shape_key(
             "Relative (Object Data > Shape Keys) or choose another result"
         )
     end_preview(mesh)
-    original = original_shapes(mesh)
+    original = original_shapes(mesh, start)
     positions = settled(mesh, positions, original.base, loose_vertices(mesh))
     with all_or_nothing(mesh):
-        if stored_result(mesh) is not None:
-            write_shapes(mesh, original)
+        write_shapes(mesh, original)
         drop_stored(mesh)
         write_cubic_key(obj, positions)
         note_run(mesh, run)

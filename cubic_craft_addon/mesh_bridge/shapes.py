@@ -83,27 +83,33 @@ def carry(
         return Shapes(base, {}, None, {})
     known = known or {}
     keys = {shapes.reference: base}
-    unturned = (rotations == np.eye(3)).all(axis=(1, 2))
     for name, other in shapes.relative.items():
         keys[name] = (
             known[name]
             if name in known
-            else _carried(shapes.keys[name], shapes.keys[other], keys[other], rotations, unturned)
+            else carried(shapes.keys[name], shapes.keys[other], keys[other], rotations)
         )
     return Shapes(base, keys, shapes.reference, shapes.relative)
 
 
-def _carried(
-    key: np.ndarray,
-    other: np.ndarray,
-    new_other: np.ndarray,
-    rotations: np.ndarray,
-    unturned: np.ndarray,
+def carried(
+    key: np.ndarray, other: np.ndarray, new_other: np.ndarray, matrices: np.ndarray
 ) -> np.ndarray:
-    """Carry one key along with the key `other` that it is relative to."""
+    """Carry one key along with the key `other` that it is relative to.
+
+    Parameters
+    ----------
+    key, other, new_other : (n,3) numpy float32 arrays
+    matrices : (n,3,3) numpy float64 array, what the offsets are turned by
+
+    Returns
+    -------
+    (n,3) numpy float32 array; the bits of `key` where nothing moves and nothing turns
+    """
     offset = key.astype(np.float64) - other
     with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
-        turned = (new_other + np.einsum("nij,nj->ni", rotations, offset)).astype(np.float32)
+        turned = (new_other + np.einsum("nij,nj->ni", matrices, offset)).astype(np.float32)
+    unturned = (matrices == np.eye(3)).all(axis=(1, 2))
     unmoved = unturned & (new_other == other).all(axis=1)
     return np.where(unmoved[:, None], key, turned)
 

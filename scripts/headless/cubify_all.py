@@ -10,7 +10,7 @@ import bpy
 from .errors import InputError
 from .extension import Extension
 from .load_meshes import Loaded
-from .pose import handles_of_all
+from .pose import handles_of_all, start_of
 from .progress import ProgressBar
 
 __all__ = ("Sculpture", "cubify_all")
@@ -94,6 +94,7 @@ def _settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,
+        start=start_of(obj),
         map_group=options.map if options.map in obj.vertex_groups else "",
         solidity=options.solidity,
         together=options.together.upper(),

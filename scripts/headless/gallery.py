@@ -138,7 +138,7 @@ def _groups(
     for label, number in versions:
         copies, places = [], []
         for sculpture in sculptures:
-            original = extension.mesh_bridge.original_positions(sculpture.object.data)
+            original = sculpture.member.shape.original
             shape = original if number is None else sculpture.solutions[number].positions
             for user in sculpture.users:
                 copy = detached_copy(user, shape, extension, keep_modifiers=True)

@@ -14,7 +14,13 @@ from .formats import RENUMBER_VERTICES
 from .handles_file import GivenHandle
 from .load_meshes import Loaded
 
-__all__ = ("handles_of_all",)
+__all__ = ("handles_of_all", "start_of")
+
+
+def start_of(obj: bpy.types.Object) -> str:
+    """Return what a mesh starts from that was edited since it was cubified: what the file says."""
+    # Before Blender 5, reading the settings stores them on the object.
+    return obj.cubic_craft.start if obj.is_property_set("cubic_craft") else "HERE"
 
 
 def handles_of_all(
@@ -38,7 +44,7 @@ def handles_of_all(
     for given in options.handles:
         is_anywhere = False
         for obj in loaded.objects:
-            original = extension.mesh_bridge.original_positions(obj.data)
+            original = extension.mesh_bridge.original_positions(obj.data, start_of(obj))
             members = _members(obj, original, given, loaded, options, extension)
             if len(members):
                 is_anywhere = True

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -142,43 +140,6 @@ def test_save_and_load(bridge, monkey, tmp_path):
     assert differences(before, snapshot_object(loaded)) == []
 
 
-def test_edited_mesh_becomes_the_original(bridge, error, monkey):
-    mesh = monkey.data
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
-    _move_one(mesh)
-    edited = bridge.read_positions(mesh)
-    assert not bridge.has_original(mesh)
-    assert bridge.original_positions(mesh).tobytes() == edited.tobytes()
-    before = snapshot_object(monkey)
-    with pytest.raises(error, match=rf"{monkey.name}.*edited"):
-        bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
-    bridge.write_mesh(mesh, *cubic_like(edited, 3))
-    stored = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
-    assert len(stored) == (6 if mesh.shape_keys else 2)
-    assert bridge.original_positions(mesh).tobytes() == edited.tobytes()
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
-    assert "cubic_craft_note" not in mesh
-
-
-def test_added_vertex_makes_it_the_original(bridge, plain_monkey):
-    mesh = plain_monkey.data
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    bm.verts.new((0, 0, 9))
-    bm.to_mesh(mesh)
-    bm.free()
-    assert not bridge.has_original(mesh)
-    edited = bridge.read_positions(mesh)
-    assert bridge.original_positions(mesh).tobytes() == edited.tobytes()
-    bridge.write_mesh(mesh, *cubic_like(edited))
-    bridge.restore(plain_monkey)
-    assert bridge.read_positions(mesh).tobytes() == edited.tobytes()
-    assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
-
-
 def test_deleted_attribute_makes_it_the_original(bridge, plain_monkey):
     mesh = plain_monkey.data
     bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
@@ -186,28 +147,6 @@ def test_deleted_attribute_makes_it_the_original(bridge, plain_monkey):
     assert not bridge.has_original(mesh)
     bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
     assert bridge.has_original(mesh)
-
-
-@pytest.mark.parametrize("into", ["cubic", "plain"])
-def test_joined_with_a_cubified_mesh(bridge, plain_monkey, into):
-    """The attributes come along, the note only with the active mesh; neither is an original."""
-    bpy.ops.mesh.primitive_cube_add()
-    cube: Any = bpy.context.object
-    bridge.write_mesh(plain_monkey.data, *cubic_like(bridge.read_positions(plain_monkey.data)))
-    plain_monkey.select_set(True)
-    obj = plain_monkey if into == "cubic" else cube
-    bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.join()
-    mesh = obj.data
-    assert "cubic_craft_original" in mesh.attributes
-    assert not bridge.has_original(mesh)
-    joined = bridge.read_positions(mesh)
-    bridge.write_mesh(mesh, *cubic_like(bridge.original_positions(mesh)))
-    ours = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
-    assert ours == ["cubic_craft_original", "cubic_craft_rotation"]
-    bridge.restore(obj)
-    assert bridge.read_positions(mesh).tobytes() == joined.tobytes()
-    assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
 
 
 @pytest.mark.parametrize(

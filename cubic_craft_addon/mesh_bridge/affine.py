@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Affine maps between two shapes of the same vertices: what transforming a whole mesh does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+_ROUNDING = 2.0**-24  # of float32, relative
+_MARGIN = 16.0  # several transforms in a row, each of a few roundings
+_FLAT = 3e-7  # extent relative to the largest one, below which a shape says nothing about it
+_SAMPLES = 256  # of four vertices each: one is without those moved by hand, if these are half
+_SCORED = 4096  # vertices, by which samples are compared
+_LEAST_SHARE = 0.125  # of the vertices, that must agree on how all have been transformed
+_GOOD_PART = 0.25  # of the distances, that a map may leave where no vertices agree
+
+
+@dataclass(frozen=True)
+class Affine:
+    """The map ``x -> linear @ x + offset`` of points in object space; it has an inverse."""
+
+    linear: np.ndarray
+    """(3,3) float64"""
+    offset: np.ndarray
+    """(3,) float64"""
+    is_flattened: bool = False
+    """the shape that it was found by has lost an extent, which this map keeps"""
+    is_unique: bool = True
+    """more vertices agree on it than are needed to find one"""
+
+    @property
+    def is_identity(self) -> bool:
+        """Whether it leaves all points where they are, to the bit."""
+        return np.array_equal(self.linear, np.eye(3)) and not self.offset.any()
+
+    def moved(self, points: np.ndarray) -> np.ndarray:
+        """Map (n,3) points; float32, the same bits for the identity."""
+        if self.is_identity:
+            return points
+        with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
+            return (points @ self.linear.T + self.offset).astype(np.float32)
+
+    def agrees(self, before: np.ndarray, after: np.ndarray, slack: float = 1.0) -> np.ndarray:
+        """Tell of which points it is what has moved them, up to the rounding of float32.
+
+        Parameters
+        ----------
+        before, after : (n,3) numpy arrays
+        slack : times the rounding
+
+        Returns
+        -------
+        (n,) numpy bool array
+        """
+        return _agrees(self.linear, self.offset, before, after, slack)
+
+
+IDENTITY = Affine(np.eye(3), np.zeros(3))
+
+
+def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
+    """Find the affine map that has moved all vertices, up to the rounding of float32.
+
+    Where the vertices lie in a plane, on a line, or in one point, many maps do. Then the extents
+    that they lack are scaled by the mean of the others, and not mirrored.
+
+    Parameters
+    ----------
+    before, after : (n,3) numpy float32 arrays
+
+    Returns
+    -------
+    Affine, or None where there is none
+    """
+    if np.array_equal(before, after):
+        return IDENTITY
+    if not (len(before) and np.isfinite(before).all() and np.isfinite(after).all()):
+        return None
+    linear, offset, extents = _least_squares(before, after)
+    if not _agrees(linear, offset, before, after).all():
+        return None
+    return _plain(_completed(linear, before, after, extents), before, after)
+
+
+def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
+    """Find how a mesh has been transformed of which vertices have been moved by hand as well.
+
+    Parameters
+    ----------
+    before, after : (n,3) numpy float32 arrays, of at least one vertex
+
+    Returns
+    -------
+    Affine
+        The map of the most vertices; where hardly two of them agree, the one that comes close to
+        all, or the identity.
+    """
+    if not (np.isfinite(before).all() and np.isfinite(after).all()):
+        return IDENTITY
+    rng = np.random.default_rng(0)
+    some = np.linspace(0, len(before) - 1, min(len(before), _SCORED)).astype(int)
+    some_before, some_after = before[some], after[some]
+    best, votes = IDENTITY, 0
+    enough = max(5, int(_LEAST_SHARE * len(some)))
+    if IDENTITY.agrees(some_before, some_after).sum() >= enough:
+        return IDENTITY  # also where more have been moved alike
+    for _ in range(_SAMPLES):
+        if 2 * votes > len(some):
+            break
+        sample = rng.choice(len(some), min(4, len(some)), replace=False)
+        found = _map_of(some_before[sample], some_after[sample])
+        agreed = found.agrees(some_before, some_after, 16.0)
+        if agreed.sum() > max(votes, 4):
+            found = _map_of(some_before[agreed], some_after[agreed])
+            count = int(found.agrees(some_before, some_after).sum())
+            if count > votes:
+                best, votes = found, count
+    if votes >= enough:
+        agreed = best.agrees(before, after, 4.0)
+        return _plain(_map_of(before[agreed], after[agreed]), before[agreed], after[agreed])
+    nearest = _map_of(before, after)
+    left = np.linalg.norm(nearest.moved(before) - after)
+    return nearest if left < _GOOD_PART * np.linalg.norm(before - after) else IDENTITY
+
+
+def _plain(found: Affine, before: np.ndarray, after: np.ndarray) -> Affine:
+    """Round a map to one that Blender can have applied, of zeros and float32, where it agrees.
+
+    Then halves that were mirror images, to the bit, are so after it.
+    """
+    linear, offset = found.linear, found.offset
+    least = 2 * _ROUNDING * np.abs(linear).max()
+    linear = np.where(np.abs(linear) < least, 0.0, linear).astype(np.float32)
+    least = 2 * _ROUNDING * np.abs(after).max()
+    offset = np.where(np.abs(offset) < least, 0.0, offset).astype(np.float32)
+    plain = replace(found, linear=linear.astype(np.float64), offset=offset.astype(np.float64))
+    return plain if plain.agrees(before, after).all() else found
+
+
+def _map_of(before: np.ndarray, after: np.ndarray) -> Affine:
+    linear, _, extents = _least_squares(before, after)
+    return _completed(linear, before, after, extents)
+
+
+def _least_squares(before: np.ndarray, after: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+    """Return linear part and offset of the nearest map, and how many extents the shape has."""
+    start, end = before.mean(axis=0, dtype=np.float64), after.mean(axis=0, dtype=np.float64)
+    X, Y = before - start, after - end
+    values, axes = np.linalg.eigh(X.T @ X)
+    has_extent = values > _FLAT**2 * values[-1]
+    known = axes[:, has_extent]
+    linear = (Y.T @ (X @ known)) / values[has_extent] @ known.T
+    return linear, end - linear @ start, int(has_extent.sum())
+
+
+def _agrees(
+    linear: np.ndarray,
+    offset: np.ndarray,
+    before: np.ndarray,
+    after: np.ndarray,
+    slack: float = 1.0,
+) -> np.ndarray:
+    # Of what Blender has added up: products of the matrix, the translation, and the sum.
+    terms = np.abs(linear) @ np.abs(before).max(axis=0, initial=0.0).astype(np.float64)
+    size = max(np.max(terms + np.abs(offset)), np.abs(after).max(initial=0.0))
+    far = np.abs(before @ linear.T + offset - after)
+    return (far <= slack * _MARGIN * _ROUNDING * size).all(axis=1)
+
+
+def _completed(linear: np.ndarray, before: np.ndarray, after: np.ndarray, extents: int) -> Affine:
+    """Give the map the extents that it lacks; what it does to the vertices stays."""
+    U, scales, Vt = np.linalg.svd(linear)
+    # What was scaled to nothing is a rounding away from it.
+    is_there = (scales > 4 * _FLAT * scales[0]) & (np.arange(3) < extents)
+    if not is_there.all():
+        mean = np.exp(np.log(scales[is_there]).mean()) if is_there.any() else 1.0
+        scales = np.where(is_there, scales, mean)
+        if np.linalg.det(U) * np.linalg.det(Vt) < 0:
+            U[:, -1] *= -1
+        linear = (U * scales) @ Vt
+    offset = after.mean(axis=0, dtype=np.float64) - linear @ before.mean(axis=0, dtype=np.float64)
+    is_flattened = int(is_there.sum()) < extents
+    return Affine(linear, offset, is_flattened, len(before) > extents + 1)

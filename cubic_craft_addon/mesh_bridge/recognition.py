@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What has become of vertices that we have written: transformed, joined, removed, or moved."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .affine import IDENTITY, Affine, consensus, fit
+from .marks import groups, is_complete, runs
+
+_MOST_RUNS = 256  # more come of cutting faces up, not of joining meshes
+
+
+@dataclass(frozen=True)
+class Part:
+    """Vertices that have been transformed alike."""
+
+    rows: np.ndarray | slice
+    map: Affine
+
+
+@dataclass(frozen=True)
+class Recognised:
+    """Where the vertices are that we have written; those in no part have no original."""
+
+    parts: tuple[Part, ...]
+    is_edited: bool
+    """some are not where transforming the parts has brought them"""
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it is one mesh, as it was written."""
+        return isinstance(self.parts[0].rows, slice)
+
+    @property
+    def is_in_place(self) -> bool:
+        """Whether it is one mesh that has not been transformed."""
+        return self.is_whole and self.parts[0].map.is_identity
+
+    def moved(self, stored: np.ndarray, elsewhere: np.ndarray) -> np.ndarray:
+        """Transform (n,3) stored points with their parts; vertices in no part are `elsewhere`."""
+        if self.is_whole:
+            return self.parts[0].map.moved(stored)
+        points = elsewhere.copy()
+        for part in self.parts:
+            points[part.rows] = part.map.moved(stored[part.rows])
+        return points
+
+
+UNCHANGED = Recognised((Part(slice(None), IDENTITY),), is_edited=False)
+
+
+def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Recognised | None:
+    """Find out what has become of a result.
+
+    Parameters
+    ----------
+    marks : (n,3) numpy float32 array, see `marks`
+    written, present : (n,3) numpy float32 arrays, the shape as we wrote it, and as it is
+
+    Returns
+    -------
+    Recognised, or None where there are vertices of which nobody can tell what their original is
+    """
+    parts: list[Part] = []
+    is_edited = False
+    for rows in groups(marks):
+        found = _recognise_group(marks, written, present, rows)
+        if found is None:
+            return None
+        parts += found.parts
+        is_edited |= found.is_edited
+    if not parts:
+        return None
+    if len(parts) == 1 and len(_rows(parts[0])) == len(marks) == marks[0, 2]:
+        parts = [Part(slice(None), parts[0].map)]
+    return Recognised(tuple(parts), is_edited)
+
+
+def _rows(part: Part) -> np.ndarray:
+    assert isinstance(part.rows, np.ndarray)
+    return part.rows
+
+
+def _recognise_group(
+    marks: np.ndarray, written: np.ndarray, present: np.ndarray, rows: np.ndarray
+) -> Recognised | None:
+    """Do so for vertices that are of one result, or of several copies of it."""
+    at_once = fit(written[rows], present[rows])
+    if at_once is not None:
+        return Recognised((Part(rows, at_once),), at_once.is_flattened)
+    found, between = runs(marks, rows)
+    if len(found) > _MOST_RUNS:
+        return None
+    places, counts = np.unique(marks[np.concatenate(found), 1], return_counts=True)
+    single = places[counts == 1]
+    parts, is_edited = [], False
+    for run in found:
+        own = fit(written[run], present[run])
+        if own is not None and own.is_unique:
+            is_edited |= own.is_flattened
+        elif is_complete(marks, run) or np.isin(marks[run, 1], single).all():
+            own = consensus(written[run], present[run])
+            is_edited = True
+        else:
+            between = np.concatenate([between, run])
+            continue
+        parts.append(Part(run, own))
+    # Vertices in between belong to the part that they have been moved with.
+    for place, part in enumerate(parts):
+        agrees = part.map.agrees(written[between], present[between])
+        parts[place] = Part(np.concatenate([_rows(part), between[agrees]]), part.map)
+        between = between[~agrees]
+    return Recognised(tuple(parts), is_edited) if parts and not len(between) else None
