@@ -16,7 +16,7 @@ def test():
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
     yield from gui.drag_slider(slider, 0.3, 0.8)
     cubeness = bpy.context.window_manager.cubic_craft_live.cubeness
-    assert cubeness > 0.5, cubeness
+    assert cubeness > 0.45, cubeness
     yield from scene.wait_idle()
     yield from gui.screenshot("live_converged.png")
 
