@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import live
+from . import edited, live, mesh_bridge
 from .last_run import LastRun
 from .modes import is_mode_usable
 from .text_fit import longest_that_fits, room_for_text, wrapped
@@ -63,19 +63,21 @@ def _draw_line(context, layout, obj, run, changes):
         text = longest_that_fits(("Switch to Object Mode", "Object Mode"), room)
         layout.operator("object.mode_set", text=text, icon="OBJECT_DATAMODE").mode = "OBJECT"
         return
-    texts, icon = _words(run, changes)
+    texts, icon = _words(run, changes, is_edited=edited.is_edited(mesh_bridge.mesh_of(obj)))
     layout.alert = icon == "ERROR"
     layout.active = run is not None
     layout.label(text=longest_that_fits(texts, room), icon=icon)
 
 
-def _words(run, changes):
+def _words(run, changes, *, is_edited):
     """Return the line, from long to short, and its icon."""
     if run is None:
         return ("Not cubified yet", "Not cubified"), "BLANK1"
     if changes:
         count = f"{len(changes)} settings changed" if len(changes) > 1 else "1 setting changed"
         return (f"Changed: {', '.join(changes)}", count, "Changed"), "ERROR"
+    if is_edited:
+        return ("Edited since the last run", "Edited since", "Edited"), "INFO"
     if not run.converged:
         iterations = f"{run.iterations} iterations"
         return (f"Not converged after {iterations}", f"Not converged: {iterations}"), "ERROR"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel says before the click; the drawing itself is tested in a window."""
 
+import dataclasses
 import importlib
 import re
 from pathlib import Path
@@ -102,3 +103,40 @@ def test_texts_fit_the_room_that_there_is(extension):
     assert text_fit.wrapped("", wide) == []
     for room, fits in ((2 * wide, text), (0.9 * wide, text[:20]), (1.0, "Ears")):
         assert text_fit.longest_that_fits((text, text[:20], "Ears"), room) == fits
+
+
+def test_the_line_below_the_buttons_says_what_matters_most(extension):
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.status_panel")
+    last_run = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.last_run")
+    run = last_run.LastRun(
+        settings={"cubeness": 0.4},
+        vertices=12345,
+        objects=3,
+        iterations=40,
+        energy=0.1,
+        converged=True,
+        seconds=1.234,
+        device="numpy",
+    )
+
+    def line(run, changes=(), *, is_edited=False):
+        texts, icon = panel._words(run, list(changes), is_edited=is_edited)
+        assert list(texts) == sorted(texts, key=len, reverse=True)
+        return texts[0], icon
+
+    assert line(None) == ("Not cubified yet", "BLANK1")
+    assert line(run) == ("Converged in 1.23 s, 12,345 vertices of 3 objects", "CHECKMARK")
+    unfinished = dataclasses.replace(run, converged=False)
+    assert line(unfinished) == ("Not converged after 40 iterations", "ERROR")
+    assert line(unfinished, is_edited=True) == ("Edited since the last run", "INFO")
+    changed = line(run, ["Cubeness", "Handles"], is_edited=True)
+    assert changed == ("Changed: Cubeness, Handles", "ERROR")
+    assert [value(run) for _, value in panel._NUMBERS] == [
+        "0.4",
+        "12,345 of 3 objects",
+        "40",
+        "-",
+        "0.10000",
+        "1.23 s",
+        "numpy",
+    ]
