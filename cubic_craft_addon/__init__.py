@@ -4,6 +4,7 @@
 from . import (
     edited,
     group_renames,
+    job,
     live,
     overlay,
     panel,
@@ -19,6 +20,7 @@ _modules = (
     properties,
     preferences,
     live,
+    job,
     overlay,
     handles_panel,
     presets,

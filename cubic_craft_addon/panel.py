@@ -4,7 +4,7 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import edited, live, mesh_bridge, overlay, status_panel
+from . import edited, job, live, mesh_bridge, overlay, status_panel
 from .handles import panel as handles_panel
 from .handles.owner import panel_object
 from .handles.pose import object_handles
@@ -30,10 +30,11 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_category = DEFAULT_TAB
 
     def draw_header_preset(self, context):
-        """Offer presets, save while Live runs, whose settings are not those of the object."""
+        """Offer presets, save while Live or Cubify runs, whose settings are their own."""
         # The preset is of the active object, which need not be the one that the panel shows.
         obj = context.active_object
-        if obj is not None and obj.type == "MESH" and not live.current():
+        is_busy = live.current() or job.current()
+        if obj is not None and obj.type == "MESH" and not is_busy:
             CUBIC_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
@@ -54,7 +55,9 @@ class CUBIC_PT_main(bpy.types.Panel):
             if identifier == handles_panel.SECTION:
                 handles_panel.draw_switch(header, obj)
             header.label(text=title)
+            header.enabled = job.current() is None
             if body is not None:
+                body.enabled = job.current() is None
                 draw(body, obj)
 
 
@@ -62,8 +65,10 @@ def _draw_cubify(context, layout, obj):
     session = live.current()
     run = last_run(obj)
     changes = changes_since(obj, run) if run and not session else []
-    edited.draw(layout, obj)
-    layout.prop(live.shared_properties(obj), "cubeness", slider=True)
+    column = layout.column()
+    column.enabled = job.current() is None
+    edited.draw(column, obj)
+    column.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5
     row.operator(

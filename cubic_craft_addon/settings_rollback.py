@@ -16,23 +16,41 @@ def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
 
     Handles may change in it, but none may be added or removed.
     """
+    before = _read_all(meshes)
+    try:
+        yield
+    except BaseException:
+        _put_all_back(before)
+        raise
+
+
+@contextmanager
+def settings_untouched(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
+    """Undo it in any case, as `settings_kept` does."""
+    before = _read_all(meshes)
+    try:
+        yield
+    finally:
+        _put_all_back(before)
+
+
+def _read_all(meshes: Iterable[bpy.types.Mesh]) -> list[tuple[bpy.types.Object, Any]]:
     users = bpy.data.user_map(subset=list(meshes)).values()
     objects = {user for some in users for user in some if isinstance(user, bpy.types.Object)}
-    before = [
+    return [
         (obj, [_read(group) for group in _groups(obj)] if has_properties(obj) else None)
         for obj in objects
         if obj.is_editable
     ]
-    try:
-        yield
-    except BaseException:
-        for obj, values in before:
-            if values is not None:
-                for group, taken in zip(_groups(obj), values, strict=True):
-                    _put_back(group, taken)
-            elif has_properties(obj):
-                obj.property_unset(PROPERTY)
-        raise
+
+
+def _put_all_back(before: list[tuple[bpy.types.Object, Any]]) -> None:
+    for obj, values in before:
+        if values is not None:
+            for group, taken in zip(_groups(obj), values, strict=True):
+                _put_back(group, taken)
+        elif has_properties(obj):
+            obj.property_unset(PROPERTY)
 
 
 def _groups(obj: bpy.types.Object) -> list[Any]:

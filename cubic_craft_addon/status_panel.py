@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import bpy
 
-from . import edited, live, mesh_bridge
+from . import edited, job, live, mesh_bridge
+from .job import panel as job_panel
 from .last_run import LastRun
 from .modes import is_mode_usable
 from .text_fit import longest_that_fits, room_for_text, wrapped
@@ -48,8 +49,11 @@ def draw(
 
 
 def _draw_line(context, layout, obj, run, changes):
-    session = live.current()
+    session, running = live.current(), job.current()
     room = room_for_text(context, _ARROW)
+    if running is not None:
+        job_panel.draw(layout, running, lambda texts: longest_that_fits(texts, room - _ICON))
+        return
     if session is not None:
         mesh = session.mesh_of(obj)
         if mesh is None:

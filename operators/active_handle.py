@@ -7,10 +7,13 @@ from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
+from .selection import poll_idle
 
 
 def poll_mesh(operator_class, context, modes=("OBJECT",)):
     """Tell whether there is a mesh whose handles can be changed, and say what is missing."""
+    if not poll_idle(operator_class):
+        return False
     if context.mode not in modes:
         operator_class.poll_message_set("Switch to Object Mode first")
         return False

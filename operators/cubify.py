@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify: the selected meshes become cubic, in one click and one undo step.
 
-Invariant: all objects are solved before the first is written, so that whatever goes wrong on the
-way, nothing has changed.
+All objects are solved before the first is written, so that whatever goes wrong on the way, nothing
+has changed. From the interface a long run leaves Blender usable and can be cancelled; scripts wait.
 """
 
 import math
@@ -10,19 +10,14 @@ import math
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
-from .. import solver
-from ..cubic_craft_addon import cubify, mesh_bridge
-from ..cubic_craft_addon.assembly import assemblies
+from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..cubic_craft_addon.handles import Handle
-from ..cubic_craft_addon.handles.baked_pose import settle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.last_run import last_run
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.properties import RunProperties, StartProperty
-from ..cubic_craft_addon.settings_rollback import settings_kept
-from ..cubic_craft_addon.tasks import plan, prepare_all, write_all
 from ..cubic_craft_addon.up_to_date import changes_since
 from ..solver import CubicCraftError
 from .selection import poll_usable, report_all, selected_meshes
@@ -79,19 +74,74 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Solve all objects, then write all results."""
+        """Solve all objects, then write all results; without a break, for scripts."""
+        work = self._job(context)
+        manager = context.window_manager
+        manager.progress_begin(0, _PROGRESS_STEPS)
+        try:
+            for step in work.steps():
+                manager.progress_update(round(_PROGRESS_STEPS * step.factor))
+        finally:
+            manager.progress_end()
+        return report_all(self, *work.write(is_alone=True))
+
+    def invoke(self, context, event):
+        """Do the same, and let Blender go on beside what takes longer than a moment."""
+        if bpy.app.background or context.window is None:  # nobody to watch it
+            return self.execute(context)
+        return self._start(context)
+
+    def modal(self, context, event):
+        """Go on, or end; all else is Blender's, so that the view can be orbited."""
+        if self._watched.reason is None and _is_to_cancel(event):
+            self._watched.cancel()
+        if self._watched.reason is not None:
+            return self._report_cancel()
+        return self._tick(context) if event.type == "TIMER" else {"PASS_THROUGH"}
+
+    def cancel(self, context):
+        """Blender takes the operator away: another file, or the window is closed."""
+        self._watched.cancel("the window was closed")
+
+    @reporting
+    def _start(self, context):
+        self._watched = job.WatchedJob(self._job(context))
+        self._watched.advance(job.FIRST_SLICE)
+        if self._watched.is_solved:
+            return report_all(self, *self._watched.write())
+        try:
+            self._watched.watch(context.window)
+            # With its area: where that is not known, the panel of the last operator is not shown.
+            context.window_manager.modal_handler_add(self)
+        except BaseException:
+            self._watched.close()
+            raise
+        return {"RUNNING_MODAL"}
+
+    @reporting
+    def _tick(self, context):
+        watched = self._watched
+        try:
+            watched.tick()
+            if watched.is_solved:
+                return report_all(self, *watched.write())
+        except BaseException:
+            watched.close()
+            raise
+        return self._report_cancel() if watched.reason is not None else {"RUNNING_MODAL"}
+
+    def _job(self, context):
         objects = selected_meshes(context)
         _adopt_settings(self, objects)
-        choice = _choice(self, objects[0])
-        with settings_kept([obj.data for obj in objects]):
-            settle(objects, choice.start_of)
-            tasks, problems = plan(choice, objects)
-            solved, unsolved = _solve_all(tasks, context.window_manager)
-            summary, unwritten = write_all(choice, solved)
-            problems += unsolved + unwritten
-            if not summary:
-                raise CubicCraftError("; ".join(problems))
-        return report_all(self, summary, problems)
+        return job.Job(_choice(self, objects[0]), objects)
+
+    def _report_cancel(self):
+        reason = self._watched.reason
+        if reason:
+            self.report({"WARNING"}, f"Cubify was cancelled, nothing has changed: {reason}")
+        else:
+            self.report({"INFO"}, "Cubify was cancelled, nothing has changed")
+        return {"CANCELLED"}
 
     def draw(self, context):
         """Draw the redo panel."""
@@ -162,46 +212,9 @@ def _affine(item):
     return matrix
 
 
-def _solve_all(tasks, manager):
-    """Return the tasks that could be solved, and the problems as texts."""
-    groups, problems = assemblies(tasks), []
-    manager.progress_begin(0, _PROGRESS_STEPS * len(groups))
-    try:
-        for number, group in enumerate(groups):
-            twin = next((other for other in tasks if _is_twin(other, group)), None)
-            if twin is not None:
-                group[0].solution = twin.solution
-            else:
-                problems += _solve(group, manager, number * _PROGRESS_STEPS)
-    finally:
-        manager.progress_end()
-    return [task for task in tasks if task.solution is not None], problems
-
-
-def _is_twin(task, group):
-    """Tell whether a task has been solved that has the solution of a group of one."""
-    if task.solution is None or task.solution.objects > 1 or len(group) > 1:
+def _is_to_cancel(event):
+    """Tell whether it is Esc, or Ctrl-Z, which takes back what was clicked last: this."""
+    if event.value != "PRESS":
         return False
-    return task.is_like(group[0])
-
-
-def _solve(group, manager, offset):
-    """Solve tasks at once, and return the problems as texts."""
-    settings = group[0].settings
-    progress = solver.Progress(settings.max_iterations, settings.tolerance)
-
-    def show(stylization):
-        manager.progress_update(offset + round(_PROGRESS_STEPS * progress.update(stylization)))
-        return False
-
-    prepared, problems = prepare_all(group)
-    if prepared is None:
-        return problems
-    try:
-        solutions = cubify.solve(prepared, show)
-    except CubicCraftError as error:
-        return [*problems, str(error)]
-    by_uid = {m.uid: s for m, s in zip(prepared.members, solutions, strict=True)}
-    for task in group:
-        task.solution = by_uid.get(task.uid)
-    return problems
+    is_undo = event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt)
+    return is_undo or event.type == "ESC"

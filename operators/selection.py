@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
-from ..cubic_craft_addon import live, mesh_bridge
+from ..cubic_craft_addon import job, live, mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ..cubic_craft_addon.modes import MESSAGE, is_mode_usable
 from ..solver import CubicCraftError
@@ -24,8 +24,18 @@ def selected_meshes(context):
     return sorted(objects, key=lambda obj: obj != active)
 
 
+def poll_idle(operator_class):
+    """Tell whether no Cubify runs, which what is done to its meshes would make worthless."""
+    if job.current() is None:
+        return True
+    operator_class.poll_message_set("Cubify is running; cancel it by Esc")
+    return False
+
+
 def poll_meshes(operator_class, context):
     """Tell whether there is a mesh to work on, and say what is missing."""
+    if not poll_idle(operator_class):
+        return False
     if live.current() is not None:
         operator_class.poll_message_set("Confirm or cancel Live first")
         return False

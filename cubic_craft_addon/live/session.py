@@ -15,6 +15,7 @@ from ..assembly import assemblies
 from ..choice import Choice
 from ..handles.baked_pose import settle
 from ..object_properties import object_properties
+from ..redraw import redraw_panels
 from ..tasks import Task, plan, write_all
 from . import handlers, properties, status_bar, wake
 from .history import History, TakeBack
@@ -217,13 +218,13 @@ class Session:
         if self._runs.is_working or is_new or self._is_changed_at_rest(list(objects.values())):
             if begin >= self._next_panel:
                 self._next_panel = begin + _PANEL_STEP
-                _redraw_panels()
+                redraw_panels()
             return
         if self.is_finishing and not any(mesh.solution for mesh in self.meshes):
             self.on(Event.REFUSED)
         self._has_written = False
         self.on(Event.DONE)
-        _redraw_panels()
+        redraw_panels()
 
     def _check(self, objects, now):
         """Restart what has other settings, or other weights, now."""
@@ -339,7 +340,7 @@ class Session:
         self._runs.release()
         for mesh in self.meshes:
             mesh.release()
-        _redraw_panels()
+        redraw_panels()
 
     # -- helpers -----------------------------------------------------------------------------------
 
@@ -389,12 +390,3 @@ def _last_step():
     """Return what tells the artist's last operator with an undo step from others, 0 for none."""
     steps = [op for op in bpy.context.window_manager.operators if "UNDO" in op.bl_options]
     return steps[-1].as_pointer() if steps else 0
-
-
-def _redraw_panels():
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()

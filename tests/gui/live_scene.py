@@ -17,6 +17,10 @@ def live():
     return importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live")
 
 
+def job():
+    return importlib.import_module(f"{EXTENSION}.cubic_craft_addon.job")
+
+
 def settings(name=NAME):
     return getattr(bpy.data.objects[name], "cubic_craft")  # noqa: B009
 

@@ -4,6 +4,7 @@
 import bpy
 import guidrive as gui
 import numpy as np
+import redo_panel
 
 NAME = "Suzanne"
 
@@ -41,15 +42,8 @@ def test():
     yield from cubify()
     first = positions()
 
-    # Open the panel "Adjust Last Operation" by its header; its first row is the cubeness.
-    panel = gui.region("HUD")
-    yield from gui.click((panel.x + panel.width // 2, panel.y + panel.height - 14))
-    yield from gui.wait_until(lambda: gui.region("HUD").height > 100, what="the open panel")
+    slider = yield from redo_panel.open_cubeness()
     yield from gui.screenshot("redo_panel.png")
-    panel = gui.region("HUD")
-    row = gui.Button("", panel.x + panel.width // 2, 0, panel.x + panel.width - 20, 0)
-    top = panel.y + panel.height - 44
-    slider = gui.Button("cubeness", row.left, top - 10, row.right, top + 10)
     yield from gui.enter_value(slider, 0.9)
     yield from gui.wait_until(lambda: positions() != first, what="another shape")
     yield from gui.screenshot("redone.png")

@@ -90,6 +90,11 @@ def is_live():
     return is_on() and scene.live().current() is not None
 
 
+def is_cubifying():
+    """Tell whether a Cubify goes on beside Blender."""
+    return is_on() and scene.job().current() is not None
+
+
 def turns(count):
     """Let Blender's main loop turn."""
     for _ in range(count):

@@ -6,15 +6,18 @@ import guidrive as gui
 import live_scene as scene
 
 from . import meshes
-from .actions import action, active_mesh, call, is_live, is_on, turns
+from .actions import action, active_mesh, call, is_cubifying, is_live, is_on, turns
 
 invariants = None  # set by the walk
 
 
 @action(7)
-def cubify(_rng):
-    return call("cubic_craft.cubify", "INVOKE_DEFAULT") if is_on() else None
-    yield
+def cubify(rng):
+    """Cubify; where it goes on beside Blender, wait for it or let something else come between."""
+    done = call("cubic_craft.cubify", "INVOKE_DEFAULT") if is_on() else None
+    if done is not None and rng.random() < 0.5:
+        yield from gui.wait_until(lambda: not is_cubifying(), what="the end of Cubify")
+    return done
 
 
 @action(4)

@@ -12,7 +12,7 @@ import guidrive as gui
 import live_scene as scene
 
 from . import meshes
-from .actions import is_live, is_on
+from .actions import is_cubifying, is_live, is_on
 
 _ALWAYS = (
     ("undo_post", "_heal"),
@@ -20,6 +20,8 @@ _ALWAYS = (
     ("load_post", "_heal"),
     ("load_post", "_start_anew"),
     ("depsgraph_update_post", "_follow_updates"),
+    ("depsgraph_update_post", "_on_update"),
+    *((name, "_forget") for name in ("undo_post", "redo_post", "load_post")),
 )
 _IN_LIVE = (
     ("undo_post", "_on_undo"),
@@ -31,6 +33,7 @@ _IN_LIVE = (
     ("frame_change_post", "_on_frame"),
     ("depsgraph_update_post", "_on_update"),
 )
+_IN_CUBIFY = (("undo_pre", "_on_undo"), ("redo_pre", "_on_undo"), ("load_pre", "_on_load"))
 _MENUS_OF_BRUSHES = re.compile(r"/bl_ui/(space_view3d|properties_paint_common)\.py$")
 
 
@@ -106,6 +109,7 @@ class Invariants:
                 found.update((name, handler.__name__) for handler in ours)
         expected = collections.Counter(_ALWAYS if is_on() else ())
         expected.update(_IN_LIVE if is_live() else ())
+        expected.update(_IN_CUBIFY if is_cubifying() else ())
         assert found == expected, f"handlers: {found - expected} more, {expected - found} missing"
 
     def _check_timers(self):
@@ -121,7 +125,8 @@ class Invariants:
         assert is_modal == is_live(), f"Live runs: {is_live()}, its operator: {is_modal}"
         header = bpy.types.STATUSBAR_HT_header
         has_text = header.draw is not getattr(header, "_draw_orig", header.draw)
-        assert has_text == is_live(), f"Live runs: {is_live()}, its status text: {has_text}"
+        is_busy = is_live() or is_cubifying()
+        assert has_text == is_busy, f"Live or Cubify runs: {is_busy}, its status text: {has_text}"
         session = scene.live()._session if is_on() else None
         if session is not None and (session.is_ended or scene.is_idle()):
             assert session._timer is None, "Live is at rest with a timer"

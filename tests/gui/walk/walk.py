@@ -9,7 +9,7 @@ import bpy
 import guidrive as gui
 
 from . import actions, artist, extension, files, hands  # noqa: F401 - they fill the list
-from .actions import is_live, turns
+from .actions import is_cubifying, is_live, turns
 from .invariants import Invariants
 
 _REPORTED = 20  # last actions that a failure names
@@ -64,4 +64,8 @@ def _settle():
     yield from gui.wait_until(
         lambda: is_live() == ("CUBIC_CRAFT_OT_live" in gui.running_operators()),
         what="the operator of Live to end with it",
+    )
+    yield from gui.wait_until(
+        lambda: is_cubifying() == ("CUBIC_CRAFT_OT_cubify" in gui.running_operators()),
+        what="the operator of Cubify to end with it",
     )

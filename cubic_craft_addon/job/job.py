@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All that one Cubify has to do, step by step.
+
+Invariant: all objects are solved before the first is written, so that it can be given up between
+any two steps and nothing has changed.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import bpy
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..assembly import assemblies
+from ..choice import Choice
+from ..handles.baked_pose import settle
+from ..live.live_run import LiveRun
+from ..member import Shape
+from ..settings_rollback import settings_kept, settings_untouched
+from ..tasks import Task, plan, write_all
+
+_LONG_SETUP = 15_000  # vertices; what has more is not factorised in the wink of an eye
+_MODES = ("OBJECT", "WEIGHT_PAINT")
+
+
+@dataclass(frozen=True)
+class Step:
+    """How far a job has come."""
+
+    texts: tuple[str, ...]
+    """what it is doing, for the artist; from long to short"""
+    factor: float
+    """the part that is done, from 0 to 1"""
+    is_long: bool = False
+    """whether what comes next takes long and cannot be interrupted"""
+
+
+class Job:
+    """Objects to be cubified; they are read as they are now.
+
+    Parameters
+    ----------
+    choice : Choice
+    objects : list of bpy.types.Object
+        The active one first.
+    """
+
+    def __init__(self, choice: Choice, objects: list[bpy.types.Object]):
+        self._choice = choice
+        with settings_untouched(_meshes(objects)):
+            settle(objects, choice.start_of)
+            self._tasks, self._problems = plan(choice, objects)
+        self._groups = assemblies(self._tasks)
+        self._joined = {t.uid for group in self._groups if len(group) > 1 for t in group}
+        self._shapes: dict[int, Shape] = {}
+
+    def steps(self) -> Iterator[Step]:
+        """Solve all; each turn does a phase of the solver."""
+        count = len(self._groups)
+        for number, group in enumerate(self._groups):
+            which = f"{number + 1} of {count}: " if count > 1 else ""
+            twin = next((other for other in self._tasks if _is_twin(other, group)), None)
+            if twin is not None:
+                group[0].solution = twin.solution
+                continue
+            for step in self._solve(group):
+                texts = tuple(which + text for text in step.texts)
+                yield Step(texts, (number + step.factor) / count, step.is_long)
+
+    def _solve(self, group: Sequence[Task]) -> Iterator[Step]:
+        preparing = f"Preparing {_name(group)}", "Preparing"
+        is_large = sum(len(task.mesh.vertices) for task in group) > _LONG_SETUP
+        yield Step(preparing, 0.0, is_long=is_large)
+        run = LiveRun()
+        run.restart(group, {}, [])
+        while run.is_working:
+            texts, factor = run.status
+            yield Step(texts if any(texts) else preparing, factor)
+            run.advance()
+        self._problems += run.problems
+        for task in group:
+            task.solution = run.solution_of(task.uid)
+            member = run.member_of(task.uid)
+            if member is not None:
+                self._shapes[task.mesh.session_uid] = member.shape
+        run.forget()
+
+    @property
+    def obstacle(self) -> str:
+        """Why it cannot go on, after something else than the job has had its turn; or empty."""
+        for task in self._tasks:
+            try:
+                if task.obj.data != task.mesh or not task.obj.users_scene:
+                    return "an object was deleted, or has got another mesh"
+                if task.obj.mode not in _MODES:
+                    return f'"{task.obj.name}" is being edited'
+            except ReferenceError:
+                return "an object was deleted"
+        return ""
+
+    def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
+        """Write what was solved.
+
+        Parameters
+        ----------
+        is_alone : bool
+            Nothing else has had a turn since the job was made.
+
+        Returns
+        -------
+        summary : str
+        problems : list of str
+
+        Raises
+        ------
+        CubicCraftError
+            Nothing could be written; the message lists all problems.
+        """
+        objects = [task.obj for task in self._tasks]
+        with settings_kept(_meshes(objects)):
+            settle(objects, self._choice.start_of)
+            if not is_alone:
+                self._drop_changed()
+            solved = [task for task in self._tasks if task.solution is not None]
+            summary, unwritten = write_all(self._choice, solved)
+            problems = self._problems + unwritten
+            if not summary:
+                raise CubicCraftError("; ".join(problems))
+        return summary, problems
+
+    def _drop_changed(self) -> None:
+        """Give up the solutions of objects that are no longer what was solved."""
+        for task in self._tasks:
+            if task.solution is None:
+                continue
+            try:
+                problem = self._change_of(task)
+            except CubicCraftError as error:
+                problem = str(error)
+            if problem:
+                task.solution = None
+                self._problems.append(problem)
+
+    def _change_of(self, task: Task) -> str:
+        now = Task(task.obj, self._choice)
+        is_same = now.key == task.key
+        if task.uid in self._joined:
+            is_same = now.key_in_world == task.key_in_world
+        start = task.settings.start
+        original = mesh_bridge.original_positions(task.mesh, start)
+        shape = Shape(original, mesh_bridge.triangles(task.mesh, original), start)
+        if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
+            return ""
+        return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'
+
+
+def _meshes(objects: list[bpy.types.Object]) -> list[bpy.types.Mesh]:
+    return [mesh_bridge.mesh_of(obj) for obj in objects]
+
+
+def _is_twin(task: Task, group: Sequence[Task]) -> bool:
+    """Tell whether a task has been solved that has the solution of a group of one."""
+    if task.solution is None or task.solution.objects > 1 or len(group) > 1:
+        return False
+    return task.is_like(group[0])
+
+
+def _name(group: Sequence[Task]) -> str:
+    others = len(group) - 1
+    end = f" and {others} more" if others else ""
+    return f'"{group[0].obj.name}"{end}'

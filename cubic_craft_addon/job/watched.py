@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A job that is done in slices of time, between which Blender draws and handles events.
+
+Before Blender takes any of its data away, by undo or by another file, the job is given up.
+"""
+
+from __future__ import annotations
+
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import status_text
+from ..redraw import redraw_panels
+from .job import Job, Step
+
+FIRST_SLICE = 0.7
+"""seconds for which the artist waits at once: most meshes are done by then, and nothing flickers"""
+_SLICE = 0.05  # seconds of a tick; the last phase of the solver comes on top
+_TIMER_STEP = 0.01  # seconds between two ticks
+_REDRAW_STEP = 0.1  # seconds between two redraws of the progress bar
+_BAR_WIDTH = 12  # in units of the interface, wide enough for iteration and energy
+
+_current: WatchedJob | None = None
+
+
+def current() -> WatchedJob | None:
+    """Return the job that Blender goes on beside, or None."""
+    return _current
+
+
+class WatchedJob:
+    """A job in slices.
+
+    Attributes
+    ----------
+    step : Step
+        How far it has come.
+    is_solved : bool
+        Whether there is nothing left to do but to write.
+    reason : str or None
+        Why it was cancelled, empty if the artist has asked for it; None if it was not.
+    """
+
+    def __init__(self, job: Job):
+        self._job: Job | None = job
+        self._steps = job.steps()
+        self._timer = None
+        self._next_redraw = 0.0
+        self.step = Step(("Preparing",), 0.0)
+        self.is_solved = False
+        self.reason: str | None = None
+
+    def advance(self, seconds: float) -> None:
+        """Work for a slice of time, or until what comes next would have to be announced."""
+        deadline = time.perf_counter() + seconds
+        for step in self._steps:
+            self.step = step
+            if step.is_long or time.perf_counter() >= deadline:
+                return
+        self.is_solved = True
+
+    def watch(self, window: bpy.types.Window) -> None:
+        """Show the progress, and have the window send the events for `tick`."""
+        global _current
+        _current = self
+        for name, handler in _HANDLERS:
+            getattr(bpy.app.handlers, name).append(handler)
+        self._timer = bpy.context.window_manager.event_timer_add(_TIMER_STEP, window=window)
+        self._redraw()
+
+    def tick(self) -> None:
+        """Work for a slice of time, unless it has become impossible."""
+        assert self._job is not None
+        obstacle = self._job.obstacle
+        if obstacle:
+            self.cancel(obstacle)
+            return
+        self.advance(_SLICE)
+        if self.step.is_long or time.perf_counter() >= self._next_redraw:
+            self._redraw()
+
+    def write(self) -> tuple[str, list[str]]:
+        """Write what was solved, as `Job.write`, and end."""
+        assert self._job is not None
+        try:
+            return self._job.write(is_alone=_current is not self)
+        finally:
+            self.close()
+
+    def cancel(self, reason: str = "") -> None:
+        """Give up; nothing has changed."""
+        self.reason = reason
+        self.close()
+
+    def close(self) -> None:
+        """Leave nothing behind."""
+        global _current
+        self._job = None
+        self._steps.close()
+        if _current is not self:
+            return
+        _current = None
+        for name, handler in _HANDLERS:
+            installed = getattr(bpy.app.handlers, name)
+            if handler in installed:
+                installed.remove(handler)
+        if self._timer is not None:
+            bpy.context.window_manager.event_timer_remove(self._timer)
+        status_text.hide()
+        redraw_panels()
+
+    def _redraw(self) -> None:
+        self._next_redraw = time.perf_counter() + _REDRAW_STEP
+        status_text.show(_draw_status)
+        redraw_panels()
+
+
+def _draw_status(header, _context):
+    if _current is None:
+        return
+    layout = header.layout
+    layout.label(text="Cancel Cubify", icon="EVENT_ESC")
+    row = layout.row()
+    row.ui_units_x = _BAR_WIDTH
+    row.progress(text=_current.step.texts[0], factor=_current.step.factor)
+
+
+@persistent
+def _on_undo(*_):
+    if _current is not None:
+        _current.cancel("another step was undone or redone")
+
+
+@persistent
+def _on_load(*_):
+    if _current is not None:
+        _current.cancel("another file was opened")
+
+
+_HANDLERS = (("undo_pre", _on_undo), ("redo_pre", _on_undo), ("load_pre", _on_load))

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is drawn in Blender's status bar in place of its own text, while something of ours runs."""
+
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+
+_is_shown = False
+
+
+def show(draw: Callable[[Any, bpy.types.Context], None]) -> None:
+    """Draw with this function until `hide`; once more if it is called again."""
+    global _is_shown
+    # A function, as opposed to a text, is shown in all workspaces: any of them will do.
+    bpy.data.workspaces[0].status_text_set(draw)
+    _is_shown = True
+
+
+def hide() -> None:
+    """Give the status bar back."""
+    global _is_shown
+    if _is_shown:
+        _is_shown = False
+        bpy.data.workspaces[0].status_text_set(None)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cancel Cubify, for those who look for a button."""
+
+import bpy
+
+from ..cubic_craft_addon import job
+
+
+class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
+    """End the Cubify that runs, as Esc does."""
+
+    bl_idname = "cubic_craft.cubify_cancel"
+    bl_label = "Cancel Cubify"
+    bl_description = "End Cubify, which has changed nothing yet (Esc)"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        """Cubify runs."""
+        return job.current() is not None
+
+    def execute(self, context):
+        """End it."""
+        running = job.current()
+        if running is not None:
+            running.cancel()
+        return {"FINISHED"}
