@@ -25,8 +25,10 @@ from ...solver.errors import CubicCraftError
 ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
 LIVE = "cubic_craft_live"
+KEY = "cubic_craft_key"
 
-_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE})(\.position|\.key\d+|\.written|\.mark)?")
+_ENDINGS = r"\.position|\.key\d+|\.written|\.mark|\.base"
+_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
 
 
 def is_our_name(name: str) -> bool:
@@ -35,7 +37,7 @@ def is_our_name(name: str) -> bool:
 
 
 def our_attributes(
-    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE)
+    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE, KEY)
 ) -> list[str]:
     """List the names of the attributes of ours on a mesh, of all kinds or of some."""
     return [

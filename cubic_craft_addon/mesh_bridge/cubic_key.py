@@ -3,19 +3,26 @@
 
 The artist may rename it, dial it, key it and drive it. It is found by its points, under any name.
 With other points than we wrote it is the artist's, whatever it is called: it is never changed or
-removed again. Only where Blender itself has moved it along with an edited Basis it stays ours.
+removed again. Only where Blender itself has moved it along with an edited Basis, or transformed it
+with the whole mesh, it stays ours. For the latter its points, and those of Basis, lie in attributes
+as we wrote them.
 """
+
+from collections.abc import Callable
 
 import bpy
 import numpy as np
 
+from .affine import fit
 from .arrays import read_key, write_key
+from .attributes import KEY, add_attribute, our_attributes, read_attribute, remove_attribute
 from .checks import mesh_of
 from .fingerprint import fingerprint_of_values
 from .note import read_note, write_note
 from .offsets import offset_sums, same_offsets
 
 _NAME = "Cubic"
+_BASE = f"{KEY}.base"
 
 
 def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
@@ -35,9 +42,8 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
         return same_offsets(offset_sums(points, base), noted["offsets"])
 
     # While Basis is as it was, nothing has moved the key but the artist.
-    tests = (
-        (is_written,) if fingerprint_of_values(base) == noted["base"] else (is_written, is_shifted)
-    )
+    is_base_moved = fingerprint_of_values(base) != noted["base"]
+    tests = (is_written, is_shifted, _transformed(mesh, base)) if is_base_moved else (is_written,)
     for is_ours in tests:
         for key in keys:
             points = read_key(mesh, key)
@@ -47,15 +53,17 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
     return None
 
 
-def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
+def write_cubic_key(
+    obj: bpy.types.Object, positions: np.ndarray, key: bpy.types.ShapeKey | None
+) -> None:
     """Write positions to the shape key of ours, which is made where it is missing.
 
-    A key that is there keeps its value, its range, and what drives it. One that the artist has
-    edited is no longer ours and stays; the note forgets it for the new one.
+    `key` is what `find_cubic_key` found before anything was written. It keeps its value, its range,
+    and what drives it. One that the artist has edited is no longer ours and stays; the note forgets
+    it for the new one.
     """
     mesh = mesh_of(obj)
     note = read_note(mesh)
-    key = find_cubic_key(mesh)
     made_basis = note["key"]["made_basis"] if key is not None else False
     if key is None:
         if mesh.shape_keys is None:
@@ -66,6 +74,8 @@ def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
     write_key(key, positions)
     assert mesh.shape_keys is not None
     base = read_key(mesh, mesh.shape_keys.reference_key)
+    for name, points in ((KEY, positions), (_BASE, base)):
+        add_attribute(mesh, name, points)
     part = {
         "name": key.name,
         "fingerprint": fingerprint_of_values(positions),
@@ -76,12 +86,23 @@ def write_cubic_key(obj: bpy.types.Object, positions: np.ndarray) -> None:
     write_note(mesh, note | {"key": part})
 
 
+def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray], bool]:
+    """Return a test whether points are the key, transformed as Basis has been."""
+    written, written_base = read_attribute(mesh, KEY, 3), read_attribute(mesh, _BASE, 3)
+    if written is None or written_base is None:
+        return lambda points: False
+    transform = fit(written_base, base)
+    return lambda points: transform is not None and bool(transform.agrees(written, points).all())
+
+
 def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
     """Remove the shape key of ours, and Basis where we made it and no other key needs it.
 
     `key` is what `find_cubic_key` found before anything was written: it compares the key with
     the base. Removing it is the last that is done, as it cannot be taken back.
     """
+    for name in our_attributes(mesh, (KEY,)):
+        remove_attribute(mesh, name)
     note = read_note(mesh)
     noted = note.pop("key", None)
     write_note(mesh, note)

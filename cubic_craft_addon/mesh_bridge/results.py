@@ -93,11 +93,12 @@ def write_shape_key(
             "Relative (Object Data > Shape Keys) or choose another result"
         )
     end_preview(mesh)
+    cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, start)
     positions = settled(mesh, positions, original.base, loose_vertices(mesh))
     with all_or_nothing(mesh):
         write_shapes(mesh, original)
         drop_stored(mesh)
-        write_cubic_key(obj, positions)
+        write_cubic_key(obj, positions, cubic_key)
         note_run(mesh, run)
         mark_moved(mesh)

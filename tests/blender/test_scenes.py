@@ -80,6 +80,10 @@ def test_a_linked_result_is_seen_and_left_alone_beside_a_local_mesh(tmp_path):
     select(linked)
     with pytest.raises(RuntimeError, match="linked from another file"):
         cubify()
+    for operator in (bpy.ops.cubic_craft.restore, bpy.ops.cubic_craft.apply):
+        assert not operator.poll()
+        with pytest.raises(RuntimeError, match=r"poll\(\).*'Suzanne' has mesh data linked from"):
+            operator()
 
 
 def test_a_linked_result_made_local_can_be_restored(tmp_path):

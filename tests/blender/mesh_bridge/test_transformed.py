@@ -361,3 +361,33 @@ def test_results_of_the_first_version(bridge, error, monkey):
             bridge.restore(monkey)
             active = ("*attributes/active*",)  # removing attributes as above moves it
             assert differences(before, snapshot_object(monkey), ignore=active) == []
+
+
+@pytest.mark.parametrize("name", TRANSFORMS)
+def test_our_shape_key_stays_ours(bridge, monkey, name):
+    mesh = monkey.data
+    count = len(mesh.shape_keys.key_blocks) if mesh.shape_keys else 0
+    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    mesh.shape_keys.key_blocks["Cubic"].value = 0.25
+    TRANSFORMS[name](monkey)
+    base = bridge.read_positions(mesh)
+    assert bridge.has_original(mesh) and not bridge.is_edited(mesh)
+    positions = cubic_like(base, 2)[0]
+    bridge.write_shape_key(monkey, positions)
+    assert len(mesh.shape_keys.key_blocks) == max(count, 1) + 1
+    assert mesh.shape_keys.key_blocks["Cubic"].value == 0.25
+    assert points_of(mesh, "Cubic")[:-4].tobytes() == positions[:-4].tobytes()
+    bridge.restore(monkey)
+    assert bridge.read_positions(mesh).tobytes() == base.tobytes()
+    assert (len(mesh.shape_keys.key_blocks) if mesh.shape_keys else 0) == count
+    assert not bridge.has_traces(mesh)
+
+
+def test_our_shape_key_edited_and_transformed_is_the_artists(bridge, monkey):
+    mesh = monkey.data
+    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    mesh.shape_keys.key_blocks["Cubic"].points[7].co.z += 1e-3
+    apply_all(monkey, scale=(1, 2, 3))
+    assert not bridge.has_original(mesh)
+    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    assert "Cubic.001" in mesh.shape_keys.key_blocks
