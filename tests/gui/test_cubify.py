@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cubify, undo, Cubify with another cubeness, Restore: by the hand of a user, in a real window.
+"""Cubify, undo, Cubify with another cubeness, edit, Restore: by the hand of a user, in a window.
 
 EXPECT_DEVICE in the environment ("taichi-cpu", "numpy") names the backend that must have run.
 """
@@ -111,6 +111,35 @@ def leave_edit_mode_by_button():
     return place
 
 
+def edit_by_hand():
+    """Move some vertices in Edit Mode; return the new shape."""
+    yield from gui.move_mouse(gui.viewport_point(0.2, 0.2))
+    yield from gui.keys("TAB")
+    yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
+    with gui.in_region():
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.mesh.select_random(ratio=0.05)
+        bpy.ops.transform.translate(value=(0, 0, 0.2))
+    yield from gui.keys("TAB")
+    yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
+    return positions()
+
+
+def start_from_the_original(cubic):
+    """Edit the result; the panel offers both, and the original gives the same result again."""
+    edited = yield from edit_by_hand()
+    assert not is_bitwise(edited, cubic)
+    choice = yield from gui.find_button("cubic_craft.start")
+    assert cubic_craft().start == "HERE"
+    yield from gui.screenshot("edited.png")
+    yield from gui.click(choice.at(0.9))
+    yield from gui.wait_until(lambda: cubic_craft().start == "ORIGINAL", what="the other choice")
+    yield from gui.screenshot("from_the_original.png")
+    assert is_bitwise((yield from cubify(edited)), cubic)
+    assert cubic_craft().start == "HERE"
+    yield from gui.screenshot("not_edited.png")
+
+
 def test():
     add_monkey()
     original = positions()
@@ -142,6 +171,8 @@ def test():
     assert not is_bitwise(second, first), "the cubeness made no difference"
     yield from gui.screenshot("more_cubic.png")
 
+    yield from start_from_the_original(second)
+    yield from edit_by_hand()
     restore = yield from gui.find_button("cubic_craft.restore")
     yield from gui.click(restore)
     yield from gui.wait_until(
