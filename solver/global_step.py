@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The global step: positions from rotations, by one factorisation per mesh and set of pins."""
 
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +33,9 @@ class GlobalStep:
     ----------
     is_factorized : bool
         Whether `positions` solves by the factorisation, not by multigrid.
+    solve : callable
+        Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X; what
+        is held stays as it is in X.
     """
 
     def __init__(self, rest, pinned):
@@ -47,11 +51,11 @@ class GlobalStep:
         is_small = rest.largest_component <= FACTORIZED_VERTICES
         self.is_factorized = is_small or not has_multigrid()
         if self.is_factorized:
-            self._solve = _solver(self._laplacian, is_held)
+            self.solve = _solver(self._laplacian, is_held)
         else:
-            self._solve = self.multigrid.solve
-        self._has_pin = has_pin
-        self._floating = None if has_pin.all() else self._centring_weights(has_pin)
+            self.solve = self.multigrid.solve
+        self._is_anchored = has_pin
+        self._floating = self._centring_weights()
 
     @property
     def _laplacian(self):
@@ -63,10 +67,22 @@ class GlobalStep:
         L, is_held = self._laplacian, self._is_held
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
-    def _centring_weights(self, has_pin):
+    def anchored(self, components):
+        """Return the same step, in which components (c,) are not kept where they are at rest."""
+        other = copy(self)
+        for name in ("no_turning", "no_turning_by_cycles"):
+            other.__dict__.pop(name, None)
+        other._is_anchored = self._is_anchored.copy()
+        other._is_anchored[components] = True
+        other._floating = other._centring_weights()
+        return other
+
+    def _centring_weights(self):
         """Return the share of each vertex (n,) in its floating component's area, else 0."""
+        if self._is_anchored.all():
+            return None
         rest = self._rest
-        weight = np.where(has_pin[rest.component], 0.0, rest.areas + 1e-300)
+        weight = np.where(self._is_anchored[rest.component], 0.0, rest.areas + 1e-300)
         total = np.bincount(rest.component, weight, rest.component_count)
         return weight / np.where(total > 0.0, total, 1.0)[rest.component]
 
@@ -75,12 +91,12 @@ class GlobalStep:
         """The NoTurning, made when first asked for."""
         if not self.is_factorized:
             return self.no_turning_by_cycles
-        return NoTurning(self._rest, ~self._has_pin, self._solve)
+        return NoTurning(self._rest, ~self._is_anchored, self.solve)
 
     @cached_property
     def no_turning_by_cycles(self):
         """The same by multigrid, for a GPU or where nothing is factorised."""
-        return NoTurning(self._rest, ~self._has_pin, self.multigrid.solve, CYCLES)
+        return NoTurning(self._rest, ~self._is_anchored, self.multigrid.solve, CYCLES)
 
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).
@@ -94,7 +110,7 @@ class GlobalStep:
         keep_rotation : bool
             Keep each component without pins from turning as a whole.
         """
-        result = self._solve(rhs, near)
+        result = self.solve(rhs, near)
         if keep_rotation and self._floating is not None:
             result = self.no_turning.apply(result)
         if self._floating is not None:

@@ -12,6 +12,8 @@ class Motion:
         Whose rotations the positions follow.
     U : (n,3) float64 array
         The first positions in the unit box, with pinned vertices at their targets.
+    constraints : sequence
+        What each step ends with: ``impose(U)`` moves positions (n,3) to where they are obeyed.
 
     Attributes
     ----------
@@ -19,8 +21,8 @@ class Motion:
         Where the next local step looks.
     """
 
-    def __init__(self, setup, local, U):
-        self._setup, self._local = setup, local
+    def __init__(self, setup, local, U, constraints=()):
+        self._setup, self._local, self._constraints = setup, local, constraints
         self.put(U)
 
     @property
@@ -61,8 +63,8 @@ class Motion:
         U = self._setup.global_step.positions(
             self._local.right_hand_side(), self.point, keep_rotation
         )
-        for mirror in self._setup.mirrors:
-            mirror.impose(U)
+        for constraint in self._constraints:
+            constraint.impose(U)
         way, point = U - self._U, U - self.point
         displacement = _largest(way)
         if rest.component_count > 1:

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is done once per mesh and set of pins."""
 
+from copy import copy
 from functools import cached_property
 
 import numpy as np
 
 from .errors import CubicCraftError
 from .global_step import GlobalStep
+from .holds import HoldFields
 from .symmetry import NO_PARTNER, Mirror, commuting, partners
 
 NARROW = 0.01
@@ -47,6 +49,10 @@ class Setup:
         Components with a pinned vertex.
     mirrors : tuple of Mirror
         Of the solved vertices, in the unit box.
+    hold_fields : HoldFields or None
+    is_anchored : (component_count,) bool array
+        Components with a pinned vertex or a group that keeps its place: the others float, and stay
+        where they are as a whole.
     """
 
     def __init__(self, rest, pinned=(), still=None, mirrors=()):
@@ -71,6 +77,25 @@ class Setup:
         self.has_pin[rest.component[self.pinned]] = True
         self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
+        self.is_anchored, self.hold_fields = self.has_pin, None
+
+    def with_holds(self, weights):
+        """Return the same with groups of vertices that keep their place, see `holds.py`.
+
+        Nothing is factorised anew. What a group asks for, a Stylization is told.
+
+        Parameters
+        ----------
+        weights : sequence of (N,) arrays
+            Of the vertices of the input.
+        """
+        other = copy(self)
+        other.__dict__.pop("coarse", None)
+        other.hold_fields = HoldFields(self, weights)
+        other.is_anchored = self.has_pin.copy()
+        other.is_anchored[other.hold_fields.components] = True
+        other.global_step = self.global_step.anchored(other.hold_fields.components)
+        return other
 
     def _solved(self, mirrors):
         """Return mirrors of the input as those of the solved vertices."""
@@ -88,7 +113,16 @@ class Setup:
         pinned = np.unique(coarsening.cluster[self.pinned])
         if len(pinned) == len(coarsening.rest.V):
             return None
-        return Setup(coarsening.rest, pinned)
+        setup = Setup(coarsening.rest, pinned)
+        if self.hold_fields is None:
+            return setup
+        count = np.bincount(coarsening.cluster)
+        return setup.with_holds(
+            [
+                np.bincount(coarsening.cluster, self.rest.input_map.spread(weights)) / count
+                for weights in self.hold_fields.weights
+            ]
+        )
 
 
 def _held_by(rest, still):

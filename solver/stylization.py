@@ -9,6 +9,7 @@ from .acceleration import Momentum
 from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
+from .holds import Holds
 from .mesh_checks import per_vertex
 
 _FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
@@ -53,6 +54,8 @@ class Stylization:
         a whole to fit the cube.
     is_coarse : bool
         Of a coarser mesh, to start another one from.
+    hold_matrices : sequence of (4,4) array_like
+        Where the groups of `Setup.with_holds` go, in the user's unit.
 
     Attributes
     ----------
@@ -79,6 +82,7 @@ class Stylization:
         is_accelerated=True,
         keep_rotation=False,
         is_coarse=False,
+        hold_matrices=(),
     ):
         self.setup = setup
         self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
@@ -95,7 +99,11 @@ class Stylization:
         self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
-        self._motion = self._local.motion(setup, U)
+        self._hold_matrices = hold_matrices
+        constraints = list(setup.mirrors)
+        if setup.hold_fields is not None:
+            constraints.insert(0, Holds(setup.hold_fields, hold_matrices))
+        self._motion = self._local.motion(setup, U, constraints)
         self._acceleration = Momentum(rest.component_count) if is_accelerated else None
         self.iteration = 0
         self.energy = None
@@ -153,7 +161,17 @@ class Stylization:
             **self._options,
             keep_rotation=True,
             is_coarse=True,
+            hold_matrices=self._hold_matrices_of(setup),
         )
+
+    def _hold_matrices_of(self, coarse):
+        """Return the matrices of the groups, in the unit of a coarser mesh: that is our unit box."""
+        if coarse.hold_fields is None:
+            return ()
+        box = self.rest.box
+        into = np.diag([box.size, box.size, box.size, 1.0])
+        into[:3, 3] = box.origin
+        return [np.linalg.inv(into) @ np.asarray(matrix) @ into for matrix in self._hold_matrices]
 
     def start_from(self, R, near):
         """Let the iteration begin with rotations (n,3,3) and positions (n,3) of the unit box."""

@@ -55,9 +55,9 @@ class NumpyLocalStep:
         self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
         self._s = starting_signs(self._rest_problem.cube_normals(self.R))
 
-    def motion(self, setup, U):
+    def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
-        return Motion(setup, self, U)
+        return Motion(setup, self, U, constraints)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""

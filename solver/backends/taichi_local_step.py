@@ -108,10 +108,10 @@ class TaichiLocalStep:
         """(n,3,3) rotations, the identity at first."""
         return self.arrays.fetch(self._R)
 
-    def motion(self, setup, U):
+    def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
         if setup.global_step.is_factorized and not self.arrays.is_resident:
-            return Motion(setup, self, U)
+            return Motion(setup, self, U, constraints)
         from .taichi_motion import TaichiMotion, motion_kernels
 
         keep = self.arrays.keep
@@ -121,7 +121,7 @@ class TaichiLocalStep:
         arguments = (keep(bounds), self._energies, weight, self._certified, self._sums)
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
-        motion = TaichiMotion(setup, self, U)
+        motion = TaichiMotion(setup, self, U, constraints)
         self.compile_seconds += rehearse([(kernel, arguments)]) + motion.compile_seconds
         return motion
 

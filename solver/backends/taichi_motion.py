@@ -19,7 +19,7 @@ class TaichiMotion:
 
     Parameters
     ----------
-    setup, local, U
+    setup, local, U, constraints
         As in `Motion`; the local step is one of Taichi.
 
     Attributes
@@ -28,8 +28,9 @@ class TaichiMotion:
         As in `TaichiLocalStep`.
     """
 
-    def __init__(self, setup, local, U):
-        self._local, self._has_pin = local, setup.has_pin
+    def __init__(self, setup, local, U, constraints=()):
+        self._local, self._is_anchored = local, setup.is_anchored
+        self._constraints = constraints
         rest, real, arrays = setup.rest, local.real, local.arrays
         keep = arrays.keep
         self._kernels = motion_kernels(local.precision)
@@ -96,21 +97,21 @@ class TaichiMotion:
         self._cycle.run()
         whole = self._whole(keep_rotation)
         self._kernels.move(*self._move_arguments(*whole, momentum, further))
-        if self._setup.mirrors:
-            self._impose_mirrors()
+        if self._constraints:
+            self._impose()
         displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
         return float(displacement), float(distance)
 
-    def _impose_mirrors(self):
-        """Make the positions symmetric, and with them where the next local step looks.
+    def _impose(self):
+        """Make the positions obey the constraints, and with them where the next local step looks.
 
-        In NumPy: it takes the arrays from a GPU and back, but only those who ask for symmetry wait.
+        In NumPy: it takes the arrays from a GPU and back, but only those who ask for them wait.
         """
         arrays = self._local.arrays
         for kept in (self._U, self.point):
             values = np.array(arrays.fetch(kept))
-            for mirror in self._setup.mirrors:
-                mirror.impose(values)
+            for constraint in self._constraints:
+                constraint.impose(values)
             arrays.put(kept, values)
 
     def _moments_arguments(self):
@@ -146,7 +147,7 @@ class TaichiMotion:
         """Return twists (c,3) and shifts (c,3) of the components, see the kernel `move`."""
         count = len(self._centre)
         twist = np.zeros((count, 3))
-        if self._has_pin.all():
+        if self._is_anchored.all():
             return twist, twist
         no_turning = self._setup.global_step.no_turning_by_cycles if keep_rotation else None
         if no_turning and not self._is_kept:
@@ -156,7 +157,7 @@ class TaichiMotion:
         self._kernels.moments(*self._moments_arguments())
         if no_turning:
             twist = no_turning.twist(self._sums(self._torques))
-        is_held = self._has_pin[:, None]
+        is_held = self._is_anchored[:, None]
         return twist, np.where(is_held, 0.0, self._centre - self._sums(self._means))
 
     def _sums(self, parts):

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Groups of vertices that keep their place, or go along with a handle, while their surface changes.
+
+A group with weights w_i, centroid c and offsets x_i = v_i - c has a place and a rotation: those of
+the rigid map v -> R (v - c) + d that fits it best. They are asked for by linear constraints
+
+    sum_i w_i u_i = d,    sum_i w_i y_i x u_i = 0,    y_i = R x_i
+
+of the global step (compare `no_turning`). With P = L^-1 w and T = L^-1 (w x), the best positions
+that obey them are the unconstrained ones plus P a' + b x (R T) for each group; all a and b, and in
+components without a pinned vertex a translation as well, come from one small linear system.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .no_turning import CYCLES
+from .rotation_fit import svd_rotations
+
+_SMALLEST = 1e-9  # relative; a group on a line may turn about it
+
+
+@dataclass(frozen=True)
+class Hold:
+    """What one group is asked for."""
+
+    weights: np.ndarray
+    """(N,) of the vertices of the input, none negative"""
+    matrix: np.ndarray
+    """(4,4) affine map of the positions at rest, in the user's unit; only its rotation counts, and
+    where it takes the centroid"""
+
+
+class HoldFields:
+    """What is done once per mesh, pins and groups.
+
+    Parameters
+    ----------
+    setup : Setup
+    weights : sequence of (N,) arrays
+        Of the vertices of the input. What is pinned, loose, or in a component of which the group
+        has nothing, does not count.
+
+    Attributes
+    ----------
+    weights
+        As given.
+    components : (c,) int array
+        Components in which there is a group.
+    """
+
+    def __init__(self, setup, weights):
+        self.setup, self.weights, rest = setup, weights, setup.rest
+        is_free = np.ones(len(rest.V))
+        is_free[setup.pinned] = 0.0
+        self._fields = []
+        for given in weights:
+            w = rest.input_map.spread(np.asarray(given, dtype=np.float64)) * rest.standing * is_free
+            if w.sum() > 0.0:
+                w /= w.sum()
+            centroid = w @ rest.V
+            x = rest.V - centroid
+            stiff = np.column_stack([w, w[:, None] * x])
+            self._fields.append((w, centroid, x, self._solve(stiff)))
+        self.components = np.unique(
+            np.concatenate([rest.component[w > 0.0] for w, *_ in self._fields] or [[]]).astype(int)
+        )
+
+    def _solve(self, K):
+        """Return L^-1 K (n,4), with nothing where vertices are held."""
+        step = self.setup.global_step
+        solve, solves = (
+            (step.solve, 1) if step.is_factorized else (step.multigrid.solve, CYCLES)
+        )
+        columns = []
+        for part in (K[:, :3], np.column_stack([K[:, 3:], np.zeros((len(K), 2))])):
+            X = np.zeros_like(part)
+            for _ in range(solves):
+                X = solve(np.ascontiguousarray(part).copy(), X)
+            columns.append(X)
+        return np.column_stack([columns[0], columns[1][:, :1]])
+
+
+class Holds:
+    """Constraints of the global step: `impose` brings positions to where they are obeyed.
+
+    Parameters
+    ----------
+    fields : HoldFields
+    matrices : sequence of (4,4) arrays
+        The map of each group, in the user's unit.
+    """
+
+    def __init__(self, fields, matrices):
+        rest = fields.setup.rest
+        self._places, self._pulls, self._moves, goals = [], [], [], []
+        for (w, centroid, x, P), matrix in zip(fields._fields, matrices, strict=True):
+            R = svd_rotations(np.asarray(matrix)[:3, :3].T[None])[0]
+            start = rest.box.from_unit(centroid[None])
+            goal = rest.box.to_unit(start @ matrix[:3, :3].T + matrix[:3, 3])[0]
+            self._places.append(w)
+            self._pulls.append(w[:, None] * (x @ R.T))
+            self._moves.append((P[:, 0], P[:, 1:] @ R.T))
+            goals += [goal, np.zeros(3)]
+        self._goals = np.concatenate(goals)
+        self._free = self._free_components(fields)
+        self._component = rest.component
+        self._inverse = np.linalg.pinv(self._system(), rcond=_SMALLEST)
+
+    @staticmethod
+    def _free_components(fields):
+        return fields.components[~fields.setup.has_pin[fields.components]]
+
+    def _measure(self, U):
+        """Return the places and torques of the groups, (6g,)."""
+        found = []
+        for w, pull in zip(self._places, self._pulls, strict=True):
+            products = pull.T @ U
+            found += [w @ U, _antisymmetric(products)]
+        return np.concatenate(found)
+
+    def _system(self):
+        """Return what the unknowns do to what is measured, and the balance of forces."""
+        groups, free = len(self._places), len(self._free)
+        size = 6 * groups + 3 * free
+        A = np.zeros((size, size))
+        for k in range(size):
+            unknown = np.zeros(size)
+            unknown[k] = 1.0
+            A[: 6 * groups, k] = self._measure(self._change(unknown))
+        for j, component in enumerate(self._free):
+            for g, w in enumerate(self._places):
+                share = w[self._component == component].sum()
+                A[6 * groups + 3 * j :, 6 * g : 6 * g + 3][:3] += share * np.eye(3)
+                pull = self._pulls[g][self._component == component].sum(axis=0)
+                A[6 * groups + 3 * j :, 6 * g + 3 : 6 * g + 6][:3] += -_cross(pull)
+        return A
+
+    def _change(self, unknown):
+        """Return the change (n,3) of the positions that unknowns stand for."""
+        change = np.zeros((len(self._component), 3))
+        for g, (P, T) in enumerate(self._moves):
+            a, b = unknown[6 * g : 6 * g + 3], unknown[6 * g + 3 : 6 * g + 6]
+            change += P[:, None] * a + T @ _cross(b).T
+        begin = 6 * len(self._places)
+        for j, component in enumerate(self._free):
+            change[self._component == component] += unknown[begin + 3 * j : begin + 3 * j + 3]
+        return change
+
+    def impose(self, U):
+        """Move positions (n,3) to the nearest that obey the constraints, in place."""
+        wrong = np.zeros(len(self._inverse))
+        wrong[: len(self._goals)] = self._goals - self._measure(U)
+        U += self._change(self._inverse @ wrong)
+
+
+def _cross(b):
+    """Return the matrix C with C v = b x v."""
+    return np.array([[0, -b[2], b[1]], [b[2], 0, -b[0]], [-b[1], b[0], 0]])
+
+
+def _antisymmetric(S):
+    """Return sum_i y_i x u_i from S = sum_i y_i u_i'."""
+    return np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
