@@ -15,6 +15,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from .. import solver
+from .holds import Hold, holds_of
 from .member import Member
 from .object_frame import Placement
 from .settings import Settings
@@ -30,6 +31,9 @@ class Prepared:
     setup: solver.Setup
     is_still: np.ndarray
     """(N,) bool, what the setup was made with"""
+    without_holds: solver.Setup
+    """the same before groups were held"""
+    holds: Sequence[Hold]
     seconds: float
 
     @property
@@ -136,7 +140,12 @@ def prepare(members: Sequence[Member], earlier: Sequence[Prepared] = ()) -> Prep
     try:
         rest = _rest(members, placements, earlier)
         setup = next(
-            (other.setup for other in earlier if _has_setup(other, members, rest, is_still)), None
+            (
+                other.without_holds
+                for other in earlier
+                if _has_setup(other, members, rest, is_still)
+            ),
+            None,
         )
         if setup is None:
             # Somewhere the solver needs a vertex that is free.
@@ -144,10 +153,13 @@ def prepare(members: Sequence[Member], earlier: Sequence[Prepared] = ()) -> Prep
             still = is_still if is_some_free and is_still.any() else None
             mirrors = _mirrors(members, placements)
             setup = solver.Setup(rest, np.flatnonzero(is_held), still, mirrors)
+        without_holds, holds = setup, holds_of(members, placements, rest)
+        if holds:
+            setup = _with_holds(setup, holds, earlier)
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f"{_listed([m.name for m in members])}: {error}") from error
     seconds = time.perf_counter() - begin + sum(member.seconds for member in members)
-    return Prepared(tuple(members), placements, setup, is_still, seconds)
+    return Prepared(tuple(members), placements, setup, is_still, without_holds, holds, seconds)
 
 
 def _placements(members):
@@ -194,6 +206,16 @@ def _has_setup(prepared, members, rest, is_still):
     if any(one.whole.mirrored != other.whole.mirrored for one, other in pairs):
         return False
     return np.array_equal(_is_held(prepared.members), _is_held(members))
+
+
+def _with_holds(setup, holds, earlier):
+    """Return a Setup with groups, or take an earlier one: only where they go has changed."""
+    for other in earlier:
+        if other.without_holds is setup and len(other.holds) == len(holds):
+            pairs = zip(other.holds, holds, strict=True)
+            if all(np.array_equal(one.weights, two.weights) for one, two in pairs):
+                return other.setup
+    return setup.with_holds([hold.weights for hold in holds])
 
 
 def _is_held(members):

@@ -76,6 +76,7 @@ def start(prepared: Prepared) -> solver.Run:
             _targets(prepared),
             device=settings.device.lower(),
             keep_rotation=settings.rotation == "KEEP",
+            hold_matrices=[hold.matrix for hold in prepared.holds],
         )
         return solver.Run(stylization, settings.max_iterations, settings.tolerance)
     except solver.CubicCraftError as error:

@@ -15,7 +15,7 @@ def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) ->
     """Return positions (N,3) of a run, with each component that stands put back on its feet.
 
     The lowest point of a component that begins where the whole does keeps its height. Others stay
-    where they are, and so do those with a vertex that is held.
+    where they are, and so do those of which something is held.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) ->
     lowest = _lowest(before, component, rest.component_count)
     drop = lowest - _lowest(positions[used] @ up, component, rest.component_count)
     limit = lowest.min() + _STANDING * np.ptp(before)
-    drop[setup.has_pin | (lowest > limit)] = 0.0
+    drop[setup.is_anchored | (lowest > limit)] = 0.0
     kept = positions.copy()
     kept[used] += drop[component][:, None] * up
     return kept

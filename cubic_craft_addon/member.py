@@ -17,6 +17,7 @@ from .. import solver
 from ..solver.components import components
 from ..solver.mesh_checks import check_mesh
 from . import handles, mesh_bridge
+from .handles.reach import far_from, grown
 from .object_frame import Placement, placement_alone, placement_in_world
 from .requirements import check_requirements
 from .settings import Settings
@@ -65,6 +66,8 @@ class Member:
     """None where it cannot be solved with others"""
     handle_of: np.ndarray
     """(n,) int, the number of the handle that holds each vertex, or -1"""
+    rest_weights: np.ndarray | None
+    """(n,) how much each vertex belongs to what is far from moved handles; None where all may go"""
     map_weights: np.ndarray | float
     """(n,) factors of the cubeness, or 1"""
     seconds: float
@@ -87,8 +90,9 @@ class Member:
 
     @property
     def is_held(self):
-        """(n,) bool, the vertices that handles hold."""
-        return self.handle_of >= 0
+        """(n,) bool, the vertices that handles hold exactly."""
+        is_exact = [not handle.is_cubic for handle in self.settings.handles]
+        return np.array([*is_exact, False])[self.handle_of]  # the last is of those in none
 
     def of_whole(self, values):
         """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
@@ -100,7 +104,7 @@ class Member:
 
         Where the map is 0. Not where a handle is posed: then the rest is asked to follow.
         """
-        if any(handle.matrix != handles.IDENTITY for handle in self.settings.handles):
+        if any(handle.is_moved for handle in self.settings.handles):
             return np.zeros(self.vertices, dtype=bool)
         return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
 
@@ -153,9 +157,13 @@ def read_member(
     shape = known.shape if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)
+    if known is not None and known.alone.shape_key != alone.shape_key:
+        known = None
     reflections = modifier_reflections(obj)
     if weights_changed:
         known = None
+    V = alone.place(shape.original)
+    handle_of = _handle_of(obj, settings, V, shape.triangles, known)
     return Member(
         obj.session_uid,
         obj.name,
@@ -164,7 +172,8 @@ def read_member(
         settings,
         alone,
         in_world,
-        _handle_of(obj, settings, known),
+        handle_of,
+        _rest_weights(settings, V, shape.triangles, handle_of, known),
         _map_weights(obj, settings, known),
         time.perf_counter() - begin,
     )
@@ -178,11 +187,25 @@ def _check_alone(name, placement, shape):
         raise solver.CubicCraftError(f'"{name}": {error}') from error
 
 
-def _handle_of(obj, settings, known):
-    groups = [handle.members for handle in settings.handles]
-    if known and groups == [handle.members for handle in known.settings.handles]:
+def _handle_of(obj, settings, V, F, known):
+    if known and _groups(settings) == _groups(known.settings):
         return known.handle_of
-    return handles.handle_of(obj, settings.handles)
+    return grown(handles.handle_of(obj, settings.handles), settings.handles, V, F)
+
+
+def _rest_weights(settings, V, F, handle_of, known):
+    moved = [n for n, handle in enumerate(settings.handles) if handle.is_moved]
+    if not settings.hold_rest or not moved:
+        return None
+    if known and known.handle_of is handle_of and known.rest_weights is not None:
+        before = [n for n, handle in enumerate(known.settings.handles) if handle.is_moved]
+        if before == moved:
+            return known.rest_weights
+    return far_from(np.flatnonzero(np.isin(handle_of, moved)), V, F)
+
+
+def _groups(settings):
+    return [handle.members for handle in settings.handles]
 
 
 def _map_weights(obj, settings, known):

@@ -54,6 +54,13 @@ class Placement:
         """All that decides where the vertices are."""
         return self.linear.tobytes(), self.offset.tobytes()
 
+    @property
+    def matrix(self):
+        """(4,4) of p = A v + t."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = self.linear, self.offset
+        return matrix
+
     def place(self, points):
         """Return points (n,3) of the object where it is solved, float64."""
         placed = points.astype(np.float64) @ self.linear.T

@@ -206,6 +206,13 @@ class RunProperties:
         default=Settings.symmetry,
         options=_OPTIONS,
     )
+    hold_rest: BoolProperty(
+        name="Hold the Rest",
+        description="What is far from handles that are moved stays where it is, as a whole, and"
+        " still becomes cubic. Off: what nothing pins goes along",
+        default=Settings.hold_rest,
+        options=_OPTIONS,
+    )
     floor: BoolProperty(
         name="Keep on Floor",
         description="The lowest point keeps its height in the world; not of parts that handles or"

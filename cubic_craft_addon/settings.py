@@ -42,6 +42,8 @@ class Settings:
     """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
     symmetry: tuple[bool, bool, bool] = (False, False, False)
     """about which axes of the object halves stay mirror images"""
+    hold_rest: bool = True
+    """whether what is far from handles that are moved stays where it is"""
     floor: bool = False
     """whether what stands on the ground keeps its height"""
     device: str = "AUTO"

@@ -33,6 +33,13 @@ class Reflection:
         """Return it with the partners (n,) of the vertices."""
         return solver.Mirror(partner, np.reshape(self.linear, (3, 3)), np.array(self.offset))
 
+    @property
+    def matrix(self):
+        """The same as a matrix (4,4)."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = np.reshape(self.linear, (3, 3)), self.offset
+        return matrix
+
     def image(self, points):
         """Return the reflected points (n,3)."""
         return points @ np.reshape(self.linear, (3, 3)).T + self.offset
@@ -189,6 +196,15 @@ class Whole:
             is_reflected = (self._element >> bit & 1).astype(bool)
             result[is_reflected] = reflection.image(result[is_reflected])
         return result
+
+    def elements(self):
+        """Give, for each image of the mesh, which vertices (N,) it has, and its map (4,4)."""
+        for element in range(len(self._numbers)):
+            matrix = np.eye(4)
+            for bit, reflection in enumerate(self.added):
+                if element >> bit & 1:
+                    matrix = reflection.matrix @ matrix
+            yield self._element == element, matrix
 
     @cached_property
     def own_partners(self):

@@ -161,6 +161,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         layout.row(align=True).prop(self, "symmetry", toggle=True)
         layout.prop(self, "floor")
         layout.prop(self, "use_handles")
+        layout.prop(self, "hold_rest")
         groups = panel_object(context)
         if groups is not None:
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")

@@ -13,6 +13,7 @@ from .errors import CubicCraftError
 if TYPE_CHECKING:
     from .auto_orientation import auto_orient, nearest_to_identity
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
+    from .edge_distances import edge_distances, nearest_distances
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
@@ -41,6 +42,8 @@ __all__ = [
     "Stylization",
     "auto_orient",
     "commuting",
+    "edge_distances",
+    "nearest_distances",
     "nearest_to_identity",
     "partners",
     "problem_with_taichi",
@@ -68,6 +71,8 @@ _MODULES = {
     "Stylization": "stylization",
     "auto_orient": "auto_orientation",
     "commuting": "symmetry",
+    "edge_distances": "edge_distances",
+    "nearest_distances": "edge_distances",
     "nearest_to_identity": "auto_orientation",
     "partners": "symmetry",
     "problem_with_taichi": "backends",

@@ -4,8 +4,9 @@
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
 
-from .proxy.edges import unique_edges
+from .proxy.edges import edges_of
 
 
 def edge_distances(V, F, seeds, limit=np.inf):
@@ -19,9 +20,15 @@ def edge_distances(V, F, seeds, limit=np.inf):
     limit : float
         What is further away is at infinity, as is what is not connected.
     """
-    edges = unique_edges(F)
+    edges, _ = edges_of(F.ravel(), F[:, [1, 2, 0]].ravel(), len(V))
     lengths = np.linalg.norm(V[edges[:, 0]] - V[edges[:, 1]], axis=1)
     # An edge of no length would be none at all.
     lengths = np.maximum(lengths, 1e-12 * max(lengths.max(initial=0.0), 1e-300))
     graph = sp.csr_matrix((lengths, (edges[:, 0], edges[:, 1])), shape=(len(V), len(V)))
     return dijkstra(graph, directed=False, indices=seeds, limit=limit, min_only=True)
+
+
+def nearest_distances(points, others):
+    """Return the distance (n,) of each point (n,3) from the nearest of the others (k,3)."""
+    distance, _ = cKDTree(others).query(points)
+    return distance

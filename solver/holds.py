@@ -70,9 +70,7 @@ class HoldFields:
     def _solve(self, K):
         """Return L^-1 K (n,4), with nothing where vertices are held."""
         step = self.setup.global_step
-        solve, solves = (
-            (step.solve, 1) if step.is_factorized else (step.multigrid.solve, CYCLES)
-        )
+        solve, solves = (step.solve, 1) if step.is_factorized else (step.multigrid.solve, CYCLES)
         columns = []
         for part in (K[:, :3], np.column_stack([K[:, 3:], np.zeros((len(K), 2))])):
             X = np.zeros_like(part)

@@ -165,7 +165,7 @@ class Stylization:
         )
 
     def _hold_matrices_of(self, coarse):
-        """Return the matrices of the groups, in the unit of a coarser mesh: that is our unit box."""
+        """Return the matrices in the unit of a coarser mesh, which is our unit box."""
         if coarse.hold_fields is None:
             return ()
         box = self.rest.box

@@ -26,11 +26,18 @@ class Handle:
     threshold: float = THRESHOLD
     matrix: tuple[float, ...] = IDENTITY
     """4x4, row by row: affine map of original positions, in object space"""
+    is_cubic: bool = False
+    """whether only its place and its rotation are held, and its surface becomes cubic"""
 
     @property
     def members(self):
-        """All that decides which vertices belong to it."""
-        return self.group, self.vertices, self.threshold
+        """All that decides which vertices belong to it, and whether they are held exactly."""
+        return self.group, self.vertices, self.threshold, self.is_cubic
+
+    @property
+    def is_moved(self):
+        """Whether it asks its vertices to be somewhere else."""
+        return self.matrix != IDENTITY
 
 
 def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:

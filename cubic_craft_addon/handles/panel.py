@@ -77,6 +77,7 @@ def draw(layout, obj):
         _draw_active(layout, obj, handles[properties.active_handle])
     if len(handles) > 1:
         layout.label(text="Where they overlap, the first counts", icon="INFO")
+    layout.prop(live.shared_properties(obj), "hold_rest")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 
 
@@ -84,6 +85,7 @@ def _draw_active(layout, obj, handle):
     column = layout.column()
     column.prop_search(handle, "group", obj, "vertex_groups")
     column.prop(handle, "threshold", slider=True)
+    column.prop(handle, "is_cubic")
     if handle.mode == "FOLLOW":
         column.prop(handle, "target")
         if live_target(handle) is None:

@@ -66,6 +66,7 @@ def posed_handles(
         Handle(
             _group(obj, number, item),
             threshold=item.threshold,
+            is_cubic=item.is_cubic,
             matrix=_matrix(obj, item, (poses or {}).get(item.uid) or own_pose(item)),
         )
         for number, item in enumerate(object_properties(obj).handles, start=1)

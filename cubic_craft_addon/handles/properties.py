@@ -57,6 +57,11 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
         items=_MODES,
         default="PINNED",
     )
+    is_cubic: BoolProperty(
+        name="Becomes Cubic",
+        description="The part keeps its place and rotation as a whole, or goes where it is moved,"
+        " while its surface becomes cubic. Off: its vertices are held exactly",
+    )
     target: PointerProperty(
         name="Target",
         description="Object that the vertices go along with when it is moved, turned or scaled"

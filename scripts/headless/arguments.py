@@ -15,8 +15,20 @@ from .handles_file import read_handles
 
 __all__ = ("as_arguments", "parse")
 
-DEFAULTS = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
-PAPER = {"solidity": 0.0, "together": "off", "refine": "off", "rotation": "free"}
+DEFAULTS = {
+    "solidity": 0.1,
+    "together": "selection",
+    "refine": "auto",
+    "rotation": "keep",
+    "hold_rest": "on",
+}
+PAPER = {
+    "solidity": 0.0,
+    "together": "off",
+    "refine": "off",
+    "rotation": "free",
+    "hold_rest": "off",
+}
 """what ``--paper`` stands for"""
 
 EPILOG = """\
@@ -223,10 +235,15 @@ def _add_shape(parser: argparse.ArgumentParser) -> None:
         "--floor", action="store_true", help="what stands on the ground keeps its height"
     )
     group.add_argument(
+        "--hold-rest",
+        choices=("on", "off"),
+        help="whether what is far from handles that are moved stays where it is (default: on)",
+    )
+    group.add_argument(
         "--paper",
         action="store_true",
-        help="as in the paper: solidity 0, together off, refine off, rotation free; each of them "
-        "can be given beside it and counts then",
+        help="as in the paper: solidity 0, together off, refine off, rotation free, hold-rest off; "
+        "each of them can be given beside it and counts then",
     )
 
 

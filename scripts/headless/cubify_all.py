@@ -102,6 +102,7 @@ def _settings(
         rotation=options.rotation.upper(),
         symmetry=tuple(axis in options.symmetry for axis in "xyz"),
         floor=options.floor,
+        hold_rest=options.hold_rest == "on",
         device=options.device.upper(),
         max_iterations=options.max_iterations,
         tolerance=options.tolerance,

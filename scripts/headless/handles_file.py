@@ -35,6 +35,8 @@ class GivenHandle:
     scale: Point = (1.0, 1.0, 1.0)
     pivot: Point | None = None
     """where it is turned and scaled about; None is the middle of its bounding box"""
+    cubic: bool = False
+    """whether its surface becomes cubic, and only its place and rotation are held"""
 
 
 def read_handles(path: Path) -> list[GivenHandle]:
@@ -101,6 +103,12 @@ def _point(value: Any, what: str) -> Point:
     return x, y, z
 
 
+def _flag(value: Any, what: str) -> bool:
+    if not isinstance(value, bool):
+        raise InputError(f"{what} must be true or false, not {_shown(value)}")
+    return value
+
+
 def _scale(value: Any, what: str) -> Point:
     scale = _point(value if isinstance(value, list) else [_number(value, what)] * 3, what)
     if not all(scale):
@@ -138,4 +146,5 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "rotate": _point,
     "scale": _scale,
     "pivot": _point,
+    "cubic": _flag,
 }

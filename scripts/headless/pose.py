@@ -49,7 +49,7 @@ def handles_of_all(
             if len(members):
                 is_anywhere = True
                 matrix = _matrix(given, original[members].astype(np.float64))
-                handle = make(vertices=tuple(members.tolist()), matrix=matrix)
+                handle = make(vertices=tuple(members.tolist()), matrix=matrix, is_cubic=given.cubic)
                 found[obj.name].append(handle)
         if not is_anywhere:
             raise InputError(f"{given.where}: {_why_nothing(given, loaded)}")

@@ -16,7 +16,7 @@ from .output_files import replacing
 
 __all__ = ("write_report",)
 
-SETTINGS = ("space", "solidity", "together", "refine", "rotation", "symmetry", "floor")
+SETTINGS = ("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest")
 OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg", "fast-simplification")
 
 

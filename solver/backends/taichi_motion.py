@@ -91,21 +91,23 @@ class TaichiMotion:
 
     def step(self, momentum, further, keep_rotation):
         """Do one global step; see `Motion.step`."""
+        before = self.positions.copy() if self._constraints else None
         self._local.start_device()
         arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
         self._kernels.residual(*arguments)
         self._cycle.run()
         whole = self._whole(keep_rotation)
         self._kernels.move(*self._move_arguments(*whole, momentum, further))
-        if self._constraints:
-            self._impose()
+        if before is not None:
+            return self._impose(before)
         displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
         return float(displacement), float(distance)
 
-    def _impose(self):
+    def _impose(self, before):
         """Make the positions obey the constraints, and with them where the next local step looks.
 
         In NumPy: it takes the arrays from a GPU and back, but only those who ask for them wait.
+        Return displacement and distance as `step`, of positions that obey them before and now.
         """
         arrays = self._local.arrays
         for kept in (self._U, self.point):
@@ -113,6 +115,9 @@ class TaichiMotion:
             for constraint in self._constraints:
                 constraint.impose(values)
             arrays.put(kept, values)
+        now = self.positions
+        rest = self._setup.rest
+        return float(np.abs(now - before).max()), float(np.abs(now - rest.V).max())
 
     def _moments_arguments(self):
         return (

@@ -74,6 +74,7 @@ def duplicate(*objects, linked=False):
 
 def test_a_copy_of_the_object_alone_keeps_the_pose_where_it_is_moved(posed):
     obj, _, _ = add_posable()
+    obj.cubic_craft.space = "OBJECT"  # the cube turns with the copy
     empty = pose(obj)
     shape = solved(obj)
     copy = duplicate(obj)
@@ -106,6 +107,7 @@ def test_a_copy_with_its_empties_has_a_pose_of_its_own(posed):
 
 def test_a_linked_copy_has_the_same_pose_and_the_same_shape(posed):
     obj, _, _ = add_posable()
+    obj.cubic_craft.space = "OBJECT"  # the cube turns with the copy
     pose(obj)
     copy = duplicate(obj, linked=True)
     assert copy.data == obj.data

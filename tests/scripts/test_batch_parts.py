@@ -24,7 +24,8 @@ NOT_FORWARDED = {
     "paper",  # what it stands for is forwarded
 }
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
-    --space object --solidity 0 --together parts --refine off --rotation free --symmetry zx --floor
+    --space object --solidity 0 --together parts --refine off --rotation free
+    --symmetry zx --floor --hold-rest off
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
     --object=-o --verbose"""
@@ -67,6 +68,7 @@ def test_the_paper_is_its_options_in_full(folder):
         return key_of(folder / "a.obj", batch_options(*words), FORWARDED, "1")
 
     in_full = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
+    in_full += ["--hold-rest", "off"]
     assert key("--paper") == key(*in_full) != key()
     (job,) = plan(batch_options("--paper"), find_sources([Path("a.obj")], False, Path("out")))
     assert {"--solidity=0.0", "--together=off", "--refine=off", "--rotation=free"} <= {
@@ -83,10 +85,12 @@ def test_the_paper_is_its_options_in_full(folder):
         "auto",
         "--rotation",
         "keep",
+        "--hold-rest",
+        "on",
     ]
     assert key() == key(*by_default)
-    keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 8, 2)}
-    assert len(keys | {key("--paper")}) == 5, "each of them decides about the result"
+    keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 10, 2)}
+    assert len(keys | {key("--paper")}) == 6, "each of them decides about the result"
 
 
 def test_auto_is_no_rotation_any_more(folder):

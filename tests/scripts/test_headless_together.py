@@ -76,6 +76,7 @@ def test_symmetry_and_floor(source, tmp_path):
 def test_the_paper_is_its_options_in_full(source, tmp_path):
     paper, by_name = run(source, tmp_path, "--paper")
     words = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
+    words += ["--hold-rest", "off"]
     in_full, by_options = run(source, tmp_path, *words)
     assert paper["settings"] == in_full["settings"]
     assert paper["settings"] == {
@@ -86,6 +87,7 @@ def test_the_paper_is_its_options_in_full(source, tmp_path):
         "rotation": "free",
         "symmetry": "",
         "floor": False,
+        "hold_rest": "off",
     }
     for name, shape in by_name.items():
         np.testing.assert_array_equal(shape, by_options[name])

@@ -8,3 +8,4 @@ bpy.context.object.cubic_craft.solidity = 0.0
 bpy.context.object.cubic_craft.together = "OFF"
 bpy.context.object.cubic_craft.refine = "OFF"
 bpy.context.object.cubic_craft.rotation = "FREE"
+bpy.context.object.cubic_craft.hold_rest = False

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far handles reach.
+
+What is far stays, what is held may become cubic, and small handles pull no spikes.
+"""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from live_steps import bits, confirm
+from mathutils import Euler, Matrix
+from posing import pin
+from rich_mesh import position_of
+from scene import add_monkey, cubify, select
+
+UP = Matrix.Translation((0.0, 0.0, 0.6))
+
+
+def add_figure(name="Figure"):
+    """Add a body with two arms along X, in one skin: arms at x = 0.3 to 1.2, legs down to z = 0."""
+    balls = [((0, 0, z), 0.28) for z in np.arange(0.3, 1.5, 0.1)]
+    balls += [((side * x, 0, 1.2), 0.12) for side in (1, -1) for x in np.arange(0.2, 1.15, 0.05)]
+    parts = []
+    for place, size in balls:
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, location=place, radius=size)
+        parts.append(bpy.context.object)
+    select(*parts)
+    bpy.ops.object.join()
+    obj = bpy.context.object
+    obj.name = name
+    bpy.ops.object.transform_apply(location=True, rotation=True, scale=True)
+    obj.data.remesh_voxel_size = 0.05
+    bpy.ops.object.voxel_remesh()
+    return obj
+
+
+def add_group(obj, name, is_in):
+    V = position_of(obj.data)
+    number = np.flatnonzero(is_in(V))
+    assert len(number)
+    obj.vertex_groups.new(name=name).add(number.tolist(), 1.0, "REPLACE")
+    return number
+
+
+def raise_hand(obj):
+    hand = add_group(obj, "Hand", lambda V: V[:, 0] > 1.05)
+    pin(obj, "Hand").pose = UP
+    return hand
+
+
+def moved(before, after, where):
+    return np.linalg.norm(after - before, axis=1)[where].max()
+
+
+@pytest.mark.parametrize("cubeness", [0.0, 0.4])
+def test_what_is_far_from_a_raised_hand_stays(cubeness):
+    obj = add_figure()
+    V = position_of(obj.data)
+    cubify(cubeness=cubeness, max_iterations=1000)
+    base = position_of(obj.data)
+    hand = raise_hand(obj)
+    cubify(cubeness=cubeness, max_iterations=1000)
+    held = position_of(obj.data)
+    cubify(cubeness=cubeness, max_iterations=1000, hold_rest=False)
+    dragged = position_of(obj.data)
+    expected = V[hand] + np.array([0, 0, 0.6], np.float32)
+    assert np.abs(held[hand] - expected).max() < 1e-6
+    foot, other = V[:, 2] < 0.5, V[:, 0] < -0.8
+    size = np.ptp(V, axis=0).max()
+    for place in (foot, other):
+        assert moved(base, held, place) < 0.05 * size
+        assert moved(base, dragged, place) > 2 * moved(base, held, place)
+
+
+def test_a_handle_that_becomes_cubic_keeps_its_place():
+    obj = add_monkey()
+    V = position_of(obj.data)
+    ear = add_group(obj, "Ear", lambda V: V[:, 0] > 0.9)
+    handle = pin(obj, "Ear")
+    cubify()
+    exact = position_of(obj.data)
+    assert (exact[ear] == V[ear]).all()
+    handle.is_cubic = True
+    cubify(max_iterations=1000)
+    cubic = position_of(obj.data)
+    assert moved(V, cubic, ear) > 0.02
+    assert np.linalg.norm(cubic[ear].mean(axis=0) - V[ear].mean(axis=0)) < 0.03
+    handle.is_cubic = False
+
+
+def test_a_handle_that_becomes_cubic_goes_where_it_is_moved():
+    obj = add_figure()
+    V = position_of(obj.data)
+    hand = add_group(obj, "Hand", lambda V: V[:, 0] > 0.8)
+    handle = pin(obj, "Hand")
+    handle.is_cubic = True
+    handle.pose = turn = Matrix.LocRotScale((0.1, 0, 0.4), Euler((0.0, -0.5, 0.0)), None)
+    cubify(max_iterations=1000)
+    after = position_of(obj.data)
+    rigid = V @ np.array(turn.to_3x3(), np.float32).T + np.array(turn.translation, np.float32)
+    assert np.linalg.norm((after - rigid)[hand].mean(axis=0)) < 0.02
+    assert moved(rigid, after, hand) > 0.02
+
+
+def test_in_the_half_of_a_mirror_modifier_it_does_the_same_in_both():
+    obj = add_figure()
+    V = position_of(obj.data)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    geometry = [*bm.verts, *bm.edges, *bm.faces]
+    bmesh.ops.bisect_plane(
+        bm, geom=geometry, plane_co=(0, 0, 0), plane_no=(-1, 0, 0), clear_outer=True
+    )
+    bm.to_mesh(obj.data)
+    bm.free()
+    obj.modifiers.new("Mirror", "MIRROR")
+    V = position_of(obj.data)
+    inside = np.abs(V[:, 0]) < 1e-5
+    hand = raise_hand(obj)
+    obj.cubic_craft.handles[0].is_cubic = True
+    cubify(max_iterations=1000)
+    after = position_of(obj.data)
+    assert (after[inside, 0] == V[inside, 0]).all()
+    assert after[hand, 2].mean() == pytest.approx(V[hand, 2].mean() + 0.6, abs=0.03)
+
+
+def test_a_handle_of_one_vertex_takes_those_around_it_along():
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=128, ring_count=64)
+    obj = bpy.context.object
+    V = position_of(obj.data)
+    tip = int(np.argmax(V @ (0.6, 0.0, 0.8)))
+    obj.vertex_groups.new(name="Tip").add([tip], 1.0, "REPLACE")
+    pin(obj, "Tip").pose = Matrix.Translation((0.3, 0.0, 0.4))
+    cubify(cubeness=0.0)
+    after = position_of(obj.data)
+    near = np.linalg.norm(V - V[tip], axis=1) < 0.055  # of a ball of 2: 2.75 %
+    assert 3 <= near.sum() < 60
+    assert after[near] == pytest.approx(V[near] + np.float32([0.3, 0.0, 0.4]), abs=1e-5)
+
+
+def test_live_gives_the_same_while_a_handle_is_dragged(begin, live):
+    obj, other = add_figure(), add_figure("Other")
+    for one in (obj, other):
+        raise_hand(one)
+    obj.cubic_craft.handles[0].pose = Matrix()
+    session = begin(obj)
+    for way in (0.2, 0.6):
+        obj.cubic_craft.handles[0].pose = Matrix.Translation((0, 0, way))
+        session.wake()
+        session.tick(bpy.context)
+    confirm(live, session)
+    select(other)
+    cubify(max_iterations=1000)
+    assert bits(obj) == bits(other)
