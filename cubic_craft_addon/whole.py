@@ -72,8 +72,8 @@ def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
         if not isinstance(modifier, bpy.types.MirrorModifier) or not modifier.show_viewport:
             continue
         tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
-        axes = zip(modifier.use_axis, modifier.use_bisect_axis, strict=True)
-        numbers = [axis for axis, (is_used, is_cut) in enumerate(axes) if is_used and not is_cut]
+        used, cut = (tuple(modifier.use_axis[:]), tuple(modifier.use_bisect_axis[:]))
+        numbers = [axis for axis in range(3) if used[axis] and not cut[axis]]
         place = _plane_object(obj, modifier)
         if place is None:
             return ()

@@ -4,7 +4,7 @@
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from .proxy.edges import edges_of
 
@@ -30,5 +30,5 @@ def edge_distances(V, F, seeds, limit=np.inf):
 
 def nearest_distances(points, others):
     """Return the distance (n,) of each point (n,3) from the nearest of the others (k,3)."""
-    distance, _ = cKDTree(others).query(points)
+    distance, _ = KDTree(others).query(points)
     return distance

@@ -79,7 +79,7 @@ class Setup:
         self.global_step = GlobalStep(rest, self.pinned)
         self.is_anchored, self.hold_fields = self.has_pin, None
 
-    def with_holds(self, weights):
+    def with_holds(self, weights) -> "Setup":
         """Return the same with groups of vertices that keep their place, see `holds.py`.
 
         Nothing is factorised anew. What a group asks for, a Stylization is told.

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from .rotation_fit import svd_rotations
 
@@ -94,7 +94,7 @@ def partners(V, image, tolerance):
         V, axis=0, return_index=True, return_inverse=True, return_counts=True
     )
     place = place.reshape(-1)
-    tree = cKDTree(places)
+    tree = KDTree(places)
     distance, nearest = tree.query(image[first], distance_upper_bound=tolerance)
     found = np.where(distance <= tolerance, nearest, len(places))
     found = np.append(found, len(places))  # as the image of no vertex
