@@ -7,6 +7,7 @@ not at the border of one.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import bpy
 import numpy as np
@@ -72,8 +73,8 @@ def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
         if not isinstance(modifier, bpy.types.MirrorModifier) or not modifier.show_viewport:
             continue
         tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
-        used, cut = (tuple(modifier.use_axis[:]), tuple(modifier.use_bisect_axis[:]))
-        numbers = [axis for axis in range(3) if used[axis] and not cut[axis]]
+        flags: Any = modifier  # its vectors of flags can be indexed, which bpy's stubs cannot say
+        numbers = [a for a in range(3) if flags.use_axis[a] and not flags.use_bisect_axis[a]]
         place = _plane_object(obj, modifier)
         if place is None:
             return ()

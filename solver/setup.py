@@ -77,7 +77,8 @@ class Setup:
         self.has_pin[rest.component[self.pinned]] = True
         self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
-        self.is_anchored, self.hold_fields = self.has_pin, None
+        self.is_anchored = self.has_pin
+        self.hold_fields: HoldFields | None = None
 
     def with_holds(self, weights) -> "Setup":
         """Return the same with groups of vertices that keep their place, see `holds.py`.
