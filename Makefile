@@ -14,7 +14,7 @@ PIP := -m pip install --quiet --disable-pip-version-check
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 ZIP := dist/cubic_craft.zip
 SOURCES := __init__.py blender_manifest.toml \
-	$(shell find solver cubic_craft_addon operators -name '*.py')
+	$(shell find solver cubic_craft_addon operators -name "*.py" -o -name "*.png")
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
@@ -146,6 +146,10 @@ $(VENV)-docs/.done: requirements/docs.txt
 .PHONY: figures
 figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else Blender's own shapes
 	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
+
+.PHONY: preset-pictures
+preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/assets
+	$(PY) scripts/preset_pictures $(ARGS)
 
 docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/

@@ -11,7 +11,7 @@ from .handles.pose import object_handles
 from .last_run import last_run
 from .modes import is_mode_usable
 from .object_properties import object_properties
-from .presets import CUBIC_PT_presets
+from .presets import panel as presets_panel
 from .requirements import check_requirements
 from .symmetry_panel import draw_symmetry
 from .text_fit import room_for_text, wrapped
@@ -28,14 +28,6 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
-
-    def draw_header_preset(self, context):
-        """Offer presets, save while Live or Cubify runs, whose settings are their own."""
-        # The preset is of the active object, which need not be the one that the panel shows.
-        obj = context.active_object
-        is_busy = live.current() or job.current()
-        if obj is not None and obj.type == "MESH" and not is_busy:
-            CUBIC_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         """Draw all sections for the active object, or the mesh that it poses."""
@@ -68,6 +60,7 @@ def _draw_cubify(context, layout, obj):
     column = layout.column()
     column.enabled = job.current() is None
     edited.draw(column, obj)
+    presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
     row.scale_y = 1.5

@@ -23,6 +23,7 @@ from .handles.pose import object_handles
 from .handles.properties import CubicCraftHandle
 from .last_run import last_run
 from .object_properties import PROPERTY, object_properties
+from .presets.selector import preset_property
 from .settings import Settings
 
 _SPACES = (
@@ -250,6 +251,7 @@ class RunProperties:
 class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
+    preset: preset_property()
     frame: PointerProperty(
         name="Frame",
         description="Object whose axes are those of the cube",

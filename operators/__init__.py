@@ -15,6 +15,8 @@ from .handle_remove import CUBIC_CRAFT_OT_handle_remove
 from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
 from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
 from .preset_add import CUBIC_CRAFT_OT_preset_add
+from .preset_remove import CUBIC_CRAFT_OT_preset_remove
+from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
 
 register, unregister = bpy.utils.register_classes_factory(
@@ -27,6 +29,8 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,
         CUBIC_CRAFT_OT_preset_add,
+        CUBIC_CRAFT_OT_preset_remove,
+        CUBIC_CRAFT_OT_reset,
         CUBIC_CRAFT_OT_handle_add,
         CUBIC_CRAFT_OT_handle_remove,
         CUBIC_CRAFT_OT_handle_move,

@@ -1,22 +1,48 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add or remove a preset of the settings."""
+"""Save Preset: keep the present look under a name."""
 
 import bpy
-from bl_operators.presets import AddPresetBase
+from bpy.props import StringProperty
 
-from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT
-from ..cubic_craft_addon.presets import ADD_OPERATOR, SUBFOLDER, CUBIC_PT_presets
+from ..cubic_craft_addon.live import shared_properties
+from ..cubic_craft_addon.presets import files
+from .selection import panel_mesh, poll_panel_mesh
+from .unforeseen import reporting
 
 
-class CUBIC_CRAFT_OT_preset_add(AddPresetBase, bpy.types.Operator):
-    """Add or remove a preset of the settings of the active object."""
+class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
+    """Keep the look that the panel shows as a preset, for all files."""
 
-    bl_idname = ADD_OPERATOR
-    bl_label = "Add CubicCraft Preset"
-    bl_description = "Add or remove a preset of these settings; vertex groups are not part of it"
-    preset_menu = CUBIC_PT_presets.__name__
-    preset_subdir = SUBFOLDER
-    # In full: Blender 4 forgets `preset_defines` on Python 3.13, which distributions give it.
-    preset_values = tuple(
-        f"bpy.context.object.cubic_craft.{name}" for name in ALL if name not in OF_EACH_OBJECT
+    bl_idname = "cubic_craft.preset_add"
+    bl_label = "Save Preset"
+    bl_description = (
+        "Keep the present look under a name, for all files: cubeness, solidity, and what holds"
+        " together. A preset of yours that has the name already is replaced"
     )
+    bl_options = {"INTERNAL"}
+
+    name: StringProperty(
+        name="Name",
+        description="What to call it",
+        default="My Look",
+        maxlen=64,
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh in the panel."""
+        return poll_panel_mesh(cls, context)
+
+    def invoke(self, context, event):
+        """Ask for the name."""
+        return context.window_manager.invoke_props_dialog(self)
+
+    @reporting
+    def execute(self, context):
+        """Write the file."""
+        properties = shared_properties(panel_mesh(context))
+        path = files.save(self.name, properties)
+        properties.preset = path.stem  # of several that are alike, this one is shown
+        self.report({"INFO"}, f'Saved "{files.find(path.stem).name}"')
+        return {"FINISHED"}

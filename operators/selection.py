@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
+from typing import Any
+
 from ..cubic_craft_addon import job, live, mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ..cubic_craft_addon.modes import MESSAGE, is_mode_usable
@@ -30,6 +32,22 @@ def poll_idle(operator_class):
         return True
     operator_class.poll_message_set("Cubify is running; cancel it by Esc")
     return False
+
+
+def panel_mesh(context) -> Any:
+    """Return the mesh object whose settings the panel shows, None if it shows none."""
+    session = live.current()
+    return panel_object(context) or (session and session.first_object(context))
+
+
+def poll_panel_mesh(operator_class, context):
+    """Tell whether the panel shows a mesh, and say what is missing."""
+    if not poll_idle(operator_class):
+        return False
+    if panel_mesh(context) is None:
+        operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
 
 
 def poll_meshes(operator_class, context):

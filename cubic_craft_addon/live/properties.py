@@ -11,6 +11,7 @@ import bpy
 from bpy.props import PointerProperty, StringProperty
 
 from ..choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
+from ..presets.selector import preset_property
 from ..properties import RunProperties, object_properties
 from . import wake
 
@@ -34,7 +35,8 @@ class CubicCraftLiveProperties(bpy.types.PropertyGroup):
             name="Frame",
             description="Name of the object whose axes are those of the cube",
             update=wake.on_property,
-        )
+        ),
+        "preset": preset_property(),
     }
 
 

@@ -25,6 +25,7 @@ class Extension:
         self.handles = _room("cubic_craft_addon.handles")
         self.member = _room("cubic_craft_addon.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
+        self.presets = _room("cubic_craft_addon.presets.files")
         self.settings = _room("cubic_craft_addon.settings")
         self.solver = _room("solver")
         self._taichi_news = _room("cubic_craft_addon.taichi_news").taichi_news

@@ -60,6 +60,8 @@ def test_labels_of_the_user_guide_are_those_of_the_panel():
     labels = {"Show Cube"} | {group.name for group in groups}
     for prop in [prop for group in groups for prop in group.properties]:
         labels |= {prop.name} | {item.name for item in getattr(prop, "enum_items", ())}
+    presets = ROOT / "cubic_craft_addon" / "assets" / "presets" / "cubic_craft"
+    labels |= {path.stem.replace("_", " ") for path in presets.glob("*.py")}
     guide = (ROOT / "docs" / "user_guide.md").read_text(encoding="utf-8")
     without_keys = guide.split("| key |")[0] + guide.split("## Orientation")[1]
     named = re.findall(r"^\| \*\*(.+?)\*\* \|", without_keys, re.MULTILINE)

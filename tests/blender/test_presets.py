@@ -1,67 +1,250 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets: ours and the artist's, in and out of Live; their pictures."""
+
 import importlib
+import re
+import zipfile
 from pathlib import Path
 
 import bpy
 import pytest
-from scene import add_monkey
+from scene import add_monkey, cubify
+
+OURS = ["Soft", "Rounded", "Cubic", "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper"]
 
 
 @pytest.fixture
-def preset():
-    assert bpy.ops.cubic_craft.preset_add(name="Tilted Block") == {"FINISHED"}
-    path = bpy.utils.preset_find("Tilted_Block", "cubic_craft")
-    assert path
-    yield path
-    if Path(path).exists():
-        bpy.ops.cubic_craft.preset_add(name="Tilted_Block", remove_name=True)
-        assert not Path(path).exists()
+def rooms(extension):
+    """Return a function that imports a module of the extension."""
+    return lambda name: importlib.import_module(f"{extension.__name__}.{name}")
+
+
+@pytest.fixture
+def files(rooms):
+    """Return the module of the files; presets that a test has saved are removed."""
+    module = rooms("cubic_craft_addon.presets.files")
+    yield module
+    for preset in module.presets():
+        if not preset.is_own:
+            module.remove(preset)
 
 
 @pytest.fixture
 def monkey():
-    obj = add_monkey()
-    obj.cubic_craft.cubeness = 0.9
-    obj.cubic_craft.orientation = (0.1, 0.2, 0.3)
-    obj.cubic_craft.result = "SHAPE_KEY"
-    obj.cubic_craft.map_group = "Of this object"
-    return obj
+    return add_monkey()
 
 
-def test_a_preset_brings_the_settings_to_another_object(monkey, preset):
+def save(name, **settings):
+    for key, value in settings.items():
+        setattr(bpy.context.object.cubic_craft, key, value)
+    return bpy.ops.cubic_craft.preset_add(name=name)
+
+
+def shape_of(obj):
+    p = obj.cubic_craft
+    look = round(p.cubeness, 6), round(p.solidity, 6), p.together, p.refine, p.rotation
+    return *look, p.hold_rest
+
+
+def test_ours_are_there_without_a_user_folder(files, monkey):
+    assert not Path(bpy.utils.user_resource("SCRIPTS", path="presets/cubic_craft")).exists()
+    assert [preset.identifier for preset in files.presets()] == OURS
+    assert all(preset.is_own and preset.description for preset in files.presets())
+
+
+def test_each_of_ours_is_another_look(files, monkey):
+    looks = {}
+    for name in OURS:
+        monkey.cubic_craft.preset = "Cubic"
+        monkey.cubic_craft.preset = name
+        assert monkey.cubic_craft.preset == name
+        looks[name] = shape_of(monkey)
+    assert len(set(looks.values())) == len(OURS)
+
+
+def test_cubic_is_the_defaults(files, monkey):
+    assert monkey.cubic_craft.preset == "Cubic"
+    before = shape_of(monkey)
+    monkey.cubic_craft.preset = "Chunky"
+    assert shape_of(monkey) != before
+    monkey.cubic_craft.preset = "Cubic"
+    assert shape_of(monkey) == before
+
+
+def test_settings_that_are_no_preset_are_custom(files, monkey):
+    monkey.cubic_craft.cubeness = 0.77
+    assert monkey.cubic_craft.preset == "CUSTOM"
+    before = shape_of(monkey)
+    monkey.cubic_craft.preset = "CUSTOM"
+    assert shape_of(monkey) == before
+
+
+def test_a_preset_brings_the_look_to_another_object_and_nothing_else(files, monkey):
+    monkey.cubic_craft.device = "NUMPY"
+    monkey.cubic_craft.orientation = (0.1, 0.2, 0.3)
+    assert save("Tilted Block", cubeness=0.9, together="OFF") == {"FINISHED"}
     other = add_monkey("Other")
     other.cubic_craft.map_group = "Own"
-    bpy.ops.script.execute_preset(filepath=preset, menu_idname="CUBIC_PT_presets")
-    assert other.cubic_craft.cubeness == pytest.approx(0.9)
-    assert tuple(other.cubic_craft.orientation) == pytest.approx((0.1, 0.2, 0.3))
-    assert other.cubic_craft.result == "SHAPE_KEY"
-    assert other.cubic_craft.map_group == "Own"
+    other.cubic_craft.preset = "Tilted_Block"
+    assert shape_of(other) == shape_of(monkey)
+    assert other.cubic_craft.device == "AUTO" and other.cubic_craft.map_group == "Own"
+    assert not any(other.cubic_craft.orientation)
 
 
-def test_a_preset_is_plain_assignments(monkey, preset):
-    lines = Path(preset).read_text().splitlines()
+def test_a_file_that_is_opened_in_a_new_session_knows_its_preset(files, monkey, rooms):
+    assert save("Mine", cubeness=0.4, solidity=0.1) == {"FINISHED"}
+    assert monkey.cubic_craft.preset == "Mine", "what was just saved is shown, of two alike"
+    rooms("cubic_craft_addon.presets.selector").forget()
+    assert monkey.cubic_craft.preset == "Cubic"
+
+
+def test_saving_again_replaces_and_removing_leaves_the_settings(files, monkey):
+    assert save("Mine", cubeness=0.9) == save("Mine", cubeness=0.8) == {"FINISHED"}
+    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    assert preset.values["cubeness"] == 0.8
+    assert bpy.ops.cubic_craft.preset_remove() == {"FINISHED"}
+    assert not preset.path.exists()
+    assert monkey.cubic_craft.preset == "CUSTOM"
+    assert monkey.cubic_craft.cubeness == pytest.approx(0.8)
+
+
+def test_ours_can_neither_be_replaced_nor_removed(files, monkey):
+    with pytest.raises(RuntimeError, match='"Cubic" comes with CubicCraft'):
+        bpy.ops.cubic_craft.preset_add(name="Cubic")
+    with pytest.raises(RuntimeError, match="Choose a preset of your own first"):
+        bpy.ops.cubic_craft.preset_remove()
+    assert [preset.identifier for preset in files.presets()] == OURS
+
+
+@pytest.mark.parametrize("name", ["", "   ", "...", "///"])
+def test_a_name_that_is_none_is_refused(files, monkey, name):
+    with pytest.raises(RuntimeError, match="a preset needs a name"):
+        bpy.ops.cubic_craft.preset_add(name=name)
+
+
+def test_any_other_name_becomes_a_file(files, monkey):
+    assert save("../Größe 2: {dick}", cubeness=0.6) == {"FINISHED"}
+    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    assert preset.path.parent.name == "cubic_craft"
+    assert preset.name.startswith("Größe 2")
+
+
+def test_a_preset_is_plain_assignments(files, monkey):
+    save("Mine", cubeness=0.9)
+    path = bpy.utils.preset_find("Mine", "cubic_craft")
+    lines = Path(path).read_text(encoding="utf-8").splitlines()
     assert lines[0] == "import bpy"
-    assert len(lines) > 5
+    assert "bpy.context.object.cubic_craft.cubeness = 0.9" in lines
     assert all(line.startswith("bpy.context.object.cubic_craft.") for line in lines[1:] if line)
 
 
-def test_as_in_the_paper(monkey, extension):
-    monkey.cubic_craft.solidity = 0.7
-    path = bpy.utils.preset_find("As in the Paper", "cubic_craft", display_name=True)
-    bpy.ops.script.execute_preset(filepath=path, menu_idname="CUBIC_PT_presets")
-    properties = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.properties")
-    solver = importlib.import_module(f"{extension.__name__}.solver")
-    settings = properties.settings_of(monkey)
-    assert settings.proxy == solver.PAPER
+def test_what_a_file_has_beside_a_look_is_neither_run_nor_set(files, monkey, tmp_path):
+    save("Mine", cubeness=0.9)
+    path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
+    trap = tmp_path / "trap"
+    path.write_text(
+        f"""import bpy
+open({str(trap)!r}, "w").close()
+bpy.context.object.cubic_craft.cubeness = 0.7
+bpy.context.object.cubic_craft.solidity = 1e400
+bpy.context.object.cubic_craft.together = "EVERYTHING"
+bpy.context.object.cubic_craft.refine = 3
+bpy.context.object.cubic_craft.hold_rest = 0
+bpy.context.object.cubic_craft.device = "GPU"
+bpy.context.object.location = (1, 2, 3)
+"""
+    )
+    (path.parent / "broken.py").write_text("cubeness = (")
+    (path.parent / "empty.py").write_text("")
+    files._forget()
+    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    assert preset.values == {"cubeness": 0.7}
+    monkey.cubic_craft.preset = "Mine"
+    assert shape_of(monkey) == (0.7, 0.1, "SELECTION", "AUTO", "KEEP", True)
+    assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
+    for name in ("broken.py", "empty.py"):
+        (path.parent / name).unlink()
+
+
+def test_as_in_the_paper(files, rooms, monkey):
+    monkey.cubic_craft.cubeness, monkey.cubic_craft.solidity = 0.9, 0.7
+    monkey.cubic_craft.preset = "As_in_the_Paper"
+    settings = rooms("cubic_craft_addon.properties").settings_of(monkey)
+    assert settings.proxy == rooms("solver").PAPER
     assert settings.rotation == "FREE"
     assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"
 
 
-def test_a_preset_of_ours_cannot_be_removed_and_goes_with_the_extension(extension):
+def test_reset_gives_the_defaults_but_for_what_belongs_to_the_mesh(monkey):
+    settings = monkey.cubic_craft
+    settings.preset, settings.device, settings.space = "Chunky", "NUMPY", "FRAME"
+    settings.orientation, settings.result = (0.1, 0.2, 0.3), "SHAPE_KEY"
+    settings.map_group, settings.map_invert = "Mine", True
+    assert bpy.ops.cubic_craft.reset() == {"FINISHED"}
+    assert settings.preset == "Cubic" and settings.device == "AUTO" and settings.space == "WORLD"
+    assert not any(settings.orientation) and settings.result == "MESH"
+    assert settings.map_group == "Mine" and settings.map_invert
+
+
+def test_a_preset_is_no_setting_of_cubify(files, monkey):
+    monkey.cubic_craft.preset = "Hard-Edged"
+    assert cubify() == {"FINISHED"}
+    assert monkey.cubic_craft.preset == "Hard-Edged"
+
+
+def test_live_takes_presets_and_reset(files, live, begin, monkey):
+    session = begin(monkey, cubeness=0.3)
+    settings = live.live_properties()
+    assert settings.preset == "CUSTOM"
+    settings.preset = "Chunky"
+    assert settings.cubeness == 1.0
+    assert monkey.cubic_craft.cubeness == pytest.approx(0.3), "until Live is confirmed"
+    session.tick(bpy.context)
+    assert session.tasks[0].settings.solidity == 1.0
+    settings.cubeness = 0.55
+    assert bpy.ops.cubic_craft.preset_add(name="From Live") == {"FINISHED"}
+    settings.preset = "Soft"
+    settings.preset = "From_Live"
+    assert settings.cubeness == pytest.approx(0.55)
+    assert bpy.ops.cubic_craft.preset_remove() == {"FINISHED"}
+    session.tick(bpy.context)
+    assert bpy.ops.cubic_craft.reset() == {"CANCELLED"}, "no undo step"
+    assert settings.preset == "Cubic"
+    session.tick(bpy.context)
+    assert session.take_back() and settings.cubeness == pytest.approx(0.55)
+
+
+def test_pictures(files, rooms, monkey):
+    pictures = rooms("cubic_craft_addon.presets.pictures")
+    save("Mine", cubeness=0.9)
+    for preset in files.presets():
+        pictures.icon_of(preset)  # without a window all are 0
+    shown = dict(pictures._collection)
+    assert set(shown) == {
+        str(pictures._WITHOUT), *(str(p.picture) for p in files.presets() if p.is_own)
+    }  # fmt: skip
+    for path, picture in shown.items():
+        assert tuple(picture.image_size) == (160, 160)
+        assert Path(path).stat().st_size < 30_000
+    pictures.free()
+    assert pictures._collection is None
+
+
+def test_presets_and_pictures_go_with_the_extension(extension, rooms):
+    pictures = rooms("cubic_craft_addon.presets.pictures")
     path = Path(bpy.utils.preset_find("As_in_the_Paper", "cubic_craft"))
     add_monkey()
-    bpy.ops.cubic_craft.preset_add(name="As_in_the_Paper", remove_name=True)
-    assert path.exists()
+    assert bpy.context.object.cubic_craft.preset == "Cubic"
+    assert pictures._collection is not None
     bpy.ops.preferences.addon_disable(module=extension.__name__)
-    assert bpy.utils.preset_find("As_in_the_Paper", "cubic_craft") is None
+    assert path.exists() and bpy.utils.preset_find("As_in_the_Paper", "cubic_craft") is None
+    assert pictures._collection is None
     bpy.ops.preferences.addon_enable(module=extension.__name__)
+
+
+def test_the_zip_has_each_preset_with_its_picture(archive):
+    names = zipfile.ZipFile(archive).namelist()
+    stems = {Path(n).stem for n in names if re.search(r"assets/presets/cubic_craft/[^/]+\.py$", n)}
+    assert stems == set(OURS)
+    assert {f"cubic_craft_addon/assets/presets/cubic_craft/{n}.png" for n in OURS} <= set(names)
+    assert "cubic_craft_addon/assets/preset_without_picture.png" in names

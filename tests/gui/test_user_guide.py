@@ -3,8 +3,9 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1000x1650
+# Window: 1000x1900
 
+import importlib
 import math
 import os
 import pathlib
@@ -147,21 +148,57 @@ def picture_of_changed():
     scene.settings().cubeness = 0.4
 
 
+def choose_preset(name):
+    """Open the pictures of the presets by the one that is shown, and choose one by the keys."""
+    files = importlib.import_module(f"{scene.EXTENSION}.cubic_craft_addon.presets.files")
+    number = [preset.identifier for preset in files.presets()].index(name)
+    save = yield from gui.find_button("cubic_craft.preset_add")
+    yield from gui.click((round(save.left - 45 * SCALE), save.at()[1]))
+    yield 1.0
+    save_screen(f"{name}.png")
+    yield from gui.keys(*["DOWN_ARROW"] * (number + 1), "RET")
+    yield from gui.wait_until(lambda: shown_preset() == name, what=f"the preset {name}")
+
+
+def shown_preset():
+    is_live = scene.live().current() is not None
+    return (scene.live().live_properties() if is_live else scene.settings()).preset
+
+
+def press_button(name):
+    """Click on a button of the panel, and confirm what it asks."""
+    yield from gui.click((yield from gui.find_button(name)))
+    yield 0.5
+    yield from gui.keys("RET")
+
+
 def picture_of_presets():
-    """Keep two presets, and open their list in the header of the panel."""
-    with gui.in_region():
-        for name, cubeness in (("Gentle", 0.2), ("Strong", 0.8)):
-            scene.settings().cubeness = cubeness
-            bpy.ops.cubic_craft.preset_add(name=name)
-    scene.settings().cubeness = 0.4
-    left, right = panels()
+    """Choose a preset by its picture, undo that, keep a look, and choose again in Live."""
+    yield from choose_preset("Chunky")
+    assert scene.settings().solidity == 1.0
+    yield from gui.undo()
+    assert shown_preset() == "Cubic"
+    scene.settings().cubeness = 0.6
+    yield from press_button("cubic_craft.preset_add")
+    yield from gui.wait_until(lambda: shown_preset() == "My_Look", what="a preset that is kept")
+    yield from choose_preset("My_Look")
+    left, _ = panels()
     place = gui.region("UI")
     top = place.y + place.height
-    yield from gui.click((round(right - 37 * SCALE), round(top - 14 * SCALE)))
-    yield 1.0
-    save_screen("presets_window.png")
-    cut(share("presets_window.png"), "presets", left, top - 127 * SCALE, gui.window().width, top)
-    yield from gui.keys("ESC")
+    picture = share("My_Look.png")
+    cut(picture, "presets", left - 560 * SCALE, top - 280 * SCALE, gui.window().width, top)
+    yield from press_button("cubic_craft.preset_remove")
+    yield from gui.wait_until(lambda: shown_preset() == "CUSTOM", what="a preset that is gone")
+    yield from press_button("cubic_craft.reset")
+    assert shown_preset() == "Cubic"
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    before = scene.positions()
+    yield from choose_preset("Hard-Edged")
+    yield from scene.wait_idle_with(lambda: scene.positions() != before, "the shape of the preset")
+    yield from gui.screenshot("preset_in_live.png")
+    yield from scene.end_by("ESC")
+    assert shown_preset() == "Cubic"
 
 
 def picture_of_redo():

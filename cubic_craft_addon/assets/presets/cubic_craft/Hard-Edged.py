@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# pyright: reportAttributeAccessIssue=false
+"""Flat sides and sharp edges everywhere, also on small parts."""
+
+import bpy
+
+bpy.context.object.cubic_craft.cubeness = 2.0
+bpy.context.object.cubic_craft.solidity = 0.1
+bpy.context.object.cubic_craft.together = "SELECTION"
+bpy.context.object.cubic_craft.refine = "AUTO"
+bpy.context.object.cubic_craft.rotation = "KEEP"
+bpy.context.object.cubic_craft.hold_rest = True

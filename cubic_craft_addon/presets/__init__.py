@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets: looks that come with the extension, and those that the artist has kept.
+
+``files`` reads and writes them, ``pictures`` are their thumbnails, ``selector`` is the property
+that the panel shows, and ``panel`` draws it.
+"""
+
+from pathlib import Path
+
+import bpy
+
+from . import pictures
+from .files import OWN_FOLDER
+from .selector import forget
+
+__all__ = ("register", "unregister")
+
+_ASSETS = str(Path(OWN_FOLDER).parents[1])
+
+
+def register():
+    """Tell Blender where our presets are."""
+    bpy.utils.register_preset_path(_ASSETS)
+
+
+def unregister():
+    """Take that back, and free the pictures."""
+    bpy.utils.unregister_preset_path(_ASSETS)
+    forget()
+    pictures.free()

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets as files: what Blender's own presets are, assignments of Python, that are never run."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...solver import CubicCraftError
+from ..object_properties import PROPERTY
+
+SUBFOLDER = "cubic_craft"
+OWN_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
+"""holds the presets that come with the extension, and their pictures"""
+DEFAULT = "Cubic"
+SETTINGS = ("cubeness", "solidity", "together", "refine", "rotation", "hold_rest")
+"""what makes a look; the orientation belongs to a mesh, the device to a machine"""
+
+_ORDER = ("Soft", "Rounded", DEFAULT, "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper")
+_PREFIX = "bpy.context.object.cubic_craft."
+_FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
+_known: list[Preset] = []
+_stamp: tuple = ()
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A preset that has been read."""
+
+    path: Path
+    description: str
+    """empty for those of the artist"""
+    values: Mapping[str, Any]
+    """of those in `SETTINGS` that it sets"""
+
+    @property
+    def identifier(self):
+        """The name of the file, without its end."""
+        return self.path.stem
+
+    @property
+    def name(self):
+        """What it is called."""
+        return bpy.path.display_name(self.path.stem, title_case=False)
+
+    @property
+    def is_own(self):
+        """Whether it comes with the extension."""
+        return self.path.parent == OWN_FOLDER
+
+    @property
+    def picture(self):
+        """Where its picture is, if it has one."""
+        return self.path.with_suffix(".png")
+
+    def is_of(self, properties: Any) -> bool:
+        """Tell whether properties have its values."""
+        return all(_is_like(getattr(properties, name), v) for name, v in self.values.items())
+
+
+def presets() -> list[Preset]:
+    """Return all presets: ours, then those in the folders of the artist, each by its first file."""
+    global _known, _stamp
+    folders = bpy.utils.preset_paths(SUBFOLDER)
+    stamp = tuple((folder, Path(folder).stat().st_mtime_ns) for folder in folders)
+    if stamp != _stamp:
+        found: dict[str, Preset] = {}
+        paths = [path for folder in folders for path in Path(folder).glob("*.py")]
+        for path in sorted(paths, key=_place):
+            preset = _read(path)
+            if preset is not None:
+                found.setdefault(preset.identifier, preset)
+        _known, _stamp = list(found.values()), stamp
+    return _known
+
+
+def find(identifier: str) -> Preset:
+    """Return a preset by its identifier or its name.
+
+    Raises
+    ------
+    CubicCraftError
+        There is none.
+    """
+    for preset in presets():
+        if identifier in (preset.identifier, preset.name):
+            return preset
+    raise CubicCraftError(f'there is no preset "{identifier}"')
+
+
+def save(name: str, properties: Any) -> Path:
+    """Keep the settings of properties under a name, in place of those that had it, if any.
+
+    Raises
+    ------
+    CubicCraftError
+        The name cannot be used, or the file cannot be written.
+    """
+    stem = name.strip().translate(_FORBIDDEN).strip("_")
+    if not stem:
+        raise CubicCraftError("a preset needs a name")
+    taken = {preset.identifier.lower() for preset in presets() if preset.is_own}
+    if stem.lower() in taken:
+        raise CubicCraftError(f'"{name}" comes with CubicCraft; choose another name')
+    lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
+    folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
+    path = Path(folder) / f"{stem}.py"
+    try:
+        path.write_text("".join(["import bpy\n\n", *lines]), encoding="utf-8")
+    except OSError as error:
+        raise CubicCraftError(f"{path} cannot be written: {error.strerror}") from error
+    _forget()
+    return path
+
+
+def remove(preset: Preset) -> None:
+    """Delete the file of a preset, and its picture.
+
+    Raises
+    ------
+    CubicCraftError
+        It is one of ours, or cannot be deleted.
+    """
+    if preset.is_own:
+        raise CubicCraftError(f'"{preset.name}" comes with CubicCraft and stays')
+    try:
+        preset.path.unlink()
+        preset.picture.unlink(missing_ok=True)
+    except OSError as error:
+        raise CubicCraftError(f"{preset.path} cannot be deleted: {error.strerror}") from error
+    finally:
+        _forget()
+
+
+def _forget():
+    global _stamp
+    _stamp = ()
+
+
+def _place(path):
+    """Return what to sort by: ours first, from soft to hard."""
+    is_own = path.parent == OWN_FOLDER
+    place = _ORDER.index(path.stem) if is_own and path.stem in _ORDER else len(_ORDER)
+    return not is_own, place, path.stem.lower()
+
+
+def _read(path):
+    """Return the preset of a file, None where it has nothing that we know."""
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except (OSError, SyntaxError, ValueError):
+        return None
+    values: dict[str, Any] = dict(_assignments(tree))
+    description = (ast.get_docstring(tree) or "").rstrip(".")  # Blender sets one
+    return Preset(path, description, values) if values else None
+
+
+def _assignments(tree):
+    """Give the names and values that can be set; a newer CubicCraft may have written others."""
+    declaration: Any = bpy.types.Object.bl_rna.properties[PROPERTY]
+    group = declaration.fixed_type
+    for node in tree.body:
+        if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
+            continue
+        name, value = ast.unparse(node.targets[0]).removeprefix(_PREFIX), node.value.value
+        if name in SETTINGS and _can_be(group.properties[name], value):
+            yield name, value
+
+
+def _can_be(declaration, value):
+    if declaration.type == "ENUM":
+        return isinstance(value, str) and value in declaration.enum_items
+    if declaration.type == "BOOLEAN" or isinstance(value, bool):
+        return declaration.type == "BOOLEAN" and isinstance(value, bool)
+    is_number = isinstance(value, int | float) and math.isfinite(value)
+    return is_number and declaration.hard_min <= value <= declaration.hard_max
+
+
+def _plain(value):
+    """Return a value with no more digits than it has: properties are 32 bit numbers."""
+    return float(f"{value:.7g}") if isinstance(value, float) else value
+
+
+def _is_like(value, other):
+    if isinstance(value, float) and isinstance(other, int | float):
+        return abs(value - other) <= 1e-6 * max(1.0, abs(other))
+    return value == other

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The property that shows which preset the settings are, and sets them when it is set.
+
+It stores nothing: settings that are no preset are "Custom".
+"""
+
+from typing import Any
+
+from bpy.props import EnumProperty
+
+from .files import Preset, find, presets
+from .pictures import icon_of
+
+CUSTOM, CUSTOM_NAME = "CUSTOM", "Custom"
+
+_texts: dict[str, str] = {}  # all that was shown: Blender does not keep them alive
+_last_applied = ""
+
+
+def preset_property() -> Any:
+    """Return the declaration of the property, for a group that has the settings."""
+    return EnumProperty(
+        name="Preset",
+        description="A look: how cubic, how solid, and what holds together",
+        items=_items_of,
+        get=_get,
+        set=_set,
+        options={"SKIP_SAVE"},
+    )
+
+
+def preset_of(properties: Any) -> Preset | None:
+    """Return the preset that the settings are, None where they are none.
+
+    Of several, the one that was chosen last.
+    """
+    fitting = [preset for preset in presets() if preset.is_of(properties)]
+    chosen = [preset for preset in fitting if preset.identifier == _last_applied]
+    return next(iter(chosen + fitting), None)
+
+
+def apply(identifier: str, properties: Any) -> Preset:
+    """Give properties the settings of a preset, by its identifier or its name.
+
+    Raises
+    ------
+    CubicCraftError
+        There is no such preset.
+    """
+    global _last_applied
+    preset = find(identifier)
+    for name, value in preset.values.items():
+        setattr(properties, name, value)
+    _last_applied = preset.identifier
+    return preset
+
+
+def forget() -> None:
+    """Let go of what was shown."""
+    global _last_applied
+    _last_applied = ""
+    _texts.clear()
+
+
+def _items_of(properties, _context) -> Any:
+    shown = [
+        _item(preset.identifier, preset.name, preset.description, icon_of(preset), number)
+        for number, preset in enumerate(presets())
+    ]
+    if properties is None or preset_of(properties) is None:
+        about = "Settings that are no preset"
+        shown.append(_item(CUSTOM, CUSTOM_NAME, about, icon_of(None), len(shown)))
+    return shown
+
+
+def _item(identifier, name, about, icon, number) -> tuple[str, str, str, int, int]:
+    return _kept(identifier), _kept(name), _kept(about), icon, number
+
+
+def _kept(text):
+    return _texts.setdefault(text, text)
+
+
+def _get(properties):
+    preset = preset_of(properties)
+    return len(presets()) if preset is None else presets().index(preset)
+
+
+def _set(properties, number):
+    if number < len(presets()):
+        apply(presets()[number].identifier, properties)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reset Settings: all settings as they were at first."""
+
+import bpy
+
+from ..cubic_craft_addon import live
+from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT
+from .selection import panel_mesh, poll_panel_mesh
+
+
+class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
+    """Give all settings their defaults; what belongs to the mesh stays."""
+
+    bl_idname = "cubic_craft.reset"
+    bl_label = "Reset Settings"
+    bl_description = (
+        "Give all settings of the panel their defaults; handles and the cubeness map stay, and the"
+        " mesh is as it is until the next Cubify"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh in the panel."""
+        return poll_panel_mesh(cls, context)
+
+    def execute(self, context):
+        """Unset them, so that they are also the defaults of a later version."""
+        properties = live.shared_properties(panel_mesh(context))
+        for name in ALL:
+            if name not in OF_EACH_OBJECT:
+                properties.property_unset(name)
+        session = live.current()
+        if session is not None:
+            session.wake()
+            return {"CANCELLED"}  # no undo step in the middle of Live
+        return {"FINISHED"}
