@@ -15,7 +15,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ..solver import CubicCraftError
-from . import live
+from . import glimpse, live
 from .handles.owner import panel_object
 from .object_frame import world_axes
 
@@ -61,7 +61,7 @@ def lines_of(obj: bpy.types.Object):
 
 def _draw():
     context = bpy.context
-    if not getattr(context.window_manager, PROPERTY):
+    if not (getattr(context.window_manager, PROPERTY) or glimpse.is_seen()):
         return
     obj = panel_object(context)
     if obj is None:
@@ -81,11 +81,8 @@ def _draw():
     gpu.state.blend_set("NONE")
 
 
-def _redraw(_self, context):
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+def _redraw(_self, _context):
+    glimpse.redraw_views()
 
 
 def register():
@@ -93,7 +90,8 @@ def register():
     global _handle
     switch = BoolProperty(
         name="Show Cube",
-        description="Draw the cube that the active mesh is turned toward in the viewport",
+        description="Draw the cube that the active mesh is turned toward in the viewport, also"
+        " while it is not being turned",
         update=_redraw,
     )
     setattr(bpy.types.WindowManager, PROPERTY, switch)
@@ -103,6 +101,7 @@ def register():
 def unregister():
     """Remove the draw handler and the switch."""
     global _handle
+    glimpse.forget()
     bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
     _handle = None
     delattr(bpy.types.WindowManager, PROPERTY)

@@ -18,6 +18,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from . import glimpse
 from .handles import Handle
 from .handles.pose import object_handles
 from .handles.properties import CubicCraftHandle
@@ -132,6 +133,7 @@ class RunProperties:
         soft_min=-math.pi / 4,
         soft_max=math.pi / 4,
         options=_OPTIONS,
+        update=glimpse.on_turn,
     )
     space: EnumProperty(
         name="Relative To",
@@ -139,6 +141,7 @@ class RunProperties:
         items=_SPACES,
         default=Settings.space,
         options=_OPTIONS,
+        update=glimpse.on_turn,
     )
     use_handles: BoolProperty(
         name="Handles",

@@ -10,9 +10,10 @@ from typing import Any
 import bpy
 from bpy.props import PointerProperty, StringProperty
 
+from .. import glimpse
 from ..choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..presets.selector import preset_property
-from ..properties import RunProperties, object_properties
+from ..properties import RunProperties, object_properties, value_of
 from . import wake
 
 _NAME = "cubic_craft_live"
@@ -20,8 +21,15 @@ _FRAME = "frame"
 
 
 def _with_update(declared):
-    """Return the declaration of a property once more, with a callback on changes."""
-    return declared.function(**{**declared.keywords, "update": wake.on_property})
+    """Return the declaration of a property once more, with a callback on changes beside its own."""
+    own = declared.keywords.get("update")
+
+    def on_update(properties, context):
+        if own is not None:
+            own(properties, context)
+        wake.on_property(properties, context)
+
+    return declared.function(**{**declared.keywords, "update": on_update})
 
 
 class CubicCraftLiveProperties(bpy.types.PropertyGroup):
@@ -50,6 +58,7 @@ def adopt(obj: bpy.types.Object) -> None:
     source = object_properties(obj)
     frame = source.frame
     set_live_values(values_of(source) | {_FRAME: frame.name if frame else ""})
+    glimpse.forget()  # the cube has not been turned by that
 
 
 def live_values() -> dict[str, Any]:
@@ -61,7 +70,8 @@ def set_live_values(values: dict[str, Any]) -> None:
     """Set settings by their names."""
     target = live_properties()
     for name, value in values.items():
-        setattr(target, name, value)
+        if value_of(target, name) != value:
+            setattr(target, name, value)
 
 
 def live_choice(objects: list[bpy.types.Object]) -> Choice:

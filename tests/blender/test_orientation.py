@@ -3,6 +3,7 @@
 
 import importlib
 import math
+import time
 
 import bpy
 import numpy as np
@@ -185,6 +186,34 @@ def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(exten
     points, _ = overlay.lines_of(obj)
     axes = points[1:6:2] - points[0:6:2]
     np.testing.assert_allclose(axes / np.linalg.norm(axes[0]), np.eye(3), atol=1e-6)
+
+
+def test_the_cube_is_seen_for_a_moment_when_it_is_turned(extension, live, begin, monkeypatch):
+    glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.glimpse")
+    obj = add_monkey()
+
+    def is_seen_after(change):
+        glimpse.forget()
+        assert not glimpse.is_seen()
+        change()
+        return glimpse.is_seen()
+
+    settings = obj.cubic_craft
+    assert is_seen_after(lambda: setattr(settings, "orientation", (0.0, 0.0, 0.3)))
+    assert is_seen_after(lambda: setattr(settings, "space", "OBJECT"))
+    assert is_seen_after(lambda: bpy.ops.cubic_craft.auto_orient())
+    assert not is_seen_after(lambda: setattr(settings, "cubeness", 0.3))
+    session = begin(obj)
+    assert not glimpse.is_seen(), "to begin Live turns nothing"
+    in_live = live.live_properties()
+    assert is_seen_after(lambda: setattr(in_live, "orientation", (0.0, 0.2, 0.3)))
+    session.tick(bpy.context)
+    assert session.tasks[0].settings.orientation[1] == pytest.approx(0.2), "Live is told as well"
+    assert not is_seen_after(lambda: setattr(in_live, "cubeness", 0.8))
+    monkeypatch.setattr(glimpse, "SECONDS", 0.01)
+    in_live.orientation = (0.0, 0.0, 0.0)
+    time.sleep(0.02)
+    assert not glimpse.is_seen()
 
 
 def test_the_overlay_leaves_no_handler_behind(extension):

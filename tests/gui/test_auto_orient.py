@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Auto Orient for a box whose sides are turned against its axes, seen in the overlay; undo."""
 
+import importlib
+
 import bpy
 import guidrive as gui
 import numpy as np
@@ -26,6 +28,29 @@ def pixels(path):
     return values[view.y : view.y + view.height, view.x : gui.region("UI").x]
 
 
+def glimpse():
+    return importlib.import_module("bl_ext.user_default.cubic_craft.cubic_craft_addon.glimpse")
+
+
+def glimpse_over():
+    """Wait until the cube is not seen any more that was just turned."""
+    yield from gui.wait_until(lambda: not glimpse().is_seen(), what="the end of the glimpse")
+    yield 0.5
+
+
+def turned_by_hand():
+    """Drag an angle: the cube is seen for a moment, though its overlay is off."""
+    before = pixels((yield from gui.screenshot("not_turned.png")))
+    glimpse().SECONDS = 10.0  # a picture takes its time
+    yield from gui.drag_slider((yield from gui.find_button("cubic_craft.orientation[2]")))
+    assert orientation()[2], "the angle has not been dragged"
+    turned = pixels((yield from gui.screenshot("turned_by_hand.png")))
+    assert (np.abs(turned - before).max(axis=-1) > 0.2).sum() > 500, "no cube is drawn"
+    yield from glimpse_over()
+    after = pixels((yield from gui.screenshot("glimpse_over.png")))
+    assert (np.abs(after - turned).max(axis=-1) > 0.2).sum() > 500, "the cube stays"
+
+
 def test():
     with gui.in_region():
         bpy.data.meshes[NAME].transform(Euler(TURN).to_matrix().to_4x4())
@@ -36,6 +61,7 @@ def test():
     yield from gui.click(button)
     yield from gui.wait_until(lambda: any(orientation()), what="an orientation")
     assert max(abs(a - b) for a, b in zip(orientation(), TURN, strict=True)) < 1e-3
+    yield from glimpse_over()
     before = pixels((yield from gui.screenshot("oriented.png")))
     switch = yield from gui.find_button("cubic_craft_overlay")
     yield from gui.click(switch)
@@ -48,6 +74,7 @@ def test():
     assert (np.abs(without - with_cube).max(axis=-1) > 0.2).sum() > 500, "the cube stays"
     yield from gui.undo()
     assert not any(orientation())
+    yield from turned_by_hand()
 
 
 gui.run(test)

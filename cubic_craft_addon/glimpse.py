@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A glimpse of the cube for a moment after it was turned, also where its overlay is off."""
+
+import time
+
+import bpy
+
+SECONDS = 1.5
+"""that the cube stays in view"""
+
+_until = 0.0
+
+
+def on_turn(_properties, _context):
+    """Show the cube from now on, as the update of a property that turns it."""
+    global _until
+    _until = time.monotonic() + SECONDS
+    if bpy.app.background:
+        return
+    redraw_views()
+    if not bpy.app.timers.is_registered(_end):
+        bpy.app.timers.register(_end, first_interval=SECONDS)
+
+
+def is_seen() -> bool:
+    """Tell whether the cube has been turned just now."""
+    return time.monotonic() < _until
+
+
+def redraw_views() -> None:
+    """Have Blender draw all 3D viewports anew."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def _end():
+    """Take the cube away, or come back when it is time."""
+    rest = _until - time.monotonic()
+    if rest > 0.0:
+        return rest
+    redraw_views()
+    return None
+
+
+def forget() -> None:
+    """Stop waiting for the end of a glimpse."""
+    global _until
+    _until = 0.0
+    if bpy.app.timers.is_registered(_end):
+        bpy.app.timers.unregister(_end)
