@@ -33,7 +33,7 @@ class LiveMesh:
         self.run: LiveRun | None = None
         self.member: Member | None = None
         self._is_shown = is_shown
-        self._start = task.settings.start
+        self._start: mesh_bridge.Start = task.settings.start
         self._preview: mesh_bridge.Preview | None = None
         self._shown_moment = None
 

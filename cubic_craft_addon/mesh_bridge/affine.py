@@ -11,7 +11,7 @@ _ROUNDING = 2.0**-24  # of float32, relative
 _MARGIN = 16.0  # several transforms in a row, each of a few roundings
 _FLAT = 3e-7  # extent relative to the largest one, below which a shape says nothing about it
 _SAMPLES = 256  # of four vertices each: one is without those moved by hand, if these are half
-_SCORED = 4096  # vertices, by which samples are compared
+_SOME = 4096  # vertices, of large meshes, that tell of all
 _LEAST_SHARE = 0.125  # of the vertices, that must agree on how all have been transformed
 _GOOD_PART = 0.25  # of the distances, that a map may leave where no vertices agree
 
@@ -28,6 +28,8 @@ class Affine:
     """the shape that it was found by has lost an extent, which this map keeps"""
     is_unique: bool = True
     """more vertices agree on it than are needed to find one"""
+    is_solid: bool = True
+    """the shapes that it was found by lack no extent"""
 
     @property
     def is_identity(self) -> bool:
@@ -77,10 +79,27 @@ def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
         return IDENTITY
     if not (len(before) and np.isfinite(before).all() and np.isfinite(after).all()):
         return None
+    some = _some(len(before))
+    if len(some) < len(before):
+        # Of large meshes a part will do, and what it says holds for all or for none.
+        found = _fit_all(before[some], after[some])
+        if found is None or (found.is_solid and not found.agrees(before, after, 4.0).all()):
+            return None
+        if found.is_solid and found.agrees(before, after).all():
+            return found
+    return _fit_all(before, after)
+
+
+def _fit_all(before: np.ndarray, after: np.ndarray) -> Affine | None:
     linear, offset, extents = _least_squares(before, after)
     if not _agrees(linear, offset, before, after).all():
         return None
     return _plain(_completed(linear, before, after, extents), before, after)
+
+
+def _some(count: int) -> np.ndarray:
+    """Choose a few thousand vertices from all over the mesh."""
+    return np.linspace(0, count - 1, min(count, _SOME)).astype(int)
 
 
 def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
@@ -99,7 +118,7 @@ def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return IDENTITY
     rng = np.random.default_rng(0)
-    some = np.linspace(0, len(before) - 1, min(len(before), _SCORED)).astype(int)
+    some = _some(len(before))
     some_before, some_after = before[some], after[some]
     best, votes = IDENTITY, 0
     enough = max(5, int(_LEAST_SHARE * len(some)))
@@ -181,4 +200,5 @@ def _completed(linear: np.ndarray, before: np.ndarray, after: np.ndarray, extent
         linear = (U * scales) @ Vt
     offset = after.mean(axis=0, dtype=np.float64) - linear @ before.mean(axis=0, dtype=np.float64)
     is_flattened = int(is_there.sum()) < extents
-    return Affine(linear, offset, is_flattened, len(before) > extents + 1)
+    is_solid = extents == 3 and not is_flattened
+    return Affine(linear, offset, is_flattened, len(before) > extents + 1, is_solid)

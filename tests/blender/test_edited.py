@@ -5,6 +5,7 @@ import importlib
 
 import bpy
 import pytest
+from live_steps import bits, confirm, tick_to_rest
 from scene import add_monkey, cubify, select
 
 
@@ -77,3 +78,35 @@ def test_it_is_found_out_once(edited, extension, monkeypatch):
     for _ in range(5):
         assert not edited.is_edited(obj.data)
     assert len(calls) == 1
+
+
+@pytest.mark.parametrize("start", ["HERE", "ORIGINAL"])
+@pytest.mark.parametrize("change", ["edited", "transformed"])
+def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
+    shapes = []
+    for is_live in (False, True):
+        obj = add_monkey()
+        cubify(max_iterations=1000)
+        if change == "edited":
+            obj.data.vertices[3].co.x += 0.5
+            obj.data.update()
+        else:
+            obj.scale = (1, 1, 2)
+            bpy.ops.object.transform_apply(scale=True)
+        changed = bits(obj)
+        if is_live:
+            session = begin(obj, start=start, cubeness=0.3)
+            tick_to_rest(session)
+            session.on(live.Event.CANCEL)
+            assert bits(obj) == changed and obj.cubic_craft.start == start
+            session = begin(obj)
+            live.live_properties().cubeness = 0.7
+            confirm(live, session)
+        else:
+            bpy.ops.cubic_craft.cubify(start=start, cubeness=0.7)
+        assert obj.cubic_craft.start == "HERE"
+        shapes.append(bits(obj))
+        bpy.ops.cubic_craft.restore()
+        shapes.append(bits(obj))
+        assert (shapes[-1] == changed) == (change == "edited" and start == "HERE")
+    assert shapes[:2] == shapes[2:]
