@@ -4,6 +4,7 @@
 from typing import Any
 
 from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.handles.own_pose import identify
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
@@ -49,6 +50,7 @@ def add_handle(obj, group):
     properties = object_properties(obj)
     handle = properties.handles.add()
     handle.group = group
+    identify(handle)  # now, so that no undo step from while Live runs is without it
     properties.active_handle = len(properties.handles) - 1
     return handle
 

@@ -3,8 +3,9 @@
 
 import bpy
 
+from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.handle import IDENTITY
-from ..cubic_craft_addon.handles.own_pose import has_pose, set_own_pose
+from ..cubic_craft_addon.handles.own_pose import set_own_pose
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
 from ..cubic_craft_addon.object_properties import object_properties
@@ -28,8 +29,7 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
         if not poll_mesh(cls, context):
             return False
         obj = panel_object(context)
-        is_posed = any(map(has_pose, object_properties(obj).handles))
-        if not is_posed and not any(True for _ in followed(obj)):
+        if not _posed(obj) and not any(True for _ in followed(obj)):
             cls.poll_message_set("No handle is posed or follows anything")
             return False
         return True
@@ -37,10 +37,19 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
     def execute(self, context):
         """Take each pose away, and put each target back."""
         obj = panel_object(context)
+        is_moved = False
         for handle, target in followed(obj):
             if target != obj:
                 reset(obj, handle)
-        for handle in object_properties(obj).handles:
-            if has_pose(handle):
-                set_own_pose(handle, IDENTITY)
+                is_moved = True
+        if live.current() is not None:
+            live.reset_poses(obj)
+            # Live takes its poses back itself; an undo step would come before them.
+            return {"FINISHED"} if is_moved else {"CANCELLED"}
+        for handle in _posed(obj):
+            set_own_pose(handle, IDENTITY)
         return {"FINISHED"}
+
+
+def _posed(obj):
+    return [h for h in object_properties(obj).handles if live.pose_of(obj, h) != IDENTITY]

@@ -57,7 +57,10 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         """Pass on what concerns Live; all else is Blender's, so that the view can be orbited."""
         session = self._session
         is_ours = False
-        if event.type == "TIMER":
+        if session.is_dragged:
+            # Blender keeps mouse and keys for the drag, and the type of no event is what it was.
+            session.tick_in_drag(context)
+        elif event.type == "TIMER":
             if not session.is_ended:
                 session.tick(context)
         elif event.value == "PRESS" and _is_over_viewport(context, event):

@@ -14,6 +14,7 @@ from ..properties import settings_of
 from ..settings import Settings
 from . import healing, properties
 from .machine import Event
+from .poses import pose_of, reset_poses, set_pose
 from .properties import live_choice, live_properties
 from .session import Session
 
@@ -23,7 +24,10 @@ __all__ = (
     "current",
     "live_properties",
     "own_properties",
+    "pose_of",
     "register",
+    "reset_poses",
+    "set_pose",
     "settings_now",
     "shared_properties",
     "unregister",

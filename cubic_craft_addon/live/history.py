@@ -47,6 +47,10 @@ class History:
         self._values = values
         self._last = (changed, now)
 
+    def cut(self) -> None:
+        """Let the next change be a step of its own, however soon it comes."""
+        self._last = (frozenset(), float("-inf"))
+
     def record_outside(self) -> None:
         """Take in that something else has changed, which is in Blender's undo stack."""
         self._earlier.clear()
@@ -65,6 +69,6 @@ class History:
         """Return the settings to go back to, or what else is to be done."""
         if self._earlier:
             self._values = self._earlier.pop()
-            self._last = (frozenset(), float("-inf"))
+            self.cut()
             return self._values
         return TakeBack.BLENDER if self._is_outside else TakeBack.LIVE

@@ -14,10 +14,10 @@ from .. import glimpse
 from ..choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..presets.selector import preset_property
 from ..properties import RunProperties, object_properties, value_of
-from . import wake
+from . import poses, wake
 
 _NAME = "cubic_craft_live"
-_FRAME = "frame"
+_FRAME, _POSES = "frame", "poses"
 
 
 def _with_update(declared):
@@ -57,20 +57,22 @@ def adopt(obj: bpy.types.Object) -> None:
     """Take the settings from an object."""
     source = object_properties(obj)
     frame = source.frame
-    set_live_values(values_of(source) | {_FRAME: frame.name if frame else ""})
+    set_live_values(values_of(source) | {_FRAME: frame.name if frame else "", _POSES: {}})
     glimpse.forget()  # the cube has not been turned by that
 
 
 def live_values() -> dict[str, Any]:
     """Return the settings as plain values."""
-    return values_of(live_properties(), (*ALL, _FRAME))
+    return values_of(live_properties(), (*ALL, _FRAME)) | {_POSES: poses.live_poses()}
 
 
 def set_live_values(values: dict[str, Any]) -> None:
     """Set settings by their names."""
     target = live_properties()
     for name, value in values.items():
-        if value_of(target, name) != value:
+        if name == _POSES:
+            poses.set_live_poses(value)
+        elif value_of(target, name) != value:
             setattr(target, name, value)
 
 
@@ -83,11 +85,12 @@ def live_choice(objects: list[bpy.types.Object]) -> Choice:
         There is no frame object of that name.
     """
     values = live_values()
-    frame = values.pop(_FRAME)
+    frame, posed = values.pop(_FRAME), poses.by_object(values.pop(_POSES))
     if len(objects) > 1:
         values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
     is_framed = objects and values["space"] == "FRAME"
-    return Choice(values, find_frame(frame, objects[0]) if is_framed else None)
+    found = find_frame(frame, objects[0]) if is_framed else None
+    return Choice(values, found, poses=posed)
 
 
 def register():

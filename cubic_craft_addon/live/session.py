@@ -6,6 +6,7 @@ Nothing of Blender's data is kept between two calls, because undo, delete and lo
 
 import logging
 import time
+from collections.abc import Callable
 
 import bpy
 
@@ -17,11 +18,12 @@ from ..handles.baked_pose import settle
 from ..object_properties import object_properties
 from ..redraw import redraw_panels
 from ..tasks import Task, plan, write_all
-from . import handlers, properties, status_bar, wake
+from . import handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh
 from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
+from .undo_steps import UndoSteps
 
 _log = logging.getLogger(__name__)
 
@@ -63,9 +65,10 @@ class Session:
         self._window = context.window
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
-        self._next_check = self._next_panel = self._last_restart = 0.0
+        self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
+        self._is_drag_on: Callable[[], bool] = lambda: False
         self._has_written = self._may_be_painted = self._is_undone = False
-        self._last_step = _last_step()
+        self._undo_steps = UndoSteps()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
         settle(objects, lambda obj: object_properties(obj).start)
@@ -176,9 +179,24 @@ class Session:
         self._is_undone = True
         self.on(Event.UNDONE)
 
+    @property
+    def is_dragged(self):
+        """Whether a handle is being dragged in the viewport."""
+        return not self.is_ended and self._is_drag_on()
+
+    def begin_drag(self, is_on: Callable[[], bool]) -> None:
+        """Take in that a handle is going to be dragged, as long as `is_on` says.
+
+        That is one change to take back, however long it takes and however soon another follows.
+        """
+        self._history.record(properties.live_values(), time.perf_counter())
+        self._history.cut()
+        self._is_drag_on = is_on
+
     def take_back(self) -> bool:
         """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
         self._look_outside()
+        self._history.record(properties.live_values(), time.perf_counter())
         earlier = self._history.take_back()
         if earlier is TakeBack.BLENDER:
             return False
@@ -198,6 +216,12 @@ class Session:
             _log.exception("Live has failed")
             self.error = f"Live has ended because of an error: {error}"
             self.on(Event.FAILED)
+        self._last_tick = time.perf_counter()
+
+    def tick_in_drag(self, context: bpy.types.Context) -> None:
+        """Tick as the timer would: in a drag nothing tells its events from all others."""
+        if self._timer is not None and time.perf_counter() - self._last_tick >= _TIMER_STEP:
+            self.tick(context)
 
     def _tick(self, objects):
         self.meshes = [mesh for mesh in self.meshes if mesh.object_uid in objects]
@@ -229,7 +253,9 @@ class Session:
     def _check(self, objects, now):
         """Restart what has other settings, or other weights, now."""
         values = properties.live_values()
-        self._history.record(values, now)
+        self._look_outside()
+        if not self.is_dragged:
+            self._history.record(values, now)
         self._plan(objects)
         is_changed = self._runs.is_changed(self._groups)
         if self._is_too_young(now):
@@ -246,7 +272,6 @@ class Session:
                 self._history.record_outside()
             self._values = values
         self._is_undone = False
-        self._look_outside()
 
     def _is_too_young(self, now):
         """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
@@ -255,9 +280,7 @@ class Session:
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
 
     def _look_outside(self):
-        """Notice the operators that push undo steps, also those that do not matter to Live."""
-        before, self._last_step = self._last_step, _last_step()
-        if self._last_step not in (before, 0):
+        if self._undo_steps.is_one_more():
             self._history.record_outside()
 
     def _restart_changed(self):
@@ -286,10 +309,8 @@ class Session:
         self._plan(list(self._objects(bpy.context).values()))
         if any(task.obj.mode not in _MODES for task in self._tasks.values()):
             return  # the next tick ends it
-        for mesh in self.meshes:
-            task = self._task_of(mesh)
-            if task is not None:
-                mesh.follow(task)
+        for mesh, task in self._pairs():
+            mesh.follow(task)
         self._runs.restart_painted(self._groups, self.meshes)
         if self._runs.is_changed(self._groups):
             self._restart_changed()
@@ -300,17 +321,13 @@ class Session:
         self._begin_previews()
 
     def _begin_previews(self):
-        for mesh in self.meshes:
-            task = self._task_of(mesh)
-            if task is not None:
-                mesh.begin_preview(task.mesh)
+        for mesh, task in self._pairs():
+            mesh.begin_preview(task.mesh)
 
     def _write(self):
         self._plan(list(self._objects(bpy.context).values()))
-        for mesh in self.meshes:
-            task = self._task_of(mesh)
-            if task is not None:
-                task.solution = mesh.solution
+        for mesh, task in self._pairs():
+            task.solution = mesh.solution
         solved = [task for task in self._tasks.values() if task.solution is not None]
         self.summary, unwritten = write_all(self._choice, solved)
         self.problems = self.all_problems + unwritten
@@ -334,6 +351,7 @@ class Session:
         handlers.remove()
         wake.listen(None)
         status_bar.hide()
+        poses.set_live_poses({})
         self._tasks.clear()
         self._groups.clear()
         self._choice = Choice({})
@@ -370,8 +388,10 @@ class Session:
         self._tasks = {task.uid: task for task in tasks}
         self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
 
-    def _task_of(self, mesh):
-        return self._tasks.get(mesh.object_uid)
+    def _pairs(self):
+        """Return each mesh that there is something to be done for, with its task."""
+        tasks = [(mesh, self._tasks.get(mesh.object_uid)) for mesh in self.meshes]
+        return [(mesh, task) for mesh, task in tasks if task is not None]
 
 
 _METHODS = {
@@ -384,9 +404,3 @@ _METHODS = {
     Action.WRITE: Session._write,
     Action.CLEAN_UP: Session._clean_up,
 }
-
-
-def _last_step():
-    """Return what tells the artist's last operator with an undo step from others, 0 for none."""
-    steps = [op for op in bpy.context.window_manager.operators if "UNDO" in op.bl_options]
-    return steps[-1].as_pointer() if steps else 0
