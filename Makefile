@@ -155,6 +155,7 @@ docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png
+	cp build/gui/trixie/test_live_gizmos/gizmo.png docs/images/handles_gizmo.png
 
 clean: ## Remove what has been built, not the virtual environments
 	rm -rf build dist

@@ -4,6 +4,7 @@
 from . import (
     edited,
     group_renames,
+    handle_gizmos,
     job,
     live,
     overlay,
@@ -21,6 +22,7 @@ _modules = (
     preferences,
     live,
     job,
+    handle_gizmos,
     overlay,
     handles_panel,
     presets,

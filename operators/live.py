@@ -57,7 +57,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         """Pass on what concerns Live; all else is Blender's, so that the view can be orbited."""
         session = self._session
         is_ours = False
-        if session.is_dragged:
+        if session.is_dragged():
             # Blender keeps mouse and keys for the drag, and the type of no event is what it was.
             session.tick_in_drag(context)
         elif event.type == "TIMER":

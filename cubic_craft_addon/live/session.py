@@ -54,6 +54,8 @@ class Session:
     Attributes
     ----------
     meshes : list of LiveMesh
+    is_dragged : callable
+        Tells whether a handle is being dragged in the viewport.
     error : str
         Why it has ended by itself.
     summary, problems : str, list of str
@@ -66,7 +68,7 @@ class Session:
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
-        self._is_drag_on: Callable[[], bool] = lambda: False
+        self.is_dragged: Callable[[], bool] = lambda: False
         self._has_written = self._may_be_painted = self._is_undone = False
         self._undo_steps = UndoSteps()
         self.error, self.summary = "", ""
@@ -179,23 +181,18 @@ class Session:
         self._is_undone = True
         self.on(Event.UNDONE)
 
-    @property
-    def is_dragged(self):
-        """Whether a handle is being dragged in the viewport."""
-        return not self.is_ended and self._is_drag_on()
-
-    def begin_drag(self, is_on: Callable[[], bool]) -> None:
-        """Take in that a handle is going to be dragged, as long as `is_on` says.
+    def begin_drag(self, is_dragged: Callable[[], bool]) -> None:
+        """Take in that a handle is going to be dragged, as long as the function says.
 
         That is one change to take back, however long it takes and however soon another follows.
         """
         self._history.record(properties.live_values(), time.perf_counter())
         self._history.cut()
-        self._is_drag_on = is_on
+        self.is_dragged = is_dragged
 
     def take_back(self) -> bool:
         """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
-        self._look_outside()
+        self._undo_steps.tell(self._history)
         self._history.record(properties.live_values(), time.perf_counter())
         earlier = self._history.take_back()
         if earlier is TakeBack.BLENDER:
@@ -253,8 +250,8 @@ class Session:
     def _check(self, objects, now):
         """Restart what has other settings, or other weights, now."""
         values = properties.live_values()
-        self._look_outside()
-        if not self.is_dragged:
+        self._undo_steps.tell(self._history)
+        if not self.is_dragged():
             self._history.record(values, now)
         self._plan(objects)
         is_changed = self._runs.is_changed(self._groups)
@@ -278,10 +275,6 @@ class Session:
         working = [mesh for mesh in self.meshes if mesh.is_working]
         is_seen = all(mesh.is_seen for mesh in working)
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
-
-    def _look_outside(self):
-        if self._undo_steps.is_one_more():
-            self._history.record_outside()
 
     def _restart_changed(self):
         self._runs.restart_changed(self._groups, self.meshes)

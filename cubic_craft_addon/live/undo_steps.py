@@ -3,17 +3,20 @@
 
 import bpy
 
+from .history import History
+
 
 class UndoSteps:
-    """What tells whether the artist has done something that Blender can undo."""
+    """What tells when the artist has done something that Blender can undo."""
 
     def __init__(self):
         self._last = _last_step()
 
-    def is_one_more(self) -> bool:
-        """Tell whether there is another last step than when it was asked before."""
+    def tell(self, history: History) -> None:
+        """Tell a history if there is another last step than when it was told before."""
         before, self._last = self._last, _last_step()
-        return self._last not in (before, 0)
+        if self._last not in (before, 0):
+            history.record_outside()
 
 
 def _last_step():

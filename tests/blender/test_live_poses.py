@@ -76,7 +76,7 @@ def drag(live, session, obj, *poses):
     """Drag the handle as the gizmo does."""
     is_on = [True]
     session.begin_drag(lambda: is_on[0])
-    assert session.is_dragged
+    assert session.is_dragged()
     for pose in poses:
         live.set_pose(obj, handle_of(obj), pose)
         tick_to_rest(session)

@@ -2,13 +2,17 @@
 """Load what decides in Live by itself: it must not need Blender, nor anything else of ours."""
 
 import importlib.util
+import sys
 from pathlib import Path
 
-_FOLDER = Path(__file__).resolve().parents[2] / "cubic_craft_addon" / "live"
+_ADDON = Path(__file__).resolve().parents[2] / "cubic_craft_addon"
 
 
-def load(name):
-    spec = importlib.util.spec_from_file_location(f"pure_{name}", _FOLDER / f"{name}.py")
+def load(name, package="live"):
+    path = _ADDON / package / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"pure_{name}", path)
+    assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look there
     spec.loader.exec_module(module)
     return module

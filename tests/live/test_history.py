@@ -52,3 +52,13 @@ def test_blender_has_undone_all_but_the_start():
     assert h.take_back() is TakeBack.LIVE
     h.record_undo(is_outside=True)
     assert h.take_back() is TakeBack.BLENDER
+
+
+def test_after_a_cut_the_next_change_is_a_step_of_its_own():
+    h = History({"a": 0})
+    h.record({"a": 1}, now=0.0)
+    h.cut()
+    h.record({"a": 2}, now=0.01)
+    h.record({"a": 3}, now=0.02)
+    assert h.take_back() == {"a": 1}
+    assert h.take_back() == {"a": 0}
