@@ -61,6 +61,12 @@ class Choice:
         is_on = self.values.get("use_handles", object_properties(obj).use_handles)
         return self.handles is None and is_on
 
+    @property
+    def is_of_what_is_seen(self) -> bool:
+        """Tell whether new objects are made of what is seen, with the modifiers."""
+        values = self.values
+        return values.get("result") == "NEW_OBJECT" and bool(values.get("with_modifiers"))
+
     def start_of(self, obj: bpy.types.Object) -> Start:
         """Return what an object starts from where it was edited by hand since its last result."""
         return self.values.get("start", object_properties(obj).start)
@@ -74,6 +80,7 @@ class Choice:
         if settings.result == "NEW_OBJECT":
             # A click on the new object is to change it, not to copy it again.
             values["result"] = "MESH"
+            values["with_modifiers"] = False
         for name, value in values.items():
             is_outdated = getattr(properties, name) == "" != value
             if is_outdated or value_of(properties, name) != value:

@@ -4,7 +4,7 @@
 import bpy
 
 from ..solver import CubicCraftError
-from . import edited, job, live, mesh_bridge, overlay, status_panel
+from . import edited, job, live, mesh_bridge, overlay, seen, status_panel
 from .handles import panel as handles_panel
 from .handles.owner import panel_object
 from .handles.pose import object_handles
@@ -37,7 +37,7 @@ class CUBIC_PT_main(bpy.types.Panel):
         session = live.current()
         obj = panel_object(context) or (session and session.first_object(context))
         if obj is None:
-            layout.label(text="Select a mesh to make cubic", icon="INFO")
+            seen.draw_other(layout, context.active_object)
             return
         if obj != context.active_object:
             layout.label(text=obj.name, icon="MESH_DATA")
@@ -85,6 +85,7 @@ def _draw_cubify(context, layout, obj):
     if problem:
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
+    seen.draw_hint(layout, obj)
 
 
 def _draw_problem(context, layout, text):
@@ -127,7 +128,10 @@ def _draw_map(layout, obj):
 
 
 def _draw_result(layout, obj):
-    layout.prop(live.shared_properties(obj), "result")
+    properties = live.shared_properties(obj)
+    layout.prop(properties, "result")
+    if properties.result == "NEW_OBJECT" and not live.current():
+        layout.prop(properties, "with_modifiers")
 
 
 def _draw_solver(layout, obj):

@@ -167,6 +167,14 @@ class RunProperties:
         default=Settings.result,
         options=_OPTIONS,
     )
+    with_modifiers: BoolProperty(
+        name="With Modifiers",
+        description="Make the new object of what is seen: the modifiers are in its mesh, as if"
+        " they had been applied, also an Armature's pose. Without it, and in Live, the mesh below"
+        " the modifiers becomes cubic",
+        default=Settings.with_modifiers,
+        options=_OPTIONS,
+    )
     solidity: FloatProperty(
         name="Solidity",
         description="How firmly limbs, necks and walls keep their thickness, and bodies their"

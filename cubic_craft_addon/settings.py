@@ -32,6 +32,8 @@ class Settings:
     """where to start a mesh that was edited by hand since its last result: HERE or ORIGINAL"""
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
+    with_modifiers: bool = False
+    """the NEW_OBJECT is made of what is seen, in place of the bare mesh"""
     solidity: float = 0.1
     """how far limbs, walls and the volume keep their thickness; 0 is a hollow skin"""
     together: str = "SELECTION"

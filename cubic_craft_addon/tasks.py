@@ -36,6 +36,10 @@ class Task:
         self.uid = obj.session_uid
         self.settings = choice.settings_for(obj)
         self.solution: cubify.Solution | None = None
+        self.is_seen = False
+        """whether the object was made by `mesh_bridge.make_seen`"""
+        self.source: bpy.types.Object | None = None
+        """what it was made of"""
         self._reflections = modifier_reflections(obj)
         self._alone = placement_alone(obj, self.settings)
         self.in_world = placement_in_world(obj, self.settings)
@@ -189,5 +193,11 @@ def _write(choice, task, run):
         remember_pose(target, is_posed=is_posed)
         choice.remember_on(target, task.settings)
 
+    if task.is_seen:
+        solution, source = task.solution, task.source
+        mesh_bridge.write_seen(
+            task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
+        )
+        return
     with settings_kept([task.mesh]):
         cubify.write(task.obj, task.solution, task.settings.result, remember, asdict(run))

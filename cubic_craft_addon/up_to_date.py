@@ -14,7 +14,8 @@ from .object_properties import object_properties
 from .properties import settings_of
 from .settings import Settings
 
-_IGNORED = {"device", "start"}  # what computes, and what is chosen anew for each run
+# What computes, what is chosen anew for each run, and what a new mesh was made of.
+_IGNORED = {"device", "start", "with_modifiers"}
 _LABELS = {"handles": "Handles", "map_group": "Cubeness Map", "map_invert": "Cubeness Map"}
 _ROUNDING = 1e-5  # of matrices, relative
 

@@ -16,11 +16,11 @@ from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.last_run import last_run
-from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.properties import RunProperties, StartProperty
 from ..cubic_craft_addon.up_to_date import changes_since
 from ..solver import CubicCraftError
-from .selection import poll_usable, report_all, selected_meshes
+from .selection import poll_sources, report_all, selected_meshes, selected_sources
 from .unforeseen import reporting
 
 _PROGRESS_STEPS = 100
@@ -70,7 +70,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """There is a mesh that can be cubified."""
-        return poll_usable(cls, context)
+        return poll_sources(cls, context)
 
     @reporting
     def execute(self, context):
@@ -81,9 +81,10 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         try:
             for step in work.steps():
                 manager.progress_update(round(_PROGRESS_STEPS * step.factor))
+            return report_all(self, *work.write(is_alone=True))
         finally:
+            work.discard()
             manager.progress_end()
-        return report_all(self, *work.write(is_alone=True))
 
     def invoke(self, context, event):
         """Do the same, and let Blender go on beside what takes longer than a moment."""
@@ -106,10 +107,10 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     @reporting
     def _start(self, context):
         self._watched = job.WatchedJob(self._job(context))
-        self._watched.advance(job.FIRST_SLICE)
-        if self._watched.is_solved:
-            return report_all(self, *self._watched.write())
         try:
+            self._watched.advance(job.FIRST_SLICE)
+            if self._watched.is_solved:
+                return report_all(self, *self._watched.write())
             self._watched.watch(context.window)
             # With its area: where that is not known, the panel of the last operator is not shown.
             context.window_manager.modal_handler_add(self)
@@ -131,7 +132,8 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         return self._report_cancel() if watched.reason is not None else {"RUNNING_MODAL"}
 
     def _job(self, context):
-        objects = selected_meshes(context)
+        is_seen = _asks_for_what_is_seen(self, context)
+        objects = selected_sources(context) if is_seen else selected_meshes(context)
         _adopt_settings(self, objects)
         return job.Job(_choice(self, objects[0]), objects)
 
@@ -167,25 +169,50 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
             layout.prop(self, "map_invert")
         layout.prop(self, "result")
+        if self.result == "NEW_OBJECT":
+            layout.prop(self, "with_modifiers")
         for name in ("device", "max_iterations", "tolerance"):
             layout.prop(self, name)
 
 
+def _asks_for_what_is_seen(operator, context):
+    """Tell whether it is about what is seen: it says so, the active object does, or is no mesh."""
+    active = panel_object(context)
+    if active is None or not selected_meshes(context):
+        return True
+    given = operator.properties.is_property_set
+    own = object_properties(active)
+    result = operator.result if given("result") else own.result
+    is_with = operator.with_modifiers if given("with_modifiers") else own.with_modifiers
+    return result == "NEW_OBJECT" and is_with
+
+
 def _adopt_settings(operator, objects):
     """Take what the caller has not set from the active object, so that the redo panel shows it."""
+    if objects[0].type != "MESH":
+        _set_for_new_mesh(operator)
+        if not has_properties(objects[0]):
+            return  # and it is to have none: it stays as it is
     source = object_properties(objects[0])
     for name, value in values_of(source).items():
         if name in OF_EACH_OBJECT and len(objects) > 1:
             continue
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
-    if len(objects) == 1:
+    if len(objects) == 1 and objects[0].type == "MESH":
         operator.is_edited = mesh_bridge.is_edited(mesh_bridge.mesh_of(objects[0]))
         if not operator.properties.is_property_set("start"):
             operator.start = source.start
     is_framed = operator.space == "FRAME" and source.frame is not None
     if is_framed and not operator.properties.is_property_set("frame"):
         operator.frame = source.frame.name
+
+
+def _set_for_new_mesh(operator):
+    """Set what alone is possible with texts, curves and the like, unless the caller has."""
+    for name, value in (("result", "NEW_OBJECT"), ("with_modifiers", True)):
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, value)
 
 
 def _choice(operator, active):

@@ -3,7 +3,7 @@
 
 from typing import Any
 
-from ..cubic_craft_addon import job, live, mesh_bridge
+from ..cubic_craft_addon import job, live, mesh_bridge, seen
 from ..cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ..cubic_craft_addon.modes import MESSAGE, is_mode_usable
 from ..solver import CubicCraftError
@@ -50,8 +50,40 @@ def poll_panel_mesh(operator_class, context):
     return True
 
 
+def selected_sources(context):
+    """Return the selected objects that are seen as meshes, the active one first.
+
+    If none is selected, those of `selected_meshes`, or the active one.
+    """
+    active = context.active_object
+    objects = [obj for obj in context.selected_objects if obj.type in mesh_bridge.KINDS]
+    objects = objects or selected_meshes(context)
+    if not objects and active is not None and active.type in mesh_bridge.KINDS:
+        return [active]
+    return sorted(objects, key=lambda obj: obj != active)
+
+
+def poll_sources(operator_class, context):
+    """Tell whether there is something that can be cubified, with or without its modifiers."""
+    if not poll_work(operator_class, context):
+        return False
+    if any(seen.can_be_seen(obj) for obj in selected_sources(context)):
+        return True
+    return poll_usable(operator_class, context)
+
+
 def poll_meshes(operator_class, context):
     """Tell whether there is a mesh to work on, and say what is missing."""
+    if not poll_work(operator_class, context):
+        return False
+    if not selected_meshes(context):
+        operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
+
+
+def poll_work(operator_class, context):
+    """Tell whether meshes can be worked on now, whichever they are."""
     if not poll_idle(operator_class):
         return False
     if live.current() is not None:
@@ -59,9 +91,6 @@ def poll_meshes(operator_class, context):
         return False
     if not is_mode_usable(context):
         operator_class.poll_message_set(MESSAGE)
-        return False
-    if not selected_meshes(context):
-        operator_class.poll_message_set("Select a mesh object first")
         return False
     return True
 

@@ -7,7 +7,7 @@ any two steps and nothing has changed.
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -50,14 +50,49 @@ class Job:
 
     def __init__(self, choice: Choice, objects: list[bpy.types.Object]):
         self._choice = choice
-        with settings_untouched(_meshes(objects)):
-            settle(objects, choice.start_of)
-            self._tasks, self._problems = plan(choice, objects)
+        self._problems: list[str] = []
+        self._made: list[tuple[bpy.types.Object, bpy.types.Object]] = []
+        try:
+            self._plan(self._make_seen(objects) if choice.is_of_what_is_seen else objects)
+        except BaseException:
+            self.discard()
+            raise
         self._groups = assemblies(self._tasks)
         self._joined = {t.uid for group in self._groups if len(group) > 1 for t in group}
         self._shapes: dict[int, Shape] = {}
 
-    def steps(self) -> Iterator[Step]:
+    def _make_seen(self, sources: list[bpy.types.Object]) -> list[bpy.types.Object]:
+        """Return new objects of what is seen of others; what has no faces is named."""
+        for source in sources:
+            try:
+                self._made.append((mesh_bridge.make_seen(source), source))
+            except CubicCraftError as error:
+                self._problems.append(str(error))
+        return [new for new, _ in self._made]
+
+    def _plan(self, objects: list[bpy.types.Object]) -> None:
+        meshes = [obj for obj in objects if isinstance(obj.data, bpy.types.Mesh)]
+        with settings_untouched(_meshes(meshes)):
+            settle(meshes, self._choice.start_of)
+            self._tasks, problems = plan(self._choice, objects)
+        self._problems += problems
+        sources = {new.session_uid: source for new, source in self._made}
+        for task in self._tasks:
+            task.source = sources.get(task.uid)
+            task.is_seen = task.source is not None
+
+    def discard(self) -> None:
+        """Remove what was made and not written."""
+        for new, _ in self._made:
+            try:
+                is_written = bool(new.users_scene)
+            except ReferenceError:
+                continue
+            if not is_written:
+                mesh_bridge.remove_seen(new)
+        self._made.clear()
+
+    def steps(self) -> Generator[Step]:
         """Solve all; each turn does a phase of the solver."""
         count = len(self._groups)
         for number, group in enumerate(self._groups):
@@ -70,7 +105,7 @@ class Job:
                 texts = tuple(which + text for text in step.texts)
                 yield Step(texts, (number + step.factor) / count, step.is_long)
 
-    def _solve(self, group: Sequence[Task]) -> Iterator[Step]:
+    def _solve(self, group: Sequence[Task]) -> Generator[Step]:
         preparing = f"Preparing {_name(group)}", "Preparing"
         is_large = sum(len(task.mesh.vertices) for task in group) > _LONG_SETUP
         yield Step(preparing, 0.0, is_long=is_large)
@@ -93,7 +128,9 @@ class Job:
         """Why it cannot go on, after something else than the job has had its turn; or empty."""
         for task in self._tasks:
             try:
-                if task.obj.data != task.mesh or not task.obj.users_scene:
+                if task.is_seen:
+                    task.obj.name  # noqa: B018 - raises where Blender has removed it
+                elif task.obj.data != task.mesh or not task.obj.users_scene:
                     return "an object was deleted, or has got another mesh"
                 if task.obj.mode not in _MODES:
                     return f'"{task.obj.name}" is being edited'
@@ -134,6 +171,9 @@ class Job:
     def _drop_changed(self) -> None:
         """Give up the solutions of objects that are no longer what was solved."""
         for task in self._tasks:
+            if task.is_seen:
+                task.source = _if_there(task.source)  # what it was made of may have changed since
+                continue
             if task.solution is None:
                 continue
             try:
@@ -159,6 +199,13 @@ class Job:
 
 def _meshes(objects: list[bpy.types.Object]) -> list[bpy.types.Mesh]:
     return [mesh_bridge.mesh_of(obj) for obj in objects]
+
+
+def _if_there(obj: bpy.types.Object | None) -> bpy.types.Object | None:
+    try:
+        return obj if obj is not None and obj.users_scene else None
+    except ReferenceError:
+        return None
 
 
 def _is_twin(task: Task, group: Sequence[Task]) -> bool:

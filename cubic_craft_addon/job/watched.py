@@ -97,8 +97,10 @@ class WatchedJob:
     def close(self) -> None:
         """Leave nothing behind."""
         global _current
-        self._job = None
         self._steps.close()
+        if self._job is not None:
+            self._job.discard()
+        self._job = None
         if _current is not self:
             return
         _current = None

@@ -22,10 +22,12 @@ from .preview_end import end_all_previews, end_preview, has_preview
 from .restore import forget, has_traces, restore
 from .results import write_mesh, write_shape_key
 from .run_note import read_run
+from .seen import KINDS, make_seen, remove_seen, write_seen
 from .triangulation import triangles
 from .vertex_groups import group_weights
 
 __all__ = (
+    "KINDS",
     "Preview",
     "Start",
     "check_editable",
@@ -38,15 +40,18 @@ __all__ = (
     "has_preview",
     "has_traces",
     "is_edited",
+    "make_seen",
     "mesh_of",
     "original_positions",
     "read_positions",
     "read_run",
+    "remove_seen",
     "restore",
     "set_groups_aside",
     "starts_here",
     "triangles",
     "write_mesh",
     "write_new_object",
+    "write_seen",
     "write_shape_key",
 )

@@ -37,7 +37,7 @@ def check_usable(obj: bpy.types.Object) -> None:
     if obj.mode == "SCULPT":
         # Sculpt Mode keeps its own copy of what it edits.
         raise CubicCraftError(f"'{obj.name}' is in Sculpt Mode: go back to Object Mode first")
-    if not obj.visible_get():
+    if obj.users_scene and not obj.visible_get():  # one in no scene is ours, see `make_seen`
         raise CubicCraftError(f"'{obj.name}' is hidden: show it and its collection first")
     if len(mesh.vertices) < 3:
         raise CubicCraftError(

@@ -57,9 +57,9 @@ def write_new_object(
         write_mesh(new_mesh, positions, rotations, run, start)
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
-        _link_beside(obj, new)
+        link_beside(obj, new)
         prepare(new)
-        _select_instead(obj, new)
+        select_instead(obj, new)
     except BaseException:
         bpy.data.objects.remove(new)
         bpy.data.meshes.remove(new_mesh)
@@ -67,7 +67,7 @@ def write_new_object(
     return new
 
 
-def _link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
+def link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
     """Link the new object to the collections of the old one, as far as they can be changed."""
     collections = [c for c in obj.users_collection if c.is_editable and not c.override_library]
     for collection in collections or [bpy.context.scene.collection]:
@@ -76,7 +76,7 @@ def _link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
             collection.objects.link(new)
 
 
-def _select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
+def select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
     """Select the new object and make it active instead of the old one, where the view has it.
 
     Not where the active object is in another mode than Object Mode: it would be stuck there.

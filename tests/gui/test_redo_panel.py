@@ -57,5 +57,54 @@ def test():
     yield from cubify()
     assert positions() == redone
 
+    yield from what_is_no_mesh()
+    yield from what_is_under_modifiers()
+
+
+def start_anew(add):
+    with gui.in_region():
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        add()
+        bpy.ops.ed.undo_push(message="Add")
+    yield from gui.wait_redraw("UI")
+
+
+def check_new_object(name):
+    """Wait for the new object, and take it back."""
+    yield from gui.wait_until(lambda: f"{name} Cubic" in bpy.data.objects, what="a new object")
+    assert bpy.context.view_layer.objects.active.name == f"{name} Cubic"
+    yield from gui.screenshot(f"seen_{name}.png")
+    yield from gui.undo()
+    assert f"{name} Cubic" not in bpy.data.objects
+    assert bpy.context.view_layer.objects.active.name == name
+
+
+def what_is_no_mesh():
+    """A text has one button, which makes a mesh."""
+    yield from start_anew(bpy.ops.object.text_add)
+    yield from gui.screenshot("text.png")
+    yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
+    yield from check_new_object("Text")
+
+
+def what_is_under_modifiers():
+    """A cube under a Subdivision Surface: the panel offers what is seen."""
+
+    def add():
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.ops.object.modifier_add(type="SUBSURF")
+
+    yield from start_anew(add)
+    yield from gui.screenshot("hint.png")
+    sidebar = gui.region("UI")
+    x = sidebar.x + sidebar.width // 2
+    for y in range(sidebar.y + sidebar.height - 40, sidebar.y, -8):
+        yield from gui.move_mouse((x, y))
+        if "with_modifiers=True" in gui.button_under_mouse():
+            break
+    yield from gui.click((x, y))
+    yield from check_new_object("Cube")
+
 
 gui.run(test)
