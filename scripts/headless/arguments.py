@@ -235,6 +235,12 @@ def _add_shape(parser: argparse.ArgumentParser) -> None:
         "--floor", action="store_true", help="what stands on the ground keeps its height"
     )
     group.add_argument(
+        "--with-modifiers",
+        action="store_true",
+        help="take what is seen: meshes with their modifiers applied, texts, curves, surfaces and "
+        "metaballs as meshes",
+    )
+    group.add_argument(
         "--hold-rest",
         choices=("on", "off"),
         help="whether what is far from handles that are moved stays where it is (default: on)",

@@ -47,7 +47,12 @@ def empty_blender() -> None:
     bpy.ops.wm.read_factory_settings(use_empty=True)
 
 
-def load(path: Path | None, name: str | None, verbose: bool) -> Loaded:
+def load(
+    path: Path | None,
+    name: str | None,
+    verbose: bool,
+    take: Callable[[], list[bpy.types.Object]] | None = None,
+) -> Loaded:
     """Load the mesh objects of a file, or the subdivided monkey.
 
     Parameters
@@ -55,6 +60,7 @@ def load(path: Path | None, name: str | None, verbose: bool) -> Loaded:
     path : the file, or None for the monkey
     name : only the object of this name
     verbose : show what Blender prints
+    take : what returns the mesh objects of the scene in place of those in the file
 
     Returns
     -------
@@ -73,6 +79,8 @@ def load(path: Path | None, name: str | None, verbose: bool) -> Loaded:
         _import(path, layout)
         bpy.context.view_layer.update()
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+    if take is not None:
+        found = take()
     if layout is not None:
         match_objects(layout, found)
     if path.suffix.lower() in (".glb", ".gltf"):

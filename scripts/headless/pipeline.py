@@ -16,6 +16,7 @@ from .progress import ProgressBar
 from .render import render
 from .report import write_report
 from .save_meshes import check_exporter, save_meshes
+from .seen_objects import seen_objects
 from .studio import furnish
 
 __all__ = ("run",)
@@ -46,7 +47,8 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
     bar = ProgressBar(is_silent=options.worker)
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
-        loaded = load(options.input, options.object, options.verbose)
+        take = seen_objects(extension) if options.with_modifiers else None
+        loaded = load(options.input, options.object, options.verbose, take)
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:

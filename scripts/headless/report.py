@@ -16,7 +16,10 @@ from .output_files import replacing
 
 __all__ = ("write_report",)
 
-SETTINGS = ("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest")
+SETTINGS = (
+    *("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
+    "with_modifiers",
+)
 OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg", "fast-simplification")
 
 

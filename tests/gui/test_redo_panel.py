@@ -81,7 +81,7 @@ def check_new_object(name):
 
 
 def what_is_no_mesh():
-    """A text has one button, which makes a mesh."""
+    """Click the one button that there is for a text, which makes a mesh."""
     yield from start_anew(bpy.ops.object.text_add)
     yield from gui.screenshot("text.png")
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
@@ -89,7 +89,7 @@ def what_is_no_mesh():
 
 
 def what_is_under_modifiers():
-    """A cube under a Subdivision Surface: the panel offers what is seen."""
+    """Click what the panel offers for a cube under a Subdivision Surface."""
 
     def add():
         bpy.ops.mesh.primitive_cube_add()

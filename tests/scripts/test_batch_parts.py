@@ -25,7 +25,7 @@ NOT_FORWARDED = {
 }
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --space object --solidity 0 --together parts --refine off --rotation free
-    --symmetry zx --floor --hold-rest off
+    --symmetry zx --floor --hold-rest off --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
     --object=-o --verbose"""

@@ -143,7 +143,7 @@ def test_report(results):
     what = {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
     assert entry == what | {"solved_with": []}
     by_default = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
-    off = {"symmetry": "", "floor": False, "hold_rest": "on"}
+    off = {"symmetry": "", "floor": False, "hold_rest": "on", "with_modifiers": False}
     assert report["settings"] == {"space": "world", **by_default, **off}
     assert [run["cubeness"] for run in runs] == [0.0, 0.5]
     for run in runs:

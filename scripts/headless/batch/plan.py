@@ -15,6 +15,7 @@ __all__ = ("FORWARDED", "Job", "plan")
 FORWARDED = (
     *("object", "cubeness", "orientation", "space", "pin", "handles_file", "map"),
     *("solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
+    "with_modifiers",
     *("max_iterations", "tolerance", "device"),
     *("engine", "samples", "resolution", "turn", "turntable", "no_render", "verbose"),
 )

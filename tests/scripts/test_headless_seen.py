@@ -1,0 +1,54 @@
+"""What is seen is taken with ``--with-modifiers``: modifiers applied, texts as meshes."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from headless import headless_ok, read_files
+
+MAKE = """
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_cube_add()
+bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = 3
+bpy.ops.mesh.primitive_monkey_add(location=(4, 0, 0))
+bpy.context.object.parent = bpy.data.objects["Cube"]
+bpy.ops.object.text_add(location=(0, 3, 0))
+bpy.context.object.data.extrude = 0.1
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
+FAST = ("--no-render", "--device", "numpy", "--max-iterations", 20, "--together", "parts")
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory):
+    path = tmp_path_factory.mktemp("seen") / "seen.blend"
+    subprocess.run([sys.executable, "-c", MAKE, str(path)], check=True, capture_output=True)
+    return path
+
+
+def run(source, folder, *options):
+    target, report = folder / "out.blend", folder / "out.json"
+    headless_ok(source, *FAST, *options, "--save-mesh", target, "--report", report, cwd=folder)
+    (found,) = read_files(target, folder=folder)
+    return json.loads(report.read_text(encoding="utf-8")), found
+
+
+def test_what_is_seen_is_taken_in_place_of_the_meshes(source, tmp_path):
+    report, found = run(source, tmp_path, "--with-modifiers")
+    assert report["settings"]["with_modifiers"] is True
+    counts = {entry["name"]: entry["vertices"] for entry in report["objects"]}
+    assert set(counts) == {"Cube", "Suzanne", "Text"}
+    assert counts["Cube"] == 386 and counts["Suzanne"] == 507 and counts["Text"] > 20
+    ball = np.asarray(found["Cube"][0])
+    assert len(ball) == 386
+    sizes = np.abs(ball).max(axis=1)  # of a ball from 0.58 to 1, of a cube all alike
+    assert sizes.min() > 0.8 * sizes.max(), "the ball has not become cubic"
+
+
+def test_without_it_the_meshes_below_are_taken(source, tmp_path):
+    report, _ = run(source, tmp_path)
+    counts = {entry["name"]: entry["vertices"] for entry in report["objects"]}
+    assert counts == {"Cube": 8, "Suzanne": 507}
