@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is seen and what becomes cubic: where they differ, the panel says so and offers both."""
 
+from typing import Any
+
 import bpy
 
 from . import job, live, mesh_bridge
@@ -33,7 +35,7 @@ def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     _draw_button(box, "Cubify What You See")
 
 
-def draw_other(layout: bpy.types.UILayout, obj: bpy.types.Object | None) -> None:
+def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
     """Draw the panel of an object that is no mesh: what can be seen becomes a new one."""
     if obj is None or obj.type not in mesh_bridge.KINDS:
         layout.label(text="Select a mesh to make cubic", icon="INFO")
