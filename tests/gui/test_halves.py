@@ -97,7 +97,7 @@ def held():
     goes = np.linalg.norm((points() - V)[jaw], axis=1).max()
     yield from gui.screenshot("held_2_goes.png")
     gui.log("the jaw moves by", stays, "and then by", goes)
-    assert stays < 0.1 and goes > 4 * stays
+    assert stays < 0.3 and goes > 2 * stays
 
 
 def test():
