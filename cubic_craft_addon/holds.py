@@ -29,7 +29,8 @@ def holds_of(
     """Return all groups of an assembly.
 
     What is far from moved handles is a group in each component of the solver that has such a
-    handle; the others float in their place anyway.
+    handle, and no other that stays: that anchors it already. Components without any float in their
+    place.
     """
     total, begin, found = len(rest.input_positions), 0, []
     component = np.full(total, -1)
@@ -64,8 +65,9 @@ def _groups(member: Member, placement: Placement, component: np.ndarray) -> Iter
         weights = np.where(
             member.of_whole(member.is_held), 0.0, member.of_whole(member.rest_weights)
         )
-        moved = np.array([*(handle.is_moved for handle in handles), False])[handle_of]
-        for number in np.unique(component[moved & (component >= 0)]):
+        is_moved = np.array([*(handle.is_moved for handle in handles), False])[handle_of]
+        stays = component[(handle_of >= 0) & ~is_moved]
+        for number in np.setdiff1d(component[is_moved], [-1, *stays]):
             far = np.where(component == number, weights, 0.0)
             if far.any():
                 yield far, np.eye(4)

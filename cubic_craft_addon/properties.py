@@ -220,8 +220,8 @@ class RunProperties:
     )
     hold_rest: BoolProperty(
         name="Hold the Rest",
-        description="What is far from handles that are moved stays where it is, as a whole, and"
-        " still becomes cubic. Off: what nothing pins goes along",
+        description="Where no handle is pinned, what is far from handles that are moved stays where"
+        " it is, as a whole, and still becomes cubic. Off: it goes along",
         default=Settings.hold_rest,
         options=_OPTIONS,
     )

@@ -5,6 +5,8 @@ So its other half is there when links are looked for, and the seam lies in the m
 not at the border of one.
 """
 
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -91,7 +91,7 @@ def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
     select(other, obj)
     before = [snapshot_object(o) for o in (obj, other)]
     pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.cubify")
-    original = pipeline.solve
+    original = pipeline.start
     calls = []
 
     def fail_second(*arguments):
@@ -100,7 +100,7 @@ def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
             raise MemoryError("no memory left")
         return original(*arguments)
 
-    monkeypatch.setattr(pipeline, "solve", fail_second)
+    monkeypatch.setattr(pipeline, "start", fail_second)
     with pytest.raises(RuntimeError, match="not enough memory"):
         cubify(together="PARTS")  # one after the other
     for o, taken in zip((obj, other), before, strict=True):
