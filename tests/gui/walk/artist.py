@@ -123,9 +123,24 @@ def transform(rng):
     yield
 
 
-@action(1, reshapes=True)
+@action(2, reshapes=True)
 def apply_transform(rng):
-    return call("object.transform_apply", location=False, scale=True, rotation=rng.random() < 0.5)
+    location, rotation = rng.random() < 0.3, rng.random() < 0.5
+    return call("object.transform_apply", location=location, scale=True, rotation=rotation)
+    yield
+
+
+@action(1, reshapes=True)
+def set_origin(rng):
+    kinds = ["GEOMETRY_ORIGIN", "ORIGIN_GEOMETRY", "ORIGIN_CURSOR", "ORIGIN_CENTER_OF_MASS"]
+    return call("object.origin_set", type=rng.choice([*kinds, "ORIGIN_CENTER_OF_VOLUME"]))
+    yield
+
+
+@action(1, reshapes=True)
+def mirror(rng):
+    axis = [rng.random() < 0.5 for _ in range(3)]
+    return call("transform.mirror", constraint_axis=axis)
     yield
 
 

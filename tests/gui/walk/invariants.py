@@ -34,6 +34,8 @@ _IN_LIVE = (
     ("depsgraph_update_post", "_on_update"),
 )
 _IN_CUBIFY = (("undo_pre", "_on_undo"), ("redo_pre", "_on_undo"), ("load_pre", "_on_load"))
+_MAKE_SEEN = ("cubify", "rest")
+_REWRITE = ("cubify", "restore", "start_or_confirm_live", "rest")
 _MENUS_OF_BRUSHES = re.compile(r"/bl_ui/(space_view3d|properties_paint_common)\.py$")
 
 
@@ -84,6 +86,11 @@ class Invariants:
         """The meshes as of the last check, by `session_uid`."""
         return self._before
 
+    def accept(self, uid):
+        """Take the present shape of a mesh for one that it may have."""
+        state = meshes.read_all()[uid]
+        self._shapes |= {state.original, state.shape}
+
     def _check_mesh(self, state, before, action):
         what = f"mesh {state.name!r} after {action.name}"
         assert state.is_finite, f"{what}: positions that are not finite"
@@ -91,6 +98,12 @@ class Invariants:
         if action.reshapes:
             self._shapes.add(state.original)
             self._faces.add(state.faces)
+            return
+        if before is None and state.faces not in self._faces and action.name in _MAKE_SEEN:
+            self._shapes.add(state.original)  # of what modifiers show, to a new object
+            self._faces.add(state.faces)
+        if before is not None and before.is_edited and action.name in _REWRITE:
+            self._shapes.add(state.original)  # the original has gone along with the edit
             return
         assert state.faces in self._faces, f"{what}: other edges, faces or UVs"
         is_applied = before and state.original == before.shape and not state.has_traces

@@ -25,6 +25,7 @@ class MeshState:
     is_finite: bool
     has_preview: bool
     has_traces: bool
+    is_edited: bool  # since a result was written to it; another original may then belong to it
 
 
 def read_all():
@@ -44,7 +45,19 @@ def _read(mesh):
         is_finite=bool(np.isfinite(data.shape).all()) and all(map(_is_finite, data.keys())),
         has_preview="live" in note,
         has_traces=bool(note),
+        is_edited=_is_edited(data, note),
     )
+
+
+def _is_edited(data, note):
+    """Tell whether the shape, of which a preview may be shown, is none that was written to it."""
+    shape = data.shape
+    if "live" in note:
+        before = data.attribute(LIVE)
+        shape = shape if before is None else before
+    if "mesh" in note:
+        return note["mesh"]["fingerprint"] != _hash(shape)
+    return "key" in note and note["key"]["base"] != _hash_values(shape)
 
 
 def _original(data, note):
