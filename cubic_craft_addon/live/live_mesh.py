@@ -3,6 +3,8 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
+from collections.abc import Iterable, Mapping
+
 import bpy
 
 from ... import solver
@@ -104,6 +106,19 @@ class LiveMesh:
         self._preview.show(mesh, *found)
         return True
 
+    def take_along(self, mesh: bpy.types.Mesh) -> bool:
+        """Transform what lies under the preview as the artist has transformed what is shown.
+
+        Return whether there was anything to take along; then `Session` begins anew with the mesh.
+        """
+        return self._preview is not None and self._preview.take_along(mesh)
+
     def release(self) -> None:
         """Let go of all arrays."""
         self._preview = self.member = self.run = None
+
+
+def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, bpy.types.Object]) -> bool:
+    """Do so for all meshes whose objects, by ``session_uid``, are there; tell if any was moved."""
+    there = [mesh for mesh in meshes if mesh.object_uid in objects]
+    return any([mesh.take_along(objects[mesh.object_uid].data) for mesh in there])

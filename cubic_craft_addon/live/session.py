@@ -20,7 +20,7 @@ from ..redraw import redraw_panels
 from ..tasks import Task, plan, write_all
 from . import handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
-from .live_mesh import LiveMesh
+from .live_mesh import LiveMesh, take_along
 from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
 from .undo_steps import UndoSteps
@@ -146,8 +146,6 @@ class Session:
         own = [mesh for mesh in candidates if mesh.object_uid == obj.session_uid]
         return next(iter(own + candidates), None)
 
-    # -- what happens ------------------------------------------------------------------------------
-
     def on(self, event: Event) -> None:
         """Take in an event and do what the state machine says."""
         for action in self._machine.on(event):
@@ -203,8 +201,6 @@ class Session:
             properties.set_live_values(earlier)
         return True
 
-    # -- a tick ------------------------------------------------------------------------------------
-
     def tick(self, context: bpy.types.Context) -> None:
         """Look whether anything has changed, compute for a slice of time, and show it."""
         try:
@@ -227,6 +223,9 @@ class Session:
         elif any(obj.mode not in _MODES for obj in objects.values()):
             self.on(Event.MODE_LEFT)
         if self.is_ended:
+            return
+        if take_along(self.meshes, objects):
+            self.on(Event.UNDONE)  # as if somebody else had brought other shapes
             return
         begin = time.perf_counter()
         if begin >= self._next_check:
@@ -336,6 +335,7 @@ class Session:
             self._timer = None
 
     def _put_back(self):
+        take_along(self.meshes, self._objects(bpy.context))
         # Of all meshes: a preview may have been copied, or left on a mesh that was taken away.
         mesh_bridge.end_all_previews()
 

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ...solver.errors import CubicCraftError
+from .affine import fit
 from .arrays import loose_vertices
 from .attributes import LIVE, check_names
 from .checks import check_writable
@@ -18,7 +19,7 @@ from .cubic_key import find_cubic_key
 from .note import check_note, read_note
 from .original import Start, original_shapes
 from .preview_end import end_preview
-from .preview_store import marked, store_live, write_live_part
+from .preview_store import marked, move_live, store_live, write_live_part
 from .rotations import matrices_from_quaternions
 from .settled import carry_finite, settled, settled_rotations
 from .shapes import Shapes, read_shapes, write_shapes
@@ -54,7 +55,9 @@ class Preview:
         self._original = original_shapes(mesh, start)
         self._loose = loose_vertices(mesh)
         self._keys = _key_names(mesh)
-        store_live(mesh, read_shapes(mesh))
+        present = read_shapes(mesh)
+        self._shown = present.base
+        store_live(mesh, present)
 
     @property
     def needs_rotations(self) -> bool:
@@ -90,6 +93,36 @@ class Preview:
         write_live_part(mesh, marked(part, None))
         write_shapes(mesh, shown)
         write_live_part(mesh, finished)
+        self._shown = shown.base
+
+    def take_along(self, mesh: bpy.types.Mesh) -> bool:
+        """Transform what was there before as the artist has transformed what is shown.
+
+        Where the origin was set, or a transform applied, all vertices have been moved alike.
+        `end_preview` would take the shape that is shown for one that was made by hand.
+
+        Returns
+        -------
+        Whether there was anything to take along; the preview is to be ended then, and begun anew.
+        """
+        part = read_note(mesh).get("live")
+        if part is None or LIVE not in mesh.attributes or mesh.is_editmode:
+            return False
+        if _key_names(mesh) != self._keys:
+            return False
+        try:
+            present = read_shapes(mesh)
+        except CubicCraftError:
+            return False
+        if len(present.base) != len(self._shown) or (present.base == self._shown).all():
+            return False
+        way = fit(self._shown, present.base)
+        if way is None:
+            return False
+        move_live(mesh, way.moved)
+        write_live_part(mesh, marked(part, present))
+        self._shown = present.base
+        return True
 
     def _with_keys(
         self, mesh: bpy.types.Mesh, base: np.ndarray, rotations: np.ndarray | None

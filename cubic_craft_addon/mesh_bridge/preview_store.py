@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .attributes import LIVE, add_attribute, our_attributes, remove_attribute
+from .attributes import LIVE, add_attribute, our_attributes, read_attribute, remove_attribute
 from .fingerprint import fingerprint_of_values
 from .note import read_note, write_note
 from .shapes import Shapes, carry
@@ -38,6 +38,15 @@ def store_live(mesh: bpy.types.Mesh, present: Shapes) -> None:
     except BaseException:
         remove_live_attributes(mesh)
         raise
+
+
+def move_live(mesh: bpy.types.Mesh, moved: Callable[[np.ndarray], np.ndarray]) -> None:
+    """Move all that is stored, by a function from points (n,3) to points."""
+    for name in our_attributes(mesh, (LIVE,)):
+        values = read_attribute(mesh, name, 3)
+        if values is not None:
+            remove_attribute(mesh, name)
+            add_attribute(mesh, name, moved(values))
 
 
 def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:

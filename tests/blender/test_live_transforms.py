@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mesh is transformed while Live shows something on it: the original goes along."""
+
+import bpy
+import numpy as np
+import pytest
+from live_steps import bits, check_gone, confirm, tick_to_rest
+from mathutils import Euler, Matrix
+from rich_mesh import add_rich_monkey, points_of, position_of
+from scene import add_monkey, cubify, select
+
+
+def set_origin(obj):
+    bpy.context.scene.cursor.location = (0.5, 0.3, 0.1)
+    assert bpy.ops.object.origin_set(type="ORIGIN_CURSOR") == {"FINISHED"}
+    return Matrix.Translation((-0.5, -0.3, -0.1))
+
+
+def apply_transform(obj):
+    matrix = obj.matrix_basis.copy()
+    assert bpy.ops.object.transform_apply(location=False) == {"FINISHED"}
+    return matrix
+
+
+WAYS = pytest.mark.parametrize("transform", [set_origin, apply_transform])
+
+
+def moved(V, matrix):
+    matrix = np.array(matrix)
+    return V @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+@WAYS
+@pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
+@pytest.mark.parametrize("was_cubic", [False, True])
+def test_the_original_goes_along(begin, live, transform, ending, was_cubic):
+    obj = add_monkey()
+    before = position_of(obj.data)
+    if transform is apply_transform:
+        obj.matrix_basis = Matrix.LocRotScale(None, Euler((0.3, 0.2, 0.1)), (1.0, 1.5, 0.5))
+        bpy.context.view_layer.update()
+    if was_cubic:
+        cubify()
+    session = begin(obj, cubeness=0.8)
+    tick_to_rest(session)
+    way = transform(obj)
+    if ending != "cancel at once":
+        bpy.context.view_layer.update()
+        session.wake()
+        tick_to_rest(session)
+    if ending == "confirm":
+        confirm(live, session)
+    else:
+        session.on(live.Event.CANCEL)
+    check_gone(live)
+    if ending == "confirm" or was_cubic:
+        assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert position_of(obj.data) == pytest.approx(moved(before, way), abs=2e-6)
+
+
+@WAYS
+def test_confirming_gives_what_cubify_gives_of_the_transformed_mesh(begin, live, transform):
+    obj, other = add_monkey(), add_monkey("Other")
+    select(other)
+    transform(other)
+    cubify(max_iterations=1000)
+    select(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    transform(obj)
+    bpy.context.view_layer.update()
+    session.wake()
+    confirm(live, session)
+    assert bits(obj) == bits(other)
+
+
+def test_shape_keys_go_along(begin, live):
+    obj = add_rich_monkey(keys=True)
+    smile = points_of(obj.data, "Smile")
+    select(obj)
+    session = begin(obj)
+    tick_to_rest(session)
+    set_origin(obj)
+    bpy.context.view_layer.update()
+    session.wake()
+    tick_to_rest(session)
+    session.on(live.Event.CANCEL)
+    offset = points_of(obj.data, "Smile") - smile
+    assert np.linalg.norm(offset[0]) > 0.1
+    assert offset == pytest.approx(np.broadcast_to(offset[0], offset.shape), abs=1e-5)
