@@ -109,7 +109,7 @@ class LiveMesh:
     def take_along(self, mesh: bpy.types.Mesh) -> bool:
         """Transform what lies under the preview as the artist has transformed what is shown.
 
-        Return whether there was anything to take along; then `Session` begins anew with the mesh.
+        Return whether the preview is to be begun anew, see `Preview.take_along`.
         """
         return self._preview is not None and self._preview.take_along(mesh)
 

@@ -103,18 +103,18 @@ class Preview:
 
         Returns
         -------
-        Whether there was anything to take along; the preview is to be ended then, and begun anew.
+        Whether the preview is to be ended and begun anew; so also with other shape keys.
         """
         part = read_note(mesh).get("live")
         if part is None or LIVE not in mesh.attributes or mesh.is_editmode:
             return False
-        if _key_names(mesh) != self._keys:
-            return False
+        if _key_names(mesh) != self._keys or len(mesh.vertices) != len(self._loose):
+            return True  # what is there before is known from the mesh itself
         try:
             present = read_shapes(mesh)
         except CubicCraftError:
             return False
-        if len(present.base) != len(self._shown) or (present.base == self._shown).all():
+        if (present.base == self._shown).all():
             return False
         way = fit(self._shown, present.base)
         if way is None:

@@ -74,6 +74,22 @@ def test_confirming_gives_what_cubify_gives_of_the_transformed_mesh(begin, live,
     assert bits(obj) == bits(other)
 
 
+def test_a_shape_key_that_is_added_is_taken_in(begin, live):
+    obj = add_monkey()
+    before = position_of(obj.data)
+    session = begin(obj)
+    tick_to_rest(session)
+    for _ in range(2):
+        bpy.ops.object.shape_key_add(from_mix=False)
+        bpy.context.view_layer.update()
+        session.wake()
+        tick_to_rest(session)
+    confirm(live, session)
+    assert len(obj.data.shape_keys.key_blocks) == 2
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert (position_of(obj.data) == before).all()
+
+
 def test_shape_keys_go_along(begin, live):
     obj = add_rich_monkey(keys=True)
     smile = points_of(obj.data, "Smile")
