@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import bpy
 
@@ -118,7 +119,7 @@ class LiveMesh:
         self._preview = self.member = self.run = None
 
 
-def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, bpy.types.Object]) -> bool:
+def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, Any]) -> bool:
     """Do so for all meshes whose objects, by ``session_uid``, are there; tell if any was moved."""
     there = [mesh for mesh in meshes if mesh.object_uid in objects]
     return any([mesh.take_along(objects[mesh.object_uid].data) for mesh in there])
