@@ -32,6 +32,11 @@ def positions(name=NAME):
     return values.tobytes()
 
 
+def note(name=NAME):
+    """Return what is noted with the mesh about its result, the seconds of the run among it."""
+    return bpy.data.objects[name].data.get("cubic_craft_note")
+
+
 def add_monkey(levels=0):
     """Leave nothing in the scene but a monkey, selected and active, as one undo step."""
     with gui.in_region():

@@ -75,8 +75,9 @@ def test():
     yield from gui.wait_until(scene.is_over, what="the end")
     scene.check_clean()
     confirmed = scene.positions()
+    note = scene.note()
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
-    yield from gui.wait_until(lambda: scene.settings().status, what="Cubify")
+    yield from gui.wait_until(lambda: scene.note() != note, what="Cubify")
     yield from gui.wait_redraw()
     assert scene.positions() == confirmed, "Live leaves other bits than Cubify"
     yield from gui.undo()
