@@ -143,6 +143,8 @@ def sculpted(original):
     with gui.in_region():
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.ed.undo_push(message="Object Mode")
+    # A button that the mouse is on stays grey when it is drawn anew: first draw it, then click.
+    yield from gui.wait_redraw("UI")
     assert scene.positions() == original
     scene.check_clean()
 
