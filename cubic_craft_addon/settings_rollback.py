@@ -9,6 +9,8 @@ import bpy
 
 from .object_properties import PROPERTY, has_properties, object_properties
 
+_DERIVED = ("preset",)  # what follows from the others: setting it would set them
+
 
 @contextmanager
 def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
@@ -62,7 +64,7 @@ def _read(group: Any) -> dict[str, Any]:
     """Return the properties of a group, save collections, as what can be assigned again."""
     taken = {}
     for prop in group.bl_rna.properties:
-        if prop.type != "COLLECTION" and not prop.is_readonly:
+        if prop.type != "COLLECTION" and not prop.is_readonly and prop.identifier not in _DERIVED:
             value = getattr(group, prop.identifier)
             taken[prop.identifier] = _plain(value), group.is_property_set(prop.identifier)
     return taken
