@@ -143,7 +143,8 @@ def sculpted(original):
     with gui.in_region():
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.ed.undo_push(message="Object Mode")
-    # A button that the mouse is on stays grey when it is drawn anew: first draw it, then click.
+    # In Blender a button that the mouse is on stays grey until the mouse has left it.
+    yield from gui.move_mouse(gui.viewport_point())
     yield from gui.wait_redraw("UI")
     assert scene.positions() == original
     scene.check_clean()
