@@ -5,6 +5,7 @@ All objects are solved before the first is written, so that whatever goes wrong 
 has changed. From the interface a long run leaves Blender usable and can be cancelled; scripts wait.
 """
 
+import contextlib
 import math
 
 import bpy
@@ -12,6 +13,7 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
+from ..cubic_craft_addon.failures import UNFORESEEN
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
@@ -83,7 +85,9 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
                 manager.progress_update(round(_PROGRESS_STEPS * step.factor))
             return report_all(self, *work.write(is_alone=True))
         finally:
-            work.discard()
+            # What has been written needs its undo step, whatever fails in tidying up.
+            with contextlib.suppress(*UNFORESEEN):
+                work.discard()
             manager.progress_end()
 
     def invoke(self, context, event):

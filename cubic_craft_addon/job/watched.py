@@ -6,12 +6,14 @@ Before Blender takes any of its data away, by undo or by another file, the job i
 
 from __future__ import annotations
 
+import contextlib
 import time
 
 import bpy
 from bpy.app.handlers import persistent
 
 from .. import status_text
+from ..failures import UNFORESEEN
 from ..redraw import redraw_panels
 from .job import Job, Step
 
@@ -99,7 +101,8 @@ class WatchedJob:
         global _current
         self._steps.close()
         if self._job is not None:
-            self._job.discard()
+            with contextlib.suppress(*UNFORESEEN):  # what has been written needs its undo step
+                self._job.discard()
         self._job = None
         if _current is not self:
             return

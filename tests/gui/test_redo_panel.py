@@ -72,8 +72,9 @@ def start_anew(add):
 
 def check_new_object(name):
     """Wait for the new object, and take it back."""
-    yield from gui.wait_until(lambda: f"{name} Cubic" in bpy.data.objects, what="a new object")
-    assert bpy.context.view_layer.objects.active.name == f"{name} Cubic"
+    yield from gui.wait_until(
+        lambda: bpy.context.view_layer.objects.active.name == f"{name} Cubic", what="a new object"
+    )
     yield from gui.screenshot(f"seen_{name}.png")
     yield from gui.undo()
     assert f"{name} Cubic" not in bpy.data.objects
