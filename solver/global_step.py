@@ -33,6 +33,8 @@ class GlobalStep:
     ----------
     is_factorized : bool
         Whether `positions` solves by the factorisation, not by multigrid.
+    is_anchored : (component_count,) bool array
+        Components that do not float: with a pinned vertex, or see `anchored`.
     solve : callable
         Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X; what
         is held stays as it is in X.
@@ -54,7 +56,7 @@ class GlobalStep:
             self.solve = _solver(self._laplacian, is_held)
         else:
             self.solve = self.multigrid.solve
-        self._is_anchored = has_pin
+        self.is_anchored = has_pin
         self._floating = self._centring_weights()
 
     @property
@@ -72,17 +74,17 @@ class GlobalStep:
         other = copy(self)
         for name in ("no_turning", "no_turning_by_cycles"):
             other.__dict__.pop(name, None)
-        other._is_anchored = self._is_anchored.copy()
-        other._is_anchored[components] = True
+        other.is_anchored = self.is_anchored.copy()
+        other.is_anchored[components] = True
         other._floating = other._centring_weights()
         return other
 
     def _centring_weights(self):
         """Return the share of each vertex (n,) in its floating component's area, else 0."""
-        if self._is_anchored.all():
+        if self.is_anchored.all():
             return None
         rest = self._rest
-        weight = np.where(self._is_anchored[rest.component], 0.0, rest.areas + 1e-300)
+        weight = np.where(self.is_anchored[rest.component], 0.0, rest.areas + 1e-300)
         total = np.bincount(rest.component, weight, rest.component_count)
         return weight / np.where(total > 0.0, total, 1.0)[rest.component]
 
@@ -91,12 +93,12 @@ class GlobalStep:
         """The NoTurning, made when first asked for."""
         if not self.is_factorized:
             return self.no_turning_by_cycles
-        return NoTurning(self._rest, ~self._is_anchored, self.solve)
+        return NoTurning(self._rest, ~self.is_anchored, self.solve)
 
     @cached_property
     def no_turning_by_cycles(self):
         """The same by multigrid, for a GPU or where nothing is factorised."""
-        return NoTurning(self._rest, ~self._is_anchored, self.multigrid.solve, CYCLES)
+        return NoTurning(self._rest, ~self.is_anchored, self.multigrid.solve, CYCLES)
 
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).

@@ -11,25 +11,12 @@ that obey them are the unconstrained ones plus P a' + b x (R T) for each group; 
 components without a pinned vertex a translation as well, come from one small linear system.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from .no_turning import CYCLES
+from .no_turning import CYCLES, torque
 from .rotation_fit import svd_rotations
 
 _SMALLEST = 1e-9  # relative; a group on a line may turn about it
-
-
-@dataclass(frozen=True)
-class Hold:
-    """What one group is asked for."""
-
-    weights: np.ndarray
-    """(N,) of the vertices of the input, none negative"""
-    matrix: np.ndarray
-    """(4,4) affine map of the positions at rest, in the user's unit; only its rotation counts, and
-    where it takes the centroid"""
 
 
 class HoldFields:
@@ -48,13 +35,16 @@ class HoldFields:
         As given.
     components : (c,) int array
         Components in which there is a group.
+    fields : list of tuple
+        Of each group its weights w (n,), its centroid, the offsets x (n,3) from that, and P and T,
+        (n,4).
     """
 
     def __init__(self, setup, weights):
         self.setup, self.weights, rest = setup, weights, setup.rest
         is_free = np.ones(len(rest.V))
         is_free[setup.pinned] = 0.0
-        self._fields = []
+        self.fields = []
         for given in weights:
             w = rest.input_map.spread(np.asarray(given, dtype=np.float64)) * rest.standing * is_free
             if w.sum() > 0.0:
@@ -62,9 +52,9 @@ class HoldFields:
             centroid = w @ rest.V
             x = rest.V - centroid
             stiff = np.column_stack([w, w[:, None] * x])
-            self._fields.append((w, centroid, x, self._solve(stiff)))
+            self.fields.append((w, centroid, x, self._solve(stiff)))
         self.components = np.unique(
-            np.concatenate([rest.component[w > 0.0] for w, *_ in self._fields] or [[]]).astype(int)
+            np.concatenate([rest.component[w > 0.0] for w, *_ in self.fields] or [[]]).astype(int)
         )
 
     def _solve(self, K):
@@ -75,7 +65,7 @@ class HoldFields:
         for part in (K[:, :3], np.column_stack([K[:, 3:], np.zeros((len(K), 2))])):
             X = np.zeros_like(part)
             for _ in range(solves):
-                X = solve(np.ascontiguousarray(part).copy(), X)
+                X = solve(part.copy(), X)
             columns.append(X)
         return np.column_stack([columns[0], columns[1][:, :1]])
 
@@ -93,7 +83,7 @@ class Holds:
     def __init__(self, fields, matrices):
         rest = fields.setup.rest
         self._places, self._pulls, self._moves, goals = [], [], [], []
-        for (w, centroid, x, P), matrix in zip(fields._fields, matrices, strict=True):
+        for (w, centroid, x, P), matrix in zip(fields.fields, matrices, strict=True):
             R = svd_rotations(np.asarray(matrix)[:3, :3].T[None])[0]
             start = rest.box.from_unit(centroid[None])
             goal = rest.box.to_unit(start @ matrix[:3, :3].T + matrix[:3, 3])[0]
@@ -102,20 +92,15 @@ class Holds:
             self._moves.append((P[:, 0], P[:, 1:] @ R.T))
             goals += [goal, np.zeros(3)]
         self._goals = np.concatenate(goals)
-        self._free = self._free_components(fields)
+        self._free = fields.components[~fields.setup.has_pin[fields.components]]
         self._component = rest.component
         self._inverse = np.linalg.pinv(self._system(), rcond=_SMALLEST)
-
-    @staticmethod
-    def _free_components(fields):
-        return fields.components[~fields.setup.has_pin[fields.components]]
 
     def _measure(self, U):
         """Return the places and torques of the groups, (6g,)."""
         found = []
         for w, pull in zip(self._places, self._pulls, strict=True):
-            products = pull.T @ U
-            found += [w @ U, _antisymmetric(products)]
+            found += [w @ U, torque(pull, U)]
         return np.concatenate(found)
 
     def _system(self):
@@ -156,8 +141,3 @@ class Holds:
 def _cross(b):
     """Return the matrix C with C v = b x v."""
     return np.array([[0, -b[2], b[1]], [b[2], 0, -b[0]], [-b[1], b[0], 0]])
-
-
-def _antisymmetric(S):
-    """Return sum_i y_i x u_i from S = sum_i y_i u_i'."""
-    return np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])

@@ -50,9 +50,6 @@ class Setup:
     mirrors : tuple of Mirror
         Of the solved vertices, in the unit box.
     hold_fields : HoldFields or None
-    is_anchored : (component_count,) bool array
-        Components with a pinned vertex or a group that keeps its place: the others float, and stay
-        where they are as a whole.
     """
 
     def __init__(self, rest, pinned=(), still=None, mirrors=()):
@@ -77,8 +74,15 @@ class Setup:
         self.has_pin[rest.component[self.pinned]] = True
         self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
-        self.is_anchored = self.has_pin
         self.hold_fields: HoldFields | None = None
+
+    @property
+    def is_anchored(self):
+        """(component_count,) bool array, components with a pinned vertex or a group that is held.
+
+        The others float, and stay where they are as a whole.
+        """
+        return self.global_step.is_anchored
 
     def with_holds(self, weights) -> "Setup":
         """Return the same with groups of vertices that keep their place, see `holds.py`.
@@ -93,8 +97,6 @@ class Setup:
         other = copy(self)
         other.__dict__.pop("coarse", None)
         other.hold_fields = HoldFields(self, weights)
-        other.is_anchored = self.has_pin.copy()
-        other.is_anchored[other.hold_fields.components] = True
         other.global_step = self.global_step.anchored(other.hold_fields.components)
         return other
 
