@@ -9,14 +9,13 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import Protocol, TypeVar
 
 import numpy as np
 
 from .. import solver
 from .holds import Hold, holds_of
-from .member import Member
+from .member import Member, parts_of
 from .object_frame import Placement
 from .settings import Settings
 
@@ -75,16 +74,8 @@ class Prepared:
         return replace(self, members=members)
 
     def parts(self) -> Iterator[tuple[Member, Placement, slice]]:
-        """Give each member with its placement and its part of the arrays.
-
-        That begins with the vertices of the member; those that are only added follow.
-        """
-        counts = [len(member.whole.source) for member in self.members]
-        ends = accumulate(counts)
-        for member, place, count, end in zip(
-            self.members, self.placements, counts, ends, strict=True
-        ):
-            yield member, place, slice(end - count, end)
+        """Give each member with its placement and its part of the arrays, see `parts_of`."""
+        return parts_of(self.members, self.placements)
 
 
 class Joinable(Protocol):
@@ -179,12 +170,11 @@ def _rest(members, placements, earlier):
             return rest
         if replace(before, solidity=proxy.solidity) == proxy:
             return rest.with_solidity(proxy.solidity)
-    positions, triangles, count = [], [], 0
-    for member, placement in zip(members, placements, strict=True):
+    positions, triangles = [], []
+    for member, placement, part in parts_of(members, placements):
         F = member.whole.triangles
         positions.append(placement.place(member.whole.images(member.shape.original)))
-        triangles.append(count + (F[:, ::-1] if placement.is_mirrored else F))
-        count += len(member.whole.source)
+        triangles.append(part.start + (F[:, ::-1] if placement.is_mirrored else F))
     return solver.rest_mesh(np.concatenate(positions), np.concatenate(triangles), proxy)
 
 
@@ -225,15 +215,13 @@ def _is_held(members):
 
 def _mirrors(members, placements):
     """Return the Mirrors of all members where they are solved."""
-    total, count, found = sum(len(member.whole.source) for member in members), 0, []
-    for member, placement in zip(members, placements, strict=True):
+    total, found = sum(len(member.whole.source) for member in members), []
+    for member, placement, part in parts_of(members, placements):
         whole = member.whole
-        end = count + len(whole.source)
         for reflection, partner in zip(whole.mirrored, whole.partners, strict=True):
             everywhere = np.full(total, solver.NO_PARTNER)
-            everywhere[count:end] = np.where(partner >= 0, partner + count, solver.NO_PARTNER)
+            everywhere[part] = np.where(partner >= 0, partner + part.start, solver.NO_PARTNER)
             found.append(placement.mirror(reflection.mirror(everywhere)))
-        count = end
     return found
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import solver
-from .member import Member
+from .member import Member, parts_of
 from .object_frame import Placement
 
 
@@ -32,17 +32,15 @@ def holds_of(
     handle, and no other that stays: that anchors it already. Components without any float in their
     place.
     """
-    total, begin, found = len(rest.input_positions), 0, []
+    total, found = len(rest.input_positions), []
     component = np.full(total, -1)
     used, place = rest.place
     component[used] = rest.component[place]
-    for member, placement in zip(members, placements, strict=True):
-        end = begin + len(member.whole.source)
-        for own, matrix in _groups(member, placement, component[begin:end]):
+    for member, placement, part in parts_of(members, placements):
+        for own, matrix in _groups(member, placement, component[part]):
             weights = np.zeros(total)
-            weights[begin:end] = own
+            weights[part] = own
             found.append(Hold(weights, matrix))
-        begin = end
     return found
 
 

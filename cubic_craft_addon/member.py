@@ -7,6 +7,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import time
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -107,6 +108,19 @@ class Member:
         if any(handle.is_moved for handle in self.settings.handles):
             return np.zeros(self.vertices, dtype=bool)
         return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
+
+
+def parts_of(
+    members: Sequence[Member], placements: Sequence[Placement]
+) -> Iterator[tuple[Member, Placement, slice]]:
+    """Give each member of an assembly with its placement and its part of the arrays.
+
+    That begins with the vertices of the member; those that are only added follow.
+    """
+    end = 0
+    for member, placement in zip(members, placements, strict=True):
+        begin, end = end, end + len(member.whole.source)
+        yield member, placement, slice(begin, end)
 
 
 def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shape:

@@ -16,8 +16,6 @@ import numpy as np
 
 from .. import solver
 
-MATCHING = 1e-3
-"""of the largest extent: how far a vertex may be from the image of its partner"""
 _LEAST_TOLERANCE = 1e-6  # of the largest extent: nearer to the plane than this is in it
 
 
@@ -213,7 +211,7 @@ class Whole:
     def own_partners(self):
         """For each axis that was asked for, the partner (n,) of each vertex of the mesh."""
         points = self._original.astype(np.float64)
-        tolerance = MATCHING * self._size
+        tolerance = solver.MATCHING * self._size
         found = [
             one.mirror(solver.partners(points, one.image(points), tolerance)) for one in self._asked
         ]

@@ -23,10 +23,11 @@ if TYPE_CHECKING:
     from .setup import Setup
     from .stop_rule import StopRule
     from .stylization import Energy, Stylization
-    from .symmetry import NO_PARTNER, Mirror, commuting, partners
+    from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
 __all__ = [
     "DEVICES",
+    "MATCHING",
     "NO_PARTNER",
     "PAPER",
     "CubicCraftError",
@@ -59,6 +60,7 @@ _MODULES = {
     "DEVICES": "backends",
     "Energy": "stylization",
     "Mirror": "symmetry",
+    "MATCHING": "symmetry",
     "NO_PARTNER": "symmetry",
     "PAPER": "proxy.options",
     "Progress": "progress",

@@ -66,7 +66,7 @@ class Motion:
         for constraint in self._constraints:
             constraint.impose(U)
         way, point = U - self._U, U - self.point
-        displacement = _largest(way)
+        displacement = largest(way)
         if rest.component_count > 1:
             momentum, further = (share[rest.component][:, None] for share in (momentum, further))
         way *= momentum
@@ -74,9 +74,9 @@ class Motion:
         point += way
         point += U
         self.point, self._U = point, U
-        return displacement, _largest(U - rest.V)
+        return displacement, largest(U - rest.V)
 
 
-def _largest(values):
+def largest(values):
     """Return the largest size of any value."""
     return float(max(values.max(), -values.min()))

@@ -9,14 +9,11 @@ import numpy as np
 from .errors import CubicCraftError
 from .global_step import GlobalStep
 from .holds import HoldFields
-from .symmetry import NO_PARTNER, Mirror, commuting, partners
+from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, of a ring that is left free beside what is still:
 it moves by less than that is long."""
-
-MATCHING = 1e-3
-"""Largest distance, in the unit box, between a midpoint and the image of its partner."""
 
 
 class Setup:

@@ -18,6 +18,8 @@ from .rotation_fit import svd_rotations
 
 NO_PARTNER = -1
 """in place of the number of one"""
+MATCHING = 1e-3
+"""of the largest extent: how far a vertex may be from the image of its partner"""
 
 
 @dataclass(frozen=True)

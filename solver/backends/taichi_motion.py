@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 
+from ..motion import largest
 from . import taichi_runtime
 from .rehearsal import rehearse
 from .taichi_cycle import TaichiCycle
@@ -116,8 +117,7 @@ class TaichiMotion:
                 constraint.impose(values)
             arrays.put(kept, values)
         now = self.positions
-        rest = self._setup.rest
-        return float(np.abs(now - before).max()), float(np.abs(now - rest.V).max())
+        return largest(now - before), largest(now - self._setup.rest.V)
 
     def _moments_arguments(self):
         return (
