@@ -1,5 +1,6 @@
 """Run the script as a user does, in a process of its own."""
 
+import json
 import pickle
 import signal
 import subprocess
@@ -55,6 +56,21 @@ def headless_ok(*arguments, cwd):
     assert process.returncode == 0, process.stderr
     assert process.stdout == ""
     return process
+
+
+def make_blend(script, path):
+    """Have a Blender of its own run a script that saves a file to ``sys.argv[1]``; return that."""
+    subprocess.run([sys.executable, "-c", script, str(path)], check=True, capture_output=True)
+    return path
+
+
+def run_to_blend(source, folder, *options):
+    """Cubify a file without a picture; return the report, and what the .blend has that it made."""
+    target, report = folder / "out.blend", folder / "out.json"
+    outputs = ("--no-render", "--save-mesh", target, "--report", report)
+    headless_ok(source, *options, *outputs, cwd=folder)
+    (found,) = read_files(target, folder=folder)
+    return json.loads(report.read_text(encoding="utf-8")), found
 
 
 def read_files(*paths, folder):

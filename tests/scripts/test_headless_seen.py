@@ -1,12 +1,8 @@
 """What is seen is taken with ``--with-modifiers``: modifiers applied, texts as meshes."""
 
-import json
-import subprocess
-import sys
-
 import numpy as np
 import pytest
-from headless import headless_ok, read_files
+from headless import make_blend, run_to_blend
 
 MAKE = """
 import sys, bpy
@@ -19,21 +15,16 @@ bpy.ops.object.text_add(location=(0, 3, 0))
 bpy.context.object.data.extrude = 0.1
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
-FAST = ("--no-render", "--device", "numpy", "--max-iterations", 20, "--together", "parts")
+FAST = ("--device", "numpy", "--max-iterations", 20, "--together", "parts")
 
 
 @pytest.fixture(scope="module")
 def source(tmp_path_factory):
-    path = tmp_path_factory.mktemp("seen") / "seen.blend"
-    subprocess.run([sys.executable, "-c", MAKE, str(path)], check=True, capture_output=True)
-    return path
+    return make_blend(MAKE, tmp_path_factory.mktemp("seen") / "seen.blend")
 
 
 def run(source, folder, *options):
-    target, report = folder / "out.blend", folder / "out.json"
-    headless_ok(source, *FAST, *options, "--save-mesh", target, "--report", report, cwd=folder)
-    (found,) = read_files(target, folder=folder)
-    return json.loads(report.read_text(encoding="utf-8")), found
+    return run_to_blend(source, folder, *FAST, *options)
 
 
 def test_what_is_seen_is_taken_in_place_of_the_meshes(source, tmp_path):

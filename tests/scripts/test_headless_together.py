@@ -1,12 +1,8 @@
 """All meshes of a file are solved as one, unless they are told apart."""
 
-import json
-import subprocess
-import sys
-
 import numpy as np
 import pytest
-from headless import headless_ok, read_files
+from headless import make_blend, run_to_blend
 
 MAKE = """
 import sys, bpy
@@ -20,23 +16,18 @@ bpy.context.collection.objects.link(twin)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 MIRRORED = np.array([1, -1, 1], np.float32)
-FAST = ("--no-render", "--device", "numpy", "--max-iterations", 20)
+FAST = ("--device", "numpy", "--max-iterations", 20)
 
 
 @pytest.fixture(scope="module")
 def source(tmp_path_factory):
-    path = tmp_path_factory.mktemp("together") / "dressed.blend"
-    subprocess.run([sys.executable, "-c", MAKE, str(path)], check=True, capture_output=True)
-    return path
+    return make_blend(MAKE, tmp_path_factory.mktemp("together") / "dressed.blend")
 
 
 def run(source, folder, *options):
     """Return the report and, by the name of the object, positions."""
-    target, report = folder / "out.blend", folder / "out.json"
-    headless_ok(source, *FAST, *options, "--save-mesh", target, "--report", report, cwd=folder)
-    (found,) = read_files(target, folder=folder)
-    positions = {name: content[0] for name, content in found.items()}
-    return json.loads(report.read_text(encoding="utf-8")), positions
+    report, found = run_to_blend(source, folder, *FAST, *options)
+    return report, {name: content[0] for name, content in found.items()}
 
 
 def test_all_meshes_of_a_file_are_one(source, tmp_path):
@@ -88,6 +79,7 @@ def test_the_paper_is_its_options_in_full(source, tmp_path):
         "symmetry": "",
         "floor": False,
         "hold_rest": "off",
+        "with_modifiers": False,
     }
     for name, shape in by_name.items():
         np.testing.assert_array_equal(shape, by_options[name])
