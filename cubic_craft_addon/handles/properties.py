@@ -22,7 +22,8 @@ _MODES = (
     ("PINNED", "Pinned", "The vertices stay exactly in place", "PINNED", 0),
     ("FOLLOW", "Follow", "The vertices go along with an object", "EMPTY_AXIS", 1),
 )
-_IDENTITY: Any = tuple(tuple(row) for row in np.eye(4).tolist())
+_IDENTITY = tuple(tuple(row) for row in np.eye(4).tolist())
+_MATRIX: Any = {"size": (4, 4), "subtype": "MATRIX", "default": _IDENTITY}
 
 
 def _bind_target(handle, _context):
@@ -73,31 +74,23 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
     rest: FloatVectorProperty(
         name="Rest",
         description="Matrix of the target, relative to the object, at which nothing moves",
-        size=(4, 4),
-        subtype="MATRIX",
-        default=_IDENTITY,
+        **_MATRIX,
     )
     pose: FloatVectorProperty(
         name="Pose",
         description="Matrix in object space by which the vertices are moved, before what they"
         " follow moves them on (a mathutils.Matrix)",
-        size=(4, 4),
-        subtype="MATRIX",
-        default=_IDENTITY,
+        **_MATRIX,
     )
     baked: FloatVectorProperty(
         name="Baked",
         description="Matrix of the target, relative to the object, when the mesh was written",
-        size=(4, 4),
-        subtype="MATRIX",
-        default=_IDENTITY,
+        **_MATRIX,
     )
     baked_pose: FloatVectorProperty(
         name="Baked Pose",
         description="The pose when the mesh was written",
-        size=(4, 4),
-        subtype="MATRIX",
-        default=_IDENTITY,
+        **_MATRIX,
     )
     is_baked: BoolProperty(
         name="Is Baked",
@@ -122,9 +115,7 @@ class CubicCraftGivenHandle(_MemberProperties, bpy.types.PropertyGroup):
     matrix: FloatVectorProperty(
         name="Matrix",
         description="Affine map of the original positions, in object space (a mathutils.Matrix)",
-        size=(4, 4),
-        subtype="MATRIX",
-        default=_IDENTITY,
+        **_MATRIX,
     )
 
 

@@ -1,17 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel knows of edits by hand; the row itself is tested in a window."""
+"""A result that was edited by hand: what the panel knows of it, and what the next run starts from.
+
+The row in the panel is tested in a window.
+"""
 
 import importlib
 
 import bpy
 import pytest
 from live_steps import bits, confirm, tick_to_rest
-from scene import add_monkey, cubify, select
+from rich_mesh import position_of
+from scene import add_monkey, cubify, reports_of, select
 
 
 @pytest.fixture
 def edited(extension):
     return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.edited")
+
+
+def edit(obj):
+    obj.data.vertices[3].co.x += 0.5
+    obj.data.update()
+    return position_of(obj.data)
 
 
 def update():
@@ -24,8 +34,7 @@ def test_it_follows_what_happens_to_the_mesh(edited):
     cubify()
     update()
     assert not edited.is_edited(obj.data)
-    obj.data.vertices[3].co.x += 0.5
-    obj.data.update()
+    edit(obj)
     update()
     assert edited.is_edited(obj.data)
     cubify(start="ORIGINAL")
@@ -35,8 +44,7 @@ def test_it_follows_what_happens_to_the_mesh(edited):
     bpy.ops.object.transform_apply(scale=True)
     update()
     assert not edited.is_edited(obj.data)
-    obj.data.vertices[3].co.x += 0.5
-    obj.data.update()
+    edit(obj)
     update()
     assert edited.is_edited(obj.data)
     bpy.ops.cubic_craft.restore()
@@ -110,3 +118,54 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
         shapes.append(bits(obj))
         assert (shapes[-1] == changed) == (change == "edited" and start == "HERE")
     assert shapes[:2] == shapes[2:]
+
+
+def test_an_edited_mesh_starts_from_where_it_is():
+    obj = add_monkey()
+    cubify()
+    edited = edit(obj)
+    cubify()
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == edited.tobytes()
+
+
+@pytest.mark.parametrize("by", ["object", "operator"])
+def test_an_edited_mesh_may_start_from_the_original(by):
+    obj = add_monkey()
+    cubify()
+    cubic = position_of(obj.data)
+    edit(obj)
+    if by == "object":
+        obj.cubic_craft.start = "ORIGINAL"
+        cubify()
+    else:
+        cubify(start="ORIGINAL")
+    assert obj.cubic_craft.start == "HERE"  # it was for that run
+    assert position_of(obj.data).tobytes() == cubic.tobytes()
+    edited = edit(obj)
+    cubify()
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == edited.tobytes()
+
+
+def test_each_of_several_edited_meshes_starts_from_what_it_says():
+    one, other = add_monkey("One"), add_monkey("Other", location=(3, 0, 0))
+    select(one, other)
+    cubify(together="PARTS")
+    edit(one)
+    edited = edit(other)
+    one.cubic_craft.start = "ORIGINAL"
+    cubify(together="PARTS")
+    bpy.ops.cubic_craft.restore()
+    assert position_of(one.data)[3, 0] != edited[3, 0]
+    assert position_of(other.data).tobytes() == edited.tobytes()
+
+
+def test_restore_takes_back_an_edit_as_well():
+    obj = add_monkey()
+    before = position_of(obj.data)
+    cubify()
+    edit(obj)
+    said = reports_of(bpy.ops.cubic_craft.restore)
+    assert position_of(obj.data).tobytes() == before.tobytes()
+    assert "Restored Suzanne; what was edited since Cubify is gone (Ctrl-Z brings it back)" in said

@@ -66,63 +66,6 @@ def test_cubify_again_starts_from_the_original():
     assert position_of(other.data).tobytes() == twice.tobytes()
 
 
-def edit(obj):
-    obj.data.vertices[3].co.x += 0.5
-    obj.data.update()
-    return position_of(obj.data)
-
-
-def test_an_edited_mesh_starts_from_where_it_is():
-    obj = add_monkey()
-    cubify()
-    edited = edit(obj)
-    cubify()
-    bpy.ops.cubic_craft.restore()
-    assert position_of(obj.data).tobytes() == edited.tobytes()
-
-
-@pytest.mark.parametrize("by", ["object", "operator"])
-def test_an_edited_mesh_may_start_from_the_original(by):
-    obj = add_monkey()
-    cubify()
-    cubic = position_of(obj.data)
-    edit(obj)
-    if by == "object":
-        obj.cubic_craft.start = "ORIGINAL"
-        cubify()
-    else:
-        cubify(start="ORIGINAL")
-    assert obj.cubic_craft.start == "HERE"  # it was for that run
-    assert position_of(obj.data).tobytes() == cubic.tobytes()
-    edited = edit(obj)
-    cubify()
-    bpy.ops.cubic_craft.restore()
-    assert position_of(obj.data).tobytes() == edited.tobytes()
-
-
-def test_each_of_several_edited_meshes_starts_from_what_it_says():
-    one, other = add_monkey("One"), add_monkey("Other", location=(3, 0, 0))
-    select(one, other)
-    cubify(together="PARTS")
-    edit(one)
-    edited = edit(other)
-    one.cubic_craft.start = "ORIGINAL"
-    cubify(together="PARTS")
-    bpy.ops.cubic_craft.restore()
-    assert position_of(one.data)[3, 0] != edited[3, 0]
-    assert position_of(other.data).tobytes() == edited.tobytes()
-
-
-def test_restore_takes_back_an_edit_as_well():
-    obj = add_monkey()
-    before = position_of(obj.data)
-    cubify()
-    edit(obj)
-    said = reports_of(bpy.ops.cubic_craft.restore)
-    assert position_of(obj.data).tobytes() == before.tobytes()
-    assert "Restored Suzanne; what was edited since Cubify is gone (Ctrl-Z brings it back)" in said
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_cubify_after_apply_starts_from_the_original(turn):
     """As if the transform had been applied first; but for squares that are cut the other way."""
