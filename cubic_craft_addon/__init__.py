@@ -1,20 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import (
-    edited,
-    group_renames,
-    handle_gizmos,
-    job,
-    live,
-    overlay,
-    panel,
-    preferences,
-    presets,
-    properties,
-)
-from .handles import panel as handles_panel
+from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
+from .settings import group_renames, properties
+from .ui import edited, overlay, panel, preferences
+from .ui import handles_panel as handles_panel
 
 _modules = (
     handles_properties,

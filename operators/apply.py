@@ -5,9 +5,9 @@ import bpy
 
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.baked_pose import rest_in_pose
-from .originals import for_each_original, poll_originals
-from .selection import poll_meshes
-from .unforeseen import reporting
+from ._shared.originals import for_each_original, poll_originals
+from ._shared.selection import poll_meshes
+from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_apply(bpy.types.Operator):

@@ -12,18 +12,24 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from ..cubic_craft_addon import job, mesh_bridge
-from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
-from ..cubic_craft_addon.failures import UNFORESEEN
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
-from ..cubic_craft_addon.last_run import last_run
-from ..cubic_craft_addon.object_properties import has_properties, object_properties
-from ..cubic_craft_addon.properties import RunProperties, StartProperty
-from ..cubic_craft_addon.up_to_date import changes_since
+from ..cubic_craft_addon.run.failures import UNFORESEEN
+from ..cubic_craft_addon.run.last_run import last_run
+from ..cubic_craft_addon.run.up_to_date import changes_since
+from ..cubic_craft_addon.settings.object_properties import has_properties, object_properties
+from ..cubic_craft_addon.settings.overrides import (
+    ALL,
+    OF_EACH_OBJECT,
+    Choice,
+    find_frame,
+    values_of,
+)
+from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
 from ..solver import CubicCraftError
-from .selection import poll_sources, report_all, selected_meshes, selected_sources
-from .unforeseen import reporting
+from ._shared.selection import poll_sources, report_all, selected_meshes, selected_sources
+from ._shared.unexpected_errors import reporting
 
 _PROGRESS_STEPS = 100
 

@@ -7,10 +7,10 @@ import numpy as np
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import live_target
-from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.settings.object_properties import object_properties
 from ..solver import CubicCraftError
-from .active_handle import active_handle, members, poll_handle
-from .selection import report_all
+from ._shared.active_handle import active_handle, members, poll_handle
+from ._shared.selection import report_all
 
 _MARGIN = 1.1  # the empty is larger than what it moves by this factor
 _SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 
 from ..cubic_craft_addon.handles.owner import panel_object
-from .active_handle import add_handle, poll_mesh
-from .selection import report_all
+from ._shared.active_handle import add_handle, poll_mesh
+from ._shared.selection import report_all
 
 _GROUP = "Handle"
 

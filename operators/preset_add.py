@@ -6,8 +6,8 @@ from bpy.props import StringProperty
 
 from ..cubic_craft_addon.live import shared_properties
 from ..cubic_craft_addon.presets import files
-from .selection import panel_mesh, poll_panel_mesh
-from .unforeseen import reporting
+from ._shared.selection import panel_mesh, poll_panel_mesh
+from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):

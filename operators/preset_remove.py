@@ -6,8 +6,8 @@ import bpy
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.presets import files
 from ..cubic_craft_addon.presets.selector import preset_of
-from .selection import panel_mesh, poll_panel_mesh
-from .unforeseen import reporting
+from ._shared.selection import panel_mesh, poll_panel_mesh
+from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):

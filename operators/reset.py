@@ -4,8 +4,8 @@
 import bpy
 
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.choice import ALL, OF_EACH_OBJECT
-from .selection import panel_mesh, poll_panel_mesh
+from ..cubic_craft_addon.settings.overrides import ALL, OF_EACH_OBJECT
+from ._shared.selection import panel_mesh, poll_panel_mesh
 
 
 class CUBIC_CRAFT_OT_reset(bpy.types.Operator):

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .acceleration import Momentum
-from .admm import AdmmOptions
 from .backends import local_step_class
 from .errors import CubicCraftError
 from .holds import Holds
 from .mesh_checks import per_vertex
+from .styles.admm import AdmmOptions
 
 _FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
 

@@ -14,13 +14,13 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..assembly import assemblies
-from ..choice import Choice
 from ..handles.baked_pose import settle
 from ..live.live_run import LiveRun
-from ..member import Shape
-from ..settings_rollback import settings_kept, settings_untouched
-from ..tasks import Task, plan, write_all
+from ..run.assembly import assemblies
+from ..run.member import Shape
+from ..run.tasks import Task, plan, write_all
+from ..settings.overrides import Choice
+from ..settings.rollback import settings_kept, settings_untouched
 
 _LONG_SETUP = 15_000  # vertices; what has more is not factorised in the wink of an eye
 _MODES = ("OBJECT", "WEIGHT_PAINT")

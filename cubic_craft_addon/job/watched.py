@@ -12,9 +12,9 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from .. import status_text
-from ..failures import UNFORESEEN
-from ..redraw import redraw_panels
+from ..run.failures import UNFORESEEN
+from ..screen import status_text
+from ..screen.redraw import redraw_panels
 from .job import Job, Step
 
 FIRST_SLICE = 0.7

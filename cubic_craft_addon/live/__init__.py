@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import bpy
 
-from ..object_properties import object_properties
-from ..properties import settings_of
-from ..settings import Settings
-from . import healing, properties
+from ..settings.object_properties import object_properties
+from ..settings.properties import settings_of
+from ..settings.values import Settings
+from . import properties, stale_previews
 from .machine import Event
 from .poses import pose_of, reset_poses, set_pose
 from .properties import live_choice, live_properties
@@ -82,7 +82,7 @@ def settings_now(obj: bpy.types.Object) -> Settings:
 def register():
     """Add the settings of Live, and watch out for what is left of it in files."""
     properties.register()
-    healing.register()
+    stale_previews.register()
 
 
 def unregister():
@@ -90,5 +90,5 @@ def unregister():
     session = current()
     if session is not None:
         session.on(Event.DISABLED)
-    healing.unregister()
+    stale_previews.unregister()
     properties.unregister()

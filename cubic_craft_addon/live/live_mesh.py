@@ -10,8 +10,8 @@ import bpy
 
 from ... import solver
 from .. import mesh_bridge
-from ..member import Member, read_shape
-from ..tasks import Task
+from ..run.member import Member, read_shape
+from ..run.tasks import Task
 from .live_run import LiveRun
 
 

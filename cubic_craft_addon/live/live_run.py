@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ... import solver
-from .. import cubify
-from ..assembly import Prepared
-from ..member import Member
-from ..tasks import Task, key_of, prepare_all
+from ..run import pipeline
+from ..run.assembly import Prepared
+from ..run.member import Member
+from ..run.tasks import Task, key_of, prepare_all
 
 _FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles
 
@@ -32,7 +32,7 @@ class LiveRun:
     def __init__(self):
         self.problems: list[str] = []
         self.prepared: Prepared | None = None
-        self._solutions: dict[int, cubify.Solution] | None = None
+        self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
         self._key = None
         self._glance_moment = None
@@ -83,7 +83,7 @@ class LiveRun:
         assert self.prepared is not None
         settings = self.prepared.settings
         try:
-            self._run = cubify.start(self.prepared)
+            self._run = pipeline.start(self.prepared)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
         except solver.CubicCraftError as error:
             self.problems = [*self.problems, str(error)]
@@ -126,7 +126,7 @@ class LiveRun:
             if self._run.reason is None:
                 self._run.advance()
             else:
-                solutions = cubify.solutions_of(self.prepared, self._run)
+                solutions = pipeline.solutions_of(self.prepared, self._run)
                 uids = [member.uid for member in self.prepared.members]
                 self._solutions = dict(zip(uids, solutions, strict=True))
         except solver.CubicCraftError as error:
@@ -155,7 +155,7 @@ class LiveRun:
 
     # -- what it has come to -----------------------------------------------------------------------
 
-    def solution_of(self, uid: int) -> cubify.Solution | None:
+    def solution_of(self, uid: int) -> pipeline.Solution | None:
         """Return the result for an object, once the run has ended."""
         return self._solutions.get(uid) if self._solutions else None
 
@@ -177,7 +177,7 @@ class LiveRun:
             return solution and (solution.positions, solution.rotations)
         moment = (self.moment, with_rotations)
         if moment != self._glance_moment:
-            found = cubify.glance(self.prepared, self._run, with_rotations)
+            found = pipeline.glance(self.prepared, self._run, with_rotations)
             members = self.prepared.members
             self._glance = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._glance_moment = moment

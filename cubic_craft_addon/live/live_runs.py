@@ -6,7 +6,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Mapping, Sequence
 
-from ..tasks import Task
+from ..run.tasks import Task
 from .live_mesh import LiveMesh
 from .live_run import LiveRun
 

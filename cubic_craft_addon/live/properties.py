@@ -10,10 +10,10 @@ from typing import Any
 import bpy
 from bpy.props import PointerProperty, StringProperty
 
-from .. import glimpse
-from ..choice import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
 from ..presets.selector import preset_property
-from ..properties import RunProperties, object_properties, value_of
+from ..screen import glimpse
+from ..settings.overrides import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
+from ..settings.properties import RunProperties, object_properties, value_of
 from . import poses, wake
 
 _NAME = "cubic_craft_live"

@@ -12,12 +12,12 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..assembly import assemblies
-from ..choice import Choice
 from ..handles.baked_pose import settle
-from ..object_properties import object_properties
-from ..redraw import redraw_panels
-from ..tasks import Task, plan, write_all
+from ..run.assembly import assemblies
+from ..run.tasks import Task, plan, write_all
+from ..screen.redraw import redraw_panels
+from ..settings.object_properties import object_properties
+from ..settings.overrides import Choice
 from . import handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The keys of Live in Blender's status bar."""
 
-from .. import status_text
+from ..screen import status_text
 
 
 def show(session):

@@ -6,10 +6,11 @@ them the bridge keeps its own attributes and one custom property on the mesh (se
 Restore and Apply remove without a trace.
 """
 
-from .checks import check_editable, check_usable, mesh_of
-from .group_names import set_groups_aside
-from .new_object import write_new_object
-from .original import (
+from .access.checks import check_editable, check_usable, mesh_of
+from .access.group_names import set_groups_aside
+from .access.triangulation import triangles
+from .access.vertex_groups import group_weights
+from .memory.original import (
     Start,
     has_original,
     is_edited,
@@ -17,14 +18,13 @@ from .original import (
     read_positions,
     starts_here,
 )
-from .preview import Preview
-from .preview_end import end_all_previews, end_preview, has_preview
-from .restore import forget, has_traces, restore
-from .results import write_mesh, write_shape_key
-from .run_note import read_run
-from .seen import KINDS, make_seen, remove_seen, write_seen
-from .triangulation import triangles
-from .vertex_groups import group_weights
+from .memory.run_note import read_run
+from .preview.end import end_all_previews, end_preview, has_preview
+from .preview.preview import Preview
+from .result.new_object import write_new_object
+from .result.restore import forget, has_traces, restore
+from .result.results import write_mesh, write_shape_key
+from .result.seen import KINDS, make_seen, remove_seen, write_seen
 
 __all__ = (
     "KINDS",

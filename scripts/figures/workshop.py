@@ -94,7 +94,7 @@ class Workshop:
         Parameters
         ----------
         orientation : Euler angles of the cube in degrees, relative to the mesh
-        others : of `cubic_craft_addon.settings.Settings`
+        others : of `cubic_craft_addon.settings.values.Settings`
 
         Raises
         ------

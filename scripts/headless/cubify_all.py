@@ -23,11 +23,11 @@ class Sculpture:
     users: list[bpy.types.Object]
     """the first of them was solved"""
     member: Any
-    """cubic_craft_addon.member.Member"""
+    """cubic_craft_addon.run.member.Member"""
     prepared: Any
-    """cubic_craft_addon.assembly.Prepared of all that was solved at once with it"""
+    """cubic_craft_addon.run.assembly.Prepared of all that was solved at once with it"""
     solutions: list[Any]
-    """cubic_craft_addon.cubify.Solution, one per cubeness"""
+    """cubic_craft_addon.run.pipeline.Solution, one per cubeness"""
 
     @property
     def object(self) -> bpy.types.Object:

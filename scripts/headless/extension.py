@@ -20,15 +20,15 @@ class Extension:
     """The rooms of the loaded extension that the scripts use."""
 
     def __init__(self, root: Path) -> None:
-        self.assembly = _room("cubic_craft_addon.assembly")
-        self.cubify = _room("cubic_craft_addon.cubify")
+        self.assembly = _room("cubic_craft_addon.run.assembly")
+        self.cubify = _room("cubic_craft_addon.run.pipeline")
         self.handles = _room("cubic_craft_addon.handles")
-        self.member = _room("cubic_craft_addon.member")
+        self.member = _room("cubic_craft_addon.run.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.presets = _room("cubic_craft_addon.presets.files")
-        self.settings = _room("cubic_craft_addon.settings")
+        self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
-        self._taichi_news = _room("cubic_craft_addon.taichi_news").taichi_news
+        self._taichi_news = _room("cubic_craft_addon.environment.new_taichi_warnings").taichi_news
         self.version = read_version(root)
 
     def notices(self) -> list[str]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local step on different machinery, behind one interface: see `NumpyLocalStep`."""
 
-from .choice import DEVICES, local_step_class, problem_with_taichi
+from .devices import DEVICES, local_step_class, problem_with_taichi
 from .taichi_runtime import set_cache_folder
 
 __all__ = ["DEVICES", "local_step_class", "problem_with_taichi", "set_cache_folder"]

@@ -3,11 +3,11 @@
 
 import numpy as np
 
-from ..active_set import active_set_rotations, starting_signs
-from ..admm import admm_rotations
-from ..local_problem import LocalProblem
 from ..motion import Motion
 from ..rotation_fit import orthonormalize
+from ..styles.active_set import active_set_rotations, starting_signs
+from ..styles.admm import admm_rotations
+from ..styles.local_problem import LocalProblem
 
 SMALLEST_AREA = 1e-30
 """in the unit box; less is no area, and would overflow in 32 bit"""

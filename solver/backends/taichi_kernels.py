@@ -19,8 +19,8 @@ from types import SimpleNamespace
 
 import taichi as ti
 
-from ..active_set import DOUBLE, MAX_STEPS, NEAREST_TARGET, SINGLE, SMALLEST_TURN
 from ..rotation_fit import MIN_CURVATURE
+from ..styles.active_set import DOUBLE, MAX_STEPS, NEAREST_TARGET, SINGLE, SMALLEST_TURN
 from .compile_time_algebra import (
     axial,
     cross,

@@ -6,16 +6,16 @@ from functools import cache, partial
 
 import numpy as np
 
-from ..active_set import starting_signs
-from ..admm import admm_rotations
 from ..errors import CubicCraftError
-from ..local_problem import LocalProblem
 from ..motion import Motion
+from ..styles.active_set import starting_signs
+from ..styles.admm import admm_rotations
+from ..styles.local_problem import LocalProblem
 from . import taichi_runtime
 from .arrays import arrays_for, one_row
 from .numpy_local_step import area_scale, local_cubeness
-from .rehearsal import rehearse
 from .rows import HostRows
+from .warmup import rehearse
 
 
 class TaichiLocalStep:

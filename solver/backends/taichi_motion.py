@@ -7,8 +7,8 @@ import numpy as np
 
 from ..motion import largest
 from . import taichi_runtime
-from .rehearsal import rehearse
 from .taichi_cycle import TaichiCycle
+from .warmup import rehearse
 
 
 class TaichiMotion:

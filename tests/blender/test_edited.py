@@ -15,7 +15,7 @@ from scene import add_monkey, cubify, reports_of, select
 
 @pytest.fixture
 def edited(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.edited")
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.edited")
 
 
 def edit(obj):

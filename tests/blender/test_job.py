@@ -19,7 +19,7 @@ def package(extension):
 def start(package):
     """Return a function that starts a watched job on objects, with the settings of the first."""
     jobs = importlib.import_module(f"{package}.job")
-    choice = importlib.import_module(f"{package}.choice")
+    choice = importlib.import_module(f"{package}.settings.overrides")
 
     def begin(*objects):
         select(*objects)

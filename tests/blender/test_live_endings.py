@@ -171,12 +171,13 @@ def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkey
     original = bits(obj)
     session = begin(obj)
     tick_to_rest(session)
-    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge.results")
+    room = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.result"
+    results = importlib.import_module(f"{room}.results")
 
     def fail(*_args):
         raise OSError("the disk is on fire")
 
-    monkeypatch.setattr(bridge, "store_original", fail)
+    monkeypatch.setattr(results, "store_original", fail)
     session.on(live.Event.CONFIRM)
     tick_to_rest(session)
     assert session.is_ended and not session.summary

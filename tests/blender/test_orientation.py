@@ -142,8 +142,8 @@ def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror)
     assert differences(before, snapshot_mesh(obj.data)) == []
     assert max(abs(angle) for angle in obj.cubic_craft.orientation) < 1.1
     room = f"{extension.__name__}.cubic_craft_addon"
-    settings = importlib.import_module(f"{room}.properties").settings_of(obj)
-    frame_of = importlib.import_module(f"{room}.object_frame").stretch_and_orientation
+    settings = importlib.import_module(f"{room}.settings.properties").settings_of(obj)
+    frame_of = importlib.import_module(f"{room}.run.object_frame").stretch_and_orientation
     stretch, Q = frame_of(obj, settings)
     corners = position_of(obj.data) @ stretch.T @ Q.T  # as the cube sees them
     np.testing.assert_allclose(np.abs(corners), np.abs(corners[0]) * np.ones((8, 3)), atol=1e-3)
@@ -160,7 +160,7 @@ def test_auto_orient_is_of_each_object_and_starts_from_the_original():
 
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
 def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
     obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3), location=(5, 6, 7))
     obj.cubic_craft.frame = obj
     bpy.context.view_layer.update()
@@ -179,7 +179,7 @@ def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
 
 
 def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
     obj = add_monkey(rotation=(0.3, 0.2, 0.5))
     obj.scale.x = -1.0
     bpy.context.view_layer.update()
@@ -189,7 +189,7 @@ def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(exten
 
 
 def test_the_cube_is_seen_for_a_moment_when_it_is_turned(extension, live, begin, monkeypatch):
-    glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.glimpse")
+    glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.glimpse")
     obj = add_monkey()
 
     def is_seen_after(change):
@@ -217,7 +217,7 @@ def test_the_cube_is_seen_for_a_moment_when_it_is_turned(extension, live, begin,
 
 
 def test_the_overlay_leaves_no_handler_behind(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     assert overlay._handle is None
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)

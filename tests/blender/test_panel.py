@@ -13,7 +13,7 @@ from scene import add_monkey
 
 @pytest.fixture
 def problem(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.panel")
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.panel")
     return lambda obj: panel._problem(bpy.context, obj)
 
 
@@ -56,7 +56,7 @@ def test_a_mesh_without_faces_is_named(problem):
 def test_in_other_modes_the_way_out_takes_the_place_of_a_message(
     extension, problem, mode, is_usable
 ):
-    modes = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.modes")
+    modes = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.environment.modes")
     obj = add_monkey()
     bpy.ops.object.mode_set(mode=mode)
     try:
@@ -68,10 +68,10 @@ def test_in_other_modes_the_way_out_takes_the_place_of_a_message(
 
 
 @pytest.mark.parametrize(
-    ("module", "count"), [("panel", 4), ("status_panel", 1), ("handles.panel", 6)]
+    ("module", "count"), [("panel", 4), ("status_panel", 1), ("handles_panel", 6)]
 )
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")
     names = set(re.findall(r'\.operator\(\s*"([^"]+)"', text))
     assert len(names) >= count
@@ -91,7 +91,7 @@ def test_what_is_wrong_with_a_handle_is_named(problem):
 
 
 def test_texts_fit_the_room_that_there_is(extension):
-    text_fit = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.text_fit")
+    text_fit = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.text_fit")
     text = '"Suzanne" has no vertex group "Ears"; pick another one'
     wide = text_fit.width_of(text)
     assert text_fit.wrapped(text, wide) == [text]
@@ -106,8 +106,8 @@ def test_texts_fit_the_room_that_there_is(extension):
 
 
 def test_the_line_below_the_buttons_says_what_matters_most(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.status_panel")
-    last_run = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.last_run")
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.status_panel")
+    last_run = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.last_run")
     run = last_run.LastRun(
         settings={"cubeness": 0.4},
         vertices=12345,

@@ -169,7 +169,7 @@ bpy.context.object.location = (1, 2, 3)
 def test_as_in_the_paper(files, rooms, monkey):
     monkey.cubic_craft.cubeness, monkey.cubic_craft.solidity = 0.9, 0.7
     monkey.cubic_craft.preset = "As_in_the_Paper"
-    settings = rooms("cubic_craft_addon.properties").settings_of(monkey)
+    settings = rooms("cubic_craft_addon.settings.properties").settings_of(monkey)
     assert settings.proxy == rooms("solver").PAPER
     assert settings.rotation == "FREE"
     assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"

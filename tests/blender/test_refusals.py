@@ -90,7 +90,7 @@ def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
     obj, other = add_rich_monkey(keys=True), add_monkey("Other")
     select(other, obj)
     before = [snapshot_object(o) for o in (obj, other)]
-    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.cubify")
+    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
     original = pipeline.start
     calls = []
 

@@ -131,7 +131,7 @@ def test_of_an_earlier_result_nothing_is_brought_along():
 
 def test_what_was_not_written_is_removed(extension):
     jobs = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.job")
-    choice = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.choice")
+    choice = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.settings.overrides")
     obj = add_modifiers(add_monkey())
     watched = jobs.WatchedJob(jobs.Job(choice.Choice(SEEN), [obj]))
     watched.advance(0.0)
@@ -154,7 +154,7 @@ def test_live_says_that_it_shows_no_modifiers():
 
 
 def test_the_panel_hints_where_the_mesh_says_little(extension):
-    seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.seen")
+    seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.seen")
     obj = add_monkey()
     assert not seen.can_be_seen(obj)
     obj.modifiers.new("Mirror", "MIRROR")  # solved as a whole, see Symmetry

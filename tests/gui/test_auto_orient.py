@@ -29,7 +29,9 @@ def pixels(path):
 
 
 def glimpse():
-    return importlib.import_module("bl_ext.user_default.cubic_craft.cubic_craft_addon.glimpse")
+    return importlib.import_module(
+        "bl_ext.user_default.cubic_craft.cubic_craft_addon.screen.glimpse"
+    )
 
 
 def glimpse_over():

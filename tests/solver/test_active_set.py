@@ -6,12 +6,12 @@ import pytest
 import shapes
 from taichi_marks import needs_taichi
 
-from solver.active_set import active_set_rotations, starting_signs
-from solver.admm import AdmmOptions, admm_rotations
 from solver.backends import local_step_class
-from solver.local_problem import LocalProblem
 from solver.rest import rest_mesh
 from solver.rotation_fit import svd_rotations
+from solver.styles.active_set import active_set_rotations, starting_signs
+from solver.styles.admm import AdmmOptions, admm_rotations
+from solver.styles.local_problem import LocalProblem
 
 TIGHT = AdmmOptions(max_iterations=3000, absolute=1e-13, relative=1e-11)
 Q = shapes.rotation(25, -10, 40)

@@ -9,10 +9,10 @@ from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 from taichi_marks import needs_taichi
 
-from solver.admm import AdmmOptions
 from solver.backends import local_step_class
 from solver.rest import rest_mesh
 from solver.setup import Setup
+from solver.styles.admm import AdmmOptions
 from solver.stylization import Stylization
 
 Q = shapes.rotation(25, -10, 40)

@@ -13,7 +13,7 @@ def bridge(extension):
 @pytest.fixture(autouse=True)
 def no_healing(extension):
     """Keep the extension from ending previews by itself after undo and load."""
-    healing = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.healing")
+    healing = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.stale_previews")
     healing.unregister()
     yield
     healing.register()
@@ -22,7 +22,7 @@ def no_healing(extension):
 @pytest.fixture(autouse=True)
 def no_memory(extension, monkeypatch):
     """Forget the previews that other tests have ended in Edit Mode, of the same shapes."""
-    name = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.preview_end"
+    name = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.preview.end"
     monkeypatch.setattr(importlib.import_module(name), "_ended_in_edit_mode", {})
 
 
@@ -48,10 +48,10 @@ def keyed_monkey():
 
 @pytest.fixture
 def fail_once(bridge, monkeypatch):
-    """Let one call of a function fail, such as the second one of ``"original.write_note"``."""
+    """Let one call of a function fail, as the second of ``"memory.original.write_note"``."""
 
     def fail(name, *, call):
-        file, function = name.split(".")
+        file, function = name.rsplit(".", 1)
         module = importlib.import_module(f"{bridge.__name__}.{file}")
         real = getattr(module, function)
         calls = []

@@ -199,7 +199,11 @@ def test_usable_is_editable_but_for_the_coordinates(bridge, error, keyed_monkey)
 
 def test_what_panels_ask_reads_no_coordinates(bridge, monkey, fail_once):
     bridge.write_mesh(monkey.data, *cubic_like(bridge.read_positions(monkey.data)))
-    for reader in ("checks.read_position", "checks.read_key", "original.fingerprint"):
+    for reader in (
+        "access.checks.read_position",
+        "access.checks.read_key",
+        "memory.original.fingerprint",
+    ):
         fail_once(reader, call=1)
     bridge.check_usable(monkey)
     assert bridge.has_traces(monkey.data)

@@ -214,9 +214,9 @@ def test_attributes_keep_their_order_and_active_one(bridge, plain_monkey):
 @pytest.mark.parametrize(
     ("failing", "call"),
     [
-        ("preview_store.add_attribute", 1),
-        ("preview_store.write_note", 1),
-        ("preview.original_shapes", 1),
+        ("preview.store.add_attribute", 1),
+        ("preview.store.write_note", 1),
+        ("preview.preview.original_shapes", 1),
     ],
 )
 def test_failure_to_begin_changes_nothing(bridge, fail_once, state, failing, call):
@@ -232,11 +232,11 @@ def test_failure_to_begin_changes_nothing(bridge, fail_once, state, failing, cal
 @pytest.mark.parametrize(
     ("failing", "call"),
     [
-        ("preview.write_live_part", 1),
-        ("preview.write_live_part", 2),
-        ("preview.write_shapes", 1),
-        ("shapes.write_position", 1),
-        ("shapes.mark_moved", 1),
+        ("preview.preview.write_live_part", 1),
+        ("preview.preview.write_live_part", 2),
+        ("preview.preview.write_shapes", 1),
+        ("access.shapes.write_position", 1),
+        ("access.shapes.mark_moved", 1),
     ],
 )
 def test_failure_to_show_can_be_ended(bridge, fail_once, state, failing, call):
@@ -255,7 +255,7 @@ def test_failure_to_show_can_be_ended(bridge, fail_once, state, failing, call):
 def test_failure_to_end_can_be_repeated(bridge, fail_once, keyed_monkey, failing):
     before = snapshot_object(keyed_monkey)
     show_some(bridge, keyed_monkey.data)
-    fail_once(f"preview_end.{failing}", call=1)
+    fail_once(f"preview.end.{failing}", call=1)
     with pytest.raises(RuntimeError, match="disk on fire"):
         bridge.end_preview(keyed_monkey.data)
     assert bridge.end_preview(keyed_monkey.data)

@@ -38,7 +38,9 @@ def test_restore_of_no_mesh(bridge, error):
         bridge.restore(empty)
 
 
-@pytest.mark.parametrize("failing", ["restore.drop_stored", "restore.remove_cubic_key"])
+@pytest.mark.parametrize(
+    "failing", ["result.restore.drop_stored", "result.restore.remove_cubic_key"]
+)
 @pytest.mark.parametrize("first", ["mesh", "key"])
 def test_failure_half_way_changes_nothing(bridge, monkey, failing, first, fail_once):
     positions, rotations = cubic_like(bridge.read_positions(monkey.data))

@@ -9,7 +9,7 @@ from rich_mesh import cubic_like
 
 @pytest.fixture
 def rotations(bridge):
-    return importlib.import_module(f"{bridge.__name__}.rotations")
+    return importlib.import_module(f"{bridge.__name__}.access.rotations")
 
 
 def test_there_and_back(rotations):

@@ -188,7 +188,12 @@ def test_carried_keys_must_stay_finite(bridge, error, keyed_monkey):
 @pytest.mark.parametrize("first", [None, "mesh", "key"])
 @pytest.mark.parametrize(
     "failing",
-    ["original.add_attribute", "original.write_note", "shapes.write_position", "shapes.mark_moved"],
+    [
+        "memory.original.add_attribute",
+        "memory.original.write_note",
+        "access.shapes.write_position",
+        "access.shapes.mark_moved",
+    ],
 )
 def test_failure_half_way_changes_nothing(bridge, monkey, failing, first, fail_once):
     mesh = monkey.data
@@ -198,7 +203,7 @@ def test_failure_half_way_changes_nothing(bridge, monkey, failing, first, fail_o
     elif first == "key":
         bridge.write_shape_key(monkey, result[0])
     before = snapshot_object(monkey)
-    fail_once(failing, call=2 if failing.startswith("original") else 1)
+    fail_once(failing, call=2 if failing.startswith("memory.original") else 1)
     with pytest.raises(RuntimeError, match="disk on fire"):
         bridge.write_mesh(mesh, *cubic_like(bridge.original_positions(mesh), 2))
     assert differences(before, snapshot_object(monkey)) == []

@@ -161,7 +161,9 @@ def test_refused_result_leaves_no_copy(bridge, error, monkey):
     assert differences(before, snapshot_object(monkey)) == []
 
 
-@pytest.mark.parametrize("failing", ["new_object.write_mesh", "new_object.select_instead"])
+@pytest.mark.parametrize(
+    "failing", ["result.new_object.write_mesh", "result.new_object.select_instead"]
+)
 def test_failure_half_way_leaves_no_copy(bridge, monkey, failing, fail_once):
     before, blocks = snapshot_object(monkey), counts()
     fail_once(failing, call=1)

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compiled kernels live in the extension's own user folder, not in Taichi's default one."""
+
+from functools import cache
+
+import bpy
+
+from ... import solver
+from .package import ROOT_PACKAGE
+
+
+@cache
+def use_extension_folder() -> None:
+    """Have Taichi cache its kernels in the folder that Blender gives the extension."""
+    try:
+        folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True)
+    except (ValueError, OSError):
+        # Not installed as an extension, or the folder cannot be made: Taichi's default will do.
+        return
+    solver.set_cache_folder(folder)

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""That Taichi does not work here: worth one message, not one per run."""
+
+from ... import solver
+
+_told = ""
+
+
+def taichi_news() -> list[str]:
+    """Return what is to be told about Taichi now, as one text or none."""
+    global _told
+    problem = solver.problem_with_taichi()
+    if problem == _told:
+        return []
+    _told = problem
+    return [f"Taichi does not work here ({problem}): NumPy computes instead, which is slower"]

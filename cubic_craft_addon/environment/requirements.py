@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the solver needs beside what every Blender brings."""
+
+from functools import cache
+from importlib.util import find_spec
+
+from ...solver import CubicCraftError
+
+
+def check_requirements() -> None:
+    """Check that SciPy is there; without Taichi the solver runs in NumPy.
+
+    Raises
+    ------
+    CubicCraftError
+        SciPy is missing.
+    """
+    if not _has_scipy():
+        raise CubicCraftError(
+            "CubicCraft needs SciPy, which this Blender does not have; "
+            "install the package of CubicCraft for your system, which brings it"
+        )
+
+
+@cache
+def _has_scipy():
+    return find_spec("scipy") is not None

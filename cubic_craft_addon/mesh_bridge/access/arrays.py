@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coordinates of a mesh to float32 arrays and back, bit for bit.
+
+Blender stores coordinates as float32, and ``foreach_get`` / ``foreach_set`` take the fast path
+(one memory copy) only with a flat float32 buffer.
+"""
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+
+
+def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Read the ``position`` attribute of a mesh.
+
+    Returns
+    -------
+    (n,3) numpy float32 array, object space
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh is in Edit Mode, where the attribute does not exist.
+    """
+    if mesh.is_editmode:
+        raise CubicCraftError(f"Mesh '{mesh.name}' is in Edit Mode: go back to Object Mode first")
+    flat = np.empty(3 * len(mesh.vertices), np.float32)
+    if len(flat):  # a mesh without vertices may have no such attribute
+        _position_of(mesh).data.foreach_get("vector", flat)
+    return flat.reshape(-1, 3)
+
+
+def write_position(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
+    """Write an (n,3) float32 array to the ``position`` attribute; `mark_moved` must follow."""
+    if len(positions):  # a mesh without vertices may have no such attribute
+        _position_of(mesh).data.foreach_set("vector", np.ravel(positions))
+
+
+def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
+    """Read the points of a shape key of a mesh.
+
+    Returns
+    -------
+    (n,3) numpy float32 array, object space
+
+    Raises
+    ------
+    CubicCraftError
+        The key does not fit the mesh, as scripts may leave it.
+    """
+    check_fits(mesh, key)
+    flat = np.empty(3 * len(key.points), np.float32)
+    key.points.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
+    """Check that a shape key has a point for each vertex of its mesh.
+
+    Raises
+    ------
+    CubicCraftError
+        It has not, as scripts may leave it.
+    """
+    if len(key.points) != len(mesh.vertices):
+        raise CubicCraftError(
+            f"Shape key '{key.name}' of mesh '{mesh.name}' has {len(key.points)} points for "
+            f"{len(mesh.vertices)} vertices: delete the shape key first"
+        )
+
+
+def write_key(key: bpy.types.ShapeKey, positions: np.ndarray) -> None:
+    """Write an (n,3) float32 array to the points of a shape key; `mark_moved` must follow."""
+    key.points.foreach_set("co", np.ravel(positions))
+
+
+def mark_moved(mesh: bpy.types.Mesh) -> None:
+    """Tell Blender that positions of the mesh have changed.
+
+    ``foreach_set`` tells nobody, and ``mesh.update()`` would leave the cached triangulation and
+    bounding box of the old shape behind. Setting one single coordinate drops all caches, tags the
+    mesh for evaluation and redraws; that it is set to what it is makes no difference.
+    """
+    if mesh.vertices:
+        first = mesh.vertices[0]
+        first.co = first.co
+
+
+def loose_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Find the vertices that belong to no face.
+
+    Returns
+    -------
+    (n,) numpy bool array
+    """
+    loose = np.ones(len(mesh.vertices), bool)
+    loose[corner_vertices(mesh)] = False
+    return loose
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Read the vertex of every face corner, in the order of the faces, as int32."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    attribute = mesh.attributes.get(".corner_vert")
+    if isinstance(attribute, bpy.types.IntAttribute):
+        attribute.data.foreach_get("value", corners)  # a hundred times as fast as through `loops`
+    else:
+        mesh.loops.foreach_get("vertex_index", corners)
+    return corners
+
+
+def _position_of(mesh: bpy.types.Mesh) -> bpy.types.FloatVectorAttribute:
+    """Look the ``position`` attribute up."""
+    attribute = mesh.attributes["position"]
+    assert isinstance(attribute, bpy.types.FloatVectorAttribute)
+    return attribute

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Point attributes of ours on a mesh, added and removed without disturbing the artist's.
+
+Adding or removing an attribute shifts the others inside Blender's list, and Blender remembers
+the active one by its place in that list. It also frees the RNA pointers to all of them, so none
+may be kept across a call to these functions.
+
+Vertex groups are attributes to Blender, too, and a group may get the name of one of ours (see
+`group_names`). Asked for an attribute of that name, Blender may take the group. So attributes are
+made and removed under a name that nothing else has.
+"""
+
+import re
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+
+# Point attributes called so, or so with one of the endings, are ours, also where Blender has
+# brought them along from another mesh, by joining for one.
+ORIGINAL = "cubic_craft_original"
+ROTATION = "cubic_craft_rotation"
+LIVE = "cubic_craft_live"
+KEY = "cubic_craft_key"
+
+_ENDINGS = r"\.position|\.key\d+|\.written|\.mark|\.base"
+_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
+
+
+def is_our_name(name: str) -> bool:
+    """Tell whether we call attributes so."""
+    return _NAMES.fullmatch(name) is not None
+
+
+def our_attributes(
+    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE, KEY)
+) -> list[str]:
+    """List the names of the attributes of ours on a mesh, of all kinds or of some."""
+    return [
+        attribute.name
+        for attribute in mesh.attributes
+        if (match := _NAMES.fullmatch(attribute.name)) and match[1] in kinds and _is_ours(attribute)
+    ]
+
+
+def check_names(mesh: bpy.types.Mesh) -> None:
+    """Check that our names are free or ours; those of vertex groups do not matter here.
+
+    Raises
+    ------
+    CubicCraftError
+        A UV map, a color attribute or another attribute of the artist's is called so.
+    """
+    for attribute in mesh.attributes:
+        if is_our_name(attribute.name) and not _is_ours(attribute):
+            raise CubicCraftError(
+                f"Mesh '{mesh.name}' has an attribute '{attribute.name}' that is not CubicCraft's "
+                "own: rename or remove it first (Object Data > UV Maps, Color Attributes or "
+                "Attributes)"
+            )
+
+
+def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    """Add a point attribute.
+
+    Parameters
+    ----------
+    mesh : the mesh, not in Edit Mode, without an attribute of that name
+    name : name of the attribute
+    values : (n,3) numpy float32 array of vectors, or (n,4) of quaternions
+    """
+    with active_kept(mesh):
+        data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"
+        free = _free_name()
+        mesh.attributes.new(free, data_type, "POINT")
+        mesh.attributes[free].name = name
+        attribute = mesh.attributes[name]
+        if isinstance(attribute, bpy.types.FloatVectorAttribute):
+            attribute.data.foreach_set("vector", np.ravel(values))
+        elif isinstance(attribute, bpy.types.QuaternionAttribute):
+            attribute.data.foreach_set("value", np.ravel(values))
+
+
+def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove an attribute by name."""
+    with active_kept(mesh):
+        free = _free_name()
+        mesh.attributes[name].name = free
+        mesh.attributes.remove(mesh.attributes[free])
+
+
+def read_attribute(mesh: bpy.types.Mesh, name: str, size: int) -> np.ndarray | None:
+    """Read a point attribute of vectors (size 3) or quaternions (size 4).
+
+    Returns
+    -------
+    (n,size) numpy float32 array, or None where there is no such attribute of that kind
+    """
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.domain != "POINT":
+        return None
+    values = np.empty((len(mesh.vertices), size), np.float32)
+    if size == 3 and isinstance(attribute, bpy.types.FloatVectorAttribute):
+        attribute.data.foreach_get("vector", values.reshape(-1))
+    elif size == 4 and isinstance(attribute, bpy.types.QuaternionAttribute):
+        attribute.data.foreach_get("value", values.reshape(-1))
+    else:
+        return None
+    return values
+
+
+@contextmanager
+def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
+    """Keep the active attribute the same one, although its place in the list changes."""
+    place = mesh.attributes.active_index or 0
+    name = mesh.attributes[place].name if 0 <= place < len(mesh.attributes) else ""
+    try:
+        yield
+    finally:
+        found = mesh.attributes.find(name) if name else -1
+        mesh.attributes.active_index = found if found >= 0 else place
+
+
+def _is_ours(attribute: bpy.types.Attribute) -> bool:
+    """Tell whether an attribute that is called as ours are is one of them."""
+    return attribute.domain == "POINT" and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
+
+
+def _free_name() -> str:
+    """Make up a name that neither attribute nor vertex group has."""
+    return uuid.uuid4().hex

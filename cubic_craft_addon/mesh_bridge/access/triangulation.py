@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The triangles that a mesh is solved on; the mesh itself keeps its faces."""
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+from .arrays import corner_vertices, write_position
+
+
+def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
+    """Triangulate the faces of a mesh as Blender does for a given shape.
+
+    Where a face with more than three corners is cut depends on the shape. Cubify must always cut
+    the original, however the mesh looks now.
+
+    Parameters
+    ----------
+    mesh : a mesh in Object Mode
+    positions : (n,3) numpy float32 array, the original positions
+
+    Returns
+    -------
+    (m,3) numpy int32 array; vertices in no face do not occur
+
+    Raises
+    ------
+    CubicCraftError
+        A face names a vertex that is not there. Some importers let such faces into a mesh, and
+        triangulating them would read memory that is not the mesh's.
+    """
+    corners = corner_vertices(mesh)
+    wrong = corners[(corners < 0) | (corners >= len(positions))]
+    if len(wrong):
+        raise CubicCraftError(
+            f"A face of mesh '{mesh.name}' names vertex {wrong[0]}, but there are only"
+            f" {len(positions)}: repair it (mesh.validate() in the Python console) or import it"
+            " again"
+        )
+    if len(corners) == 3 * len(mesh.polygons):
+        return corners.reshape(-1, 3)
+    starts = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    # A bare mesh of its own also has no cached normals, which can change how faces are cut.
+    bare = bpy.data.meshes.new("cubic_craft_triangulation")
+    try:
+        bare.vertices.add(len(positions))
+        write_position(bare, positions)
+        bare.loops.add(len(corners))
+        bare.loops.foreach_set("vertex_index", corners)
+        bare.polygons.add(len(starts))
+        bare.polygons.foreach_set("loop_start", starts)
+        bare.calc_loop_triangles()
+        flat = np.empty(3 * len(bare.loop_triangles), np.int32)
+        bare.loop_triangles.foreach_get("vertices", flat)
+    finally:
+        bpy.data.meshes.remove(bare)
+    return flat.reshape(-1, 3)

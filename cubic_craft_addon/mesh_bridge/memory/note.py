@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The note of ours on a mesh: one custom property that says what we wrote.
+
+It is JSON text, because custom properties cannot hold lists of texts, with some of these parts:
+
+``"mesh"``
+    a result written to the mesh: ``fingerprint`` of the base as we wrote it, and per shape key
+    other than the reference its ``name``, ``fingerprint`` and the ``attribute`` of its original.
+``"key"``
+    a result written to a shape key: its ``name`` and ``fingerprint``; the fingerprint of the
+    ``base`` under it, and the key's ``offsets`` from that; and ``made_basis``.
+``"live"``
+    a preview is on: what ``"mesh"`` says, of the shape shown last. An empty ``fingerprint`` is of
+    a shape that is just being written.
+``"run"``
+    beside ``"mesh"`` or ``"key"``: the ``settings`` that the result was made with, and how the run
+    went. What it means is for `cubic_craft_addon.last_run` to say.
+
+A property of that name which is anything else is not ours, and is never changed.
+"""
+
+import json
+from types import NoneType
+from typing import Any
+
+import bpy
+
+from ....solver.errors import CubicCraftError
+
+NOTE = "cubic_craft_note"
+
+_VERSION = 1
+
+_MESH_PART = {"fingerprint": str, "keys": list}
+_MESH_KEY = {"name": str, "fingerprint": str, "attribute": str}
+_RUN_PART: dict[str, Any] = {
+    "settings": dict,
+    "vertices": int,
+    "objects": int,
+    "iterations": int,
+    "energy": float,
+    "converged": bool,
+    "seconds": float,
+    "device": str,
+    "matching": (int, NoneType),
+    "own_vertices": int,
+}
+_KEY_PART = {"name": str, "fingerprint": str, "base": str, "offsets": list, "made_basis": bool}
+
+
+def read_note(mesh: bpy.types.Mesh) -> dict[str, Any]:
+    """Read the note; empty where there is none, or something of that name that is not ours."""
+    text = mesh.get(NOTE)
+    if not isinstance(text, str):
+        return {}
+    try:
+        note = json.loads(text)
+    except (ValueError, RecursionError):
+        return {}
+    if not isinstance(note, dict) or note.pop("version", None) != _VERSION:
+        return {}
+    return note if _is_ours(note) else {}
+
+
+def write_note(mesh: bpy.types.Mesh, note: dict[str, Any]) -> None:
+    """Write the note, or take it away where nothing is left to say.
+
+    Raises
+    ------
+    CubicCraftError
+        As `check_note`, where there is something to write.
+    """
+    if note:
+        check_note(mesh)
+        mesh[NOTE] = json.dumps({"version": _VERSION} | note)
+    elif read_note(mesh):
+        del mesh[NOTE]
+
+
+def check_note(mesh: bpy.types.Mesh) -> None:
+    """Check that the name of the note is free or ours.
+
+    Raises
+    ------
+    CubicCraftError
+        A custom property of that name is somebody else's.
+    """
+    if NOTE in mesh and not read_note(mesh):
+        raise CubicCraftError(
+            f"Mesh '{mesh.name}' has a custom property '{NOTE}' that is not CubicCraft's own: "
+            "rename or remove it first (Object Data > Custom Properties)"
+        )
+
+
+def _is_ours(note: dict[str, Any]) -> bool:
+    """Tell whether a note says only what we write, so that nobody else must check it."""
+    if not note or not note.keys() <= {"mesh", "key", "live", "run"}:
+        return False
+    for part in (note[name] for name in ("mesh", "live") if name in note):
+        if not _fits(part, _MESH_PART) or not all(_fits(key, _MESH_KEY) for key in part["keys"]):
+            return False
+    if "run" in note and not _fits(note["run"], _RUN_PART):
+        return False
+    if "key" in note:
+        part = note["key"]
+        if not _fits(part, _KEY_PART):
+            return False
+        return all(type(value) in (int, float) for value in part["offsets"])
+    return True
+
+
+def _fits(part: Any, types: dict[str, Any]) -> bool:
+    """Tell whether a part of a note has the entries that it should have."""
+    return isinstance(part, dict) and all(isinstance(part.get(n), t) for n, t in types.items())

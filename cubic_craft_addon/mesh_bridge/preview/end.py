@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Take a preview back from what lies on the mesh alone, wherever that mesh has come from."""
+
+from collections.abc import Collection
+from typing import Any
+
+import bpy
+
+from ....solver.errors import CubicCraftError
+from ..access.attributes import LIVE, our_attributes, read_attribute
+from ..access.checks import is_linked
+from ..access.shapes import Shapes, read_shapes, write_shapes
+from ..memory.fingerprint import fingerprint_of_values
+from ..memory.note import read_note
+from .edit_mode import EditedMesh
+from .store import drop_live_part, marked, remove_live_attributes, shapes_before, write_live_part
+
+_ended_in_edit_mode: dict[str, dict[str, Any]] = {}
+"""parts "live" of the note by the fingerprint of what was shown
+
+Ended in Edit Mode, a preview is no longer in the note, but still in the mesh outside, and in the
+undo steps of Edit Mode: entering it pushes one with the preview still on. An undo to such a step,
+or out of Edit Mode, may bring all of the preview back but its part of the note. Like the undo
+steps, this lasts until Blender ends.
+"""
+
+
+def has_preview(mesh: bpy.types.Mesh | None) -> bool:
+    """Tell whether a preview is on the mesh. Cheap: it reads no positions."""
+    return isinstance(mesh, bpy.types.Mesh) and "live" in read_note(mesh)
+
+
+def end_preview(mesh: bpy.types.Mesh) -> bool:
+    """Put all shapes back as they were before the preview, to the bit; works in Edit Mode too.
+
+    An artist who has edited the base since keeps that shape. Edit Mode itself makes 0 of -0 in
+    shape keys, and moves the `position` attribute onto the reference key.
+
+    Returns
+    -------
+    Whether there was a preview to end. Linked meshes stay as they are.
+    """
+    if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
+        return False
+    edited = EditedMesh(mesh) if mesh.is_editmode else None
+    try:
+        present = edited.read_shapes() if edited else read_shapes(mesh)
+    except CubicCraftError:  # a script has left shape keys that do not fit: not what we showed
+        present = None
+    part = read_note(mesh).get("live") or _part_of_undone(present)
+    if not part:
+        return False
+    if edited and part["fingerprint"]:
+        _ended_in_edit_mode[part["fingerprint"]] = part
+    read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
+    before = shapes_before(present, part, read) if present is not None else None
+    if before is not None:
+        write_live_part(mesh, marked(part, None))
+        if edited:
+            edited.write_shapes(before)
+        else:
+            write_shapes(mesh, before)
+    # First the note: what is left of a preview without it does no harm.
+    drop_live_part(mesh)
+    remove_live_attributes(mesh)
+    return True
+
+
+def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
+    """End the preview on every mesh of the file but some.
+
+    Returns
+    -------
+    Names of the meshes that had one.
+    """
+    meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
+    return [mesh.name for mesh in meshes if end_preview(mesh)]
+
+
+def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
+    """Tell whether an undo may have brought back a preview without its note."""
+    return bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
+
+
+def _part_of_undone(present: Shapes | None) -> dict[str, Any] | None:
+    """Find the part of the note by the shape that is there; None where we have not shown it."""
+    if present is None:
+        return None
+    return _ended_in_edit_mode.get(fingerprint_of_values(present.base))

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Show intermediate shapes on a mesh while a modal operator runs.
+
+What they overwrite lies on the mesh (`preview_store`), from where `end_preview` takes it back.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+from ..access.arrays import loose_vertices
+from ..access.attributes import LIVE, check_names
+from ..access.checks import check_writable
+from ..access.rotations import matrices_from_quaternions
+from ..access.shapes import Shapes, read_shapes, write_shapes
+from ..memory.affine import fit
+from ..memory.note import check_note, read_note
+from ..memory.original import Start, original_shapes
+from ..result.cubic_key import find_cubic_key
+from ..result.rounded_for_storage import carry_finite, settled, settled_rotations
+from .end import end_preview
+from .store import marked, move_live, store_live, write_live_part
+
+
+class Preview:
+    """A preview on one mesh, from its making until `end_preview`.
+
+    It holds plain arrays and texts only. Blender frees meshes at undo, so the mesh is handed in
+    anew at each call.
+    """
+
+    def __init__(self, mesh: bpy.types.Mesh, start: Start = "HERE") -> None:
+        """Store on the mesh what is there now; one that is on already is ended first.
+
+        Parameters
+        ----------
+        mesh
+        start : what the run starts from where the mesh was edited by hand since the last result
+
+        Raises
+        ------
+        CubicCraftError
+            A mesh that cannot be written, or something in the way of our note or attributes; the
+            mesh is then as it was before.
+        """
+        check_writable(mesh, mesh.name)
+        check_note(mesh)
+        check_names(mesh)
+        end_preview(mesh)
+        cubic_key = find_cubic_key(mesh)
+        self._cubic_key = cubic_key.name if cubic_key is not None else None
+        self._original = original_shapes(mesh, start)
+        self._loose = loose_vertices(mesh)
+        self._keys = _key_names(mesh)
+        present = read_shapes(mesh)
+        self._shown = present.base
+        store_live(mesh, present)
+
+    @property
+    def needs_rotations(self) -> bool:
+        """Whether there are shape keys to be carried along."""
+        return bool(self._original.relative)
+
+    def show(
+        self, mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray | None = None
+    ) -> None:
+        """Show a shape on the mesh, as `write_mesh` would write it.
+
+        Our own shape key shows it too, so that the picture is the same whatever its value is.
+
+        Parameters
+        ----------
+        mesh : the mesh, or what has become of it after an undo; in Object Mode
+        positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+        rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
+            turn, or no shape keys need them
+
+        Raises
+        ------
+        CubicCraftError
+            Wrong number of vertices, values that are not finite, a mesh that cannot be written,
+            or one without this preview. The mesh is then as it was before.
+        """
+        check_writable(mesh, mesh.name)
+        part = self._part_on(mesh)
+        base = settled(mesh, positions, self._original.base, self._loose)
+        shown = self._with_keys(mesh, base, rotations)
+        finished = marked(part, shown)
+        # Should writing fail half-way, `end_preview` must not take the mixture for an edit.
+        write_live_part(mesh, marked(part, None))
+        write_shapes(mesh, shown)
+        write_live_part(mesh, finished)
+        self._shown = shown.base
+
+    def take_along(self, mesh: bpy.types.Mesh) -> bool:
+        """Transform what was there before as the artist has transformed what is shown.
+
+        Where the origin was set, or a transform applied, all vertices have been moved alike.
+        `end_preview` would take the shape that is shown for one that was made by hand.
+
+        Returns
+        -------
+        Whether the preview is to be ended and begun anew; so also with other shape keys.
+        """
+        part = read_note(mesh).get("live")
+        if part is None or LIVE not in mesh.attributes or mesh.is_editmode:
+            return False
+        if _key_names(mesh) != self._keys or len(mesh.vertices) != len(self._loose):
+            return True  # what is there before is known from the mesh itself
+        try:
+            present = read_shapes(mesh)
+        except CubicCraftError:
+            return False
+        if (present.base == self._shown).all():
+            return False
+        way = fit(self._shown, present.base)
+        if way is None:
+            return False
+        move_live(mesh, way.moved)
+        write_live_part(mesh, marked(part, present))
+        self._shown = present.base
+        return True
+
+    def _with_keys(
+        self, mesh: bpy.types.Mesh, base: np.ndarray, rotations: np.ndarray | None
+    ) -> Shapes:
+        """Add what all shape keys are to the base that is to be shown."""
+        original = self._original
+        if original.reference is None:
+            return Shapes(base, {}, None, {})
+        if not original.relative:
+            shown = Shapes(base, {original.reference: base}, original.reference, {})
+        else:
+            if rotations is None:
+                matrices = np.broadcast_to(np.eye(3), (len(base), 3, 3))
+            else:
+                quaternions = settled_rotations(mesh, rotations, self._loose)
+                matrices = matrices_from_quaternions(quaternions)
+            shown = carry_finite(mesh, original, base, matrices)
+        if self._cubic_key is None:
+            return shown
+        return replace(shown, keys=shown.keys | {self._cubic_key: base})
+
+    def _part_on(self, mesh: bpy.types.Mesh) -> dict[str, Any]:
+        """Return the part "live" of the note, once what would be overwritten lies on the mesh."""
+        part = read_note(mesh).get("live")
+        if (
+            part is None
+            or LIVE not in mesh.attributes
+            or len(mesh.vertices) != len(self._loose)
+            or _key_names(mesh) != self._keys
+        ):
+            raise CubicCraftError(
+                f"Mesh '{mesh.name}' has changed while a preview was on it: start again"
+            )
+        return part
+
+
+def _key_names(mesh: bpy.types.Mesh) -> list[str]:
+    """List the names of the shape keys."""
+    return mesh.shape_keys.key_blocks.keys() if mesh.shape_keys is not None else []

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shape keys under a result, back to where they were before it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..access.rotations import matrices_from_quaternions
+from ..access.shapes import Shapes, carried
+from ..memory.recognition import Recognised
+
+_ROUNDING = 2.0**-24  # of float32, relative
+_MARGIN = 32.0
+
+
+@dataclass(frozen=True)
+class _Turned:
+    """Ways back for the offsets of shape keys, each (n,3,3)."""
+
+    with_mesh: np.ndarray
+    """for those that have been transformed with the mesh"""
+    alone: np.ndarray
+    """for those that were kept while the base was transformed under them, as Edit Mode does"""
+
+
+def carry_back(
+    present: Shapes,
+    recognised: Recognised,
+    base: np.ndarray,
+    quaternions: np.ndarray | None,
+    known: Mapping[str, np.ndarray],
+    stored: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Return the points that all shape keys had before a result, transformed with the mesh since.
+
+    What the artist has done to them stays: they are carried with their offsets. Those of which
+    that gives what is stored, up to rounding, get what is stored.
+
+    Parameters
+    ----------
+    present : the shapes, with shape keys
+    recognised : what has become of the vertices
+    base : (n,3) numpy float32 array, the original base, transformed
+    quaternions : (n,4) numpy float32 array or None, the rotations that the result was written with
+    known : names of keys that are to get their stored points, to these
+    stored : names of keys, the reference among them, to their stored points
+
+    Returns
+    -------
+    dict from names to (n,3) float32 arrays
+    """
+    assert present.reference is not None
+    keys = {present.reference: base}
+    if not present.relative:
+        return keys
+    back = _ways_back(recognised, quaternions, len(base))
+    is_flattened = _is_flattened(recognised, len(base))
+    for name, other in present.relative.items():
+        if name in known:
+            keys[name] = known[name]
+            continue
+        key, under = present.keys[name], present.keys[other]
+        points = carried(key, under, keys[other], back.with_mesh)
+        if name in stored:
+            reach = _MARGIN * _ROUNDING * _sizes(key, back.with_mesh)
+            target = recognised.moved(stored[name], points)
+            is_met = is_flattened | _is_near(points, target, reach)
+            if other in stored and not is_met.all():
+                shifted = carried(key, under, keys[other], back.alone)
+                offset = stored[name].astype(np.float64) - stored[other]
+                is_shifted = is_flattened | _is_near(shifted, keys[other] + offset, reach)
+                if is_shifted.sum() > is_met.sum():
+                    keys[name] = shifted
+                    continue
+            points = np.where(is_met[:, None], target, points)
+        keys[name] = points
+    return keys
+
+
+def _ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: int) -> _Turned:
+    alone = np.broadcast_to(np.eye(3), (count, 3, 3))
+    if quaternions is not None:
+        # Vertices of meshes that were joined, or made in between, may have no rotation.
+        is_none = np.square(quaternions).sum(axis=1) < 1e-6
+        rotations = matrices_from_quaternions(np.where(is_none[:, None], (1, 0, 0, 0), quaternions))
+        alone = rotations.transpose(0, 2, 1)
+    with_mesh = alone.copy()
+    for part in recognised.parts:
+        if not part.map.is_identity:
+            linear = part.map.linear
+            with_mesh[part.rows] = linear @ alone[part.rows] @ np.linalg.inv(linear)
+    return _Turned(with_mesh, alone)
+
+
+def _sizes(points: np.ndarray, back: np.ndarray) -> np.ndarray:
+    """Return what the rounding of each offset is relative to, as it comes back."""
+    return np.abs(points).max(initial=0.0) * (1.0 + np.abs(back).sum(axis=2).max(axis=1))
+
+
+def _is_near(points: np.ndarray, target: np.ndarray, reach: np.ndarray) -> np.ndarray:
+    return (np.abs(points.astype(np.float64) - target) <= reach[:, None]).all(axis=1)
+
+
+def _is_flattened(recognised: Recognised, count: int) -> np.ndarray:
+    """Tell whose offsets have lost an extent, so that they cannot be carried back."""
+    is_flattened = np.zeros(count, bool)
+    for part in recognised.parts:
+        is_flattened[part.rows] = part.map.is_flattened
+    return is_flattened

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shape key of ours: made, found again, removed.
+
+The artist may rename it, dial it, key it and drive it. It is found by its points, under any name.
+With other points than we wrote it is the artist's, whatever it is called: it is never changed or
+removed again. Only where Blender itself has moved it along with an edited Basis, or transformed it
+with the whole mesh, it stays ours. For the latter its points, and those of Basis, lie in attributes
+as we wrote them.
+"""
+
+from collections.abc import Callable
+
+import bpy
+import numpy as np
+
+from ..access.arrays import read_key, write_key
+from ..access.attributes import KEY, add_attribute, our_attributes, read_attribute, remove_attribute
+from ..access.checks import mesh_of
+from ..memory.affine import fit
+from ..memory.fingerprint import fingerprint_of_values
+from ..memory.note import read_note, write_note
+from ..memory.offsets import offset_sums, same_offsets
+
+_NAME = "Cubic"
+_BASE = f"{KEY}.base"
+
+
+def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
+    """Find the shape key of ours, or None. As reference key it would no longer be a result."""
+    noted = read_note(mesh).get("key")
+    if noted is None or mesh.shape_keys is None:
+        return None
+    reference = mesh.shape_keys.reference_key
+    keys = [key for key in mesh.shape_keys.key_blocks if key != reference]
+    keys.sort(key=lambda key: key.name != noted["name"])  # the most likely one first
+    base = read_key(mesh, reference)
+
+    def is_written(points: np.ndarray) -> bool:
+        return fingerprint_of_values(points) == noted["fingerprint"]
+
+    def is_shifted(points: np.ndarray) -> bool:
+        return same_offsets(offset_sums(points, base), noted["offsets"])
+
+    # While Basis is as it was, nothing has moved the key but the artist.
+    is_base_moved = fingerprint_of_values(base) != noted["base"]
+    tests = (is_written, is_shifted, _transformed(mesh, base)) if is_base_moved else (is_written,)
+    for is_ours in tests:
+        for key in keys:
+            points = read_key(mesh, key)
+            is_fresh = np.array_equal(points, base)  # as every new key is: its name must tell
+            if is_ours(points) and (key.name == noted["name"] or not is_fresh):
+                return key
+    return None
+
+
+def write_cubic_key(
+    obj: bpy.types.Object, positions: np.ndarray, key: bpy.types.ShapeKey | None
+) -> None:
+    """Write positions to the shape key of ours, which is made where it is missing.
+
+    `key` is what `find_cubic_key` found before anything was written. It keeps its value, its range,
+    and what drives it. One that the artist has edited is no longer ours and stays; the note forgets
+    it for the new one.
+    """
+    mesh = mesh_of(obj)
+    note = read_note(mesh)
+    made_basis = note["key"]["made_basis"] if key is not None else False
+    if key is None:
+        if mesh.shape_keys is None:
+            obj.shape_key_add(name="Basis", from_mix=False)
+            made_basis = True
+        key = obj.shape_key_add(name=_NAME, from_mix=False)
+        key.value = 1.0  # what a new key starts with differs between versions of Blender
+    write_key(key, positions)
+    assert mesh.shape_keys is not None
+    base = read_key(mesh, mesh.shape_keys.reference_key)
+    for name, points in ((KEY, positions), (_BASE, base)):
+        add_attribute(mesh, name, points)
+    part = {
+        "name": key.name,
+        "fingerprint": fingerprint_of_values(positions),
+        "base": fingerprint_of_values(base),
+        "offsets": offset_sums(positions, base),
+        "made_basis": made_basis,
+    }
+    write_note(mesh, note | {"key": part})
+
+
+def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray], bool]:
+    """Return a test whether points are the key, transformed as Basis has been."""
+    written, written_base = read_attribute(mesh, KEY, 3), read_attribute(mesh, _BASE, 3)
+    if written is None or written_base is None:
+        return lambda points: False
+    transform = fit(written_base, base)
+    return lambda points: transform is not None and bool(transform.agrees(written, points).all())
+
+
+def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
+    """Remove the shape key of ours, and Basis where we made it and no other key needs it.
+
+    `key` is what `find_cubic_key` found before anything was written: it compares the key with
+    the base. Removing it is the last that is done, as it cannot be taken back.
+    """
+    for name in our_attributes(mesh, (KEY,)):
+        remove_attribute(mesh, name)
+    note = read_note(mesh)
+    noted = note.pop("key", None)
+    write_note(mesh, note)
+    if key is None:
+        return
+    shape_keys = mesh.shape_keys
+    assert shape_keys is not None
+    # With Basis alone Blender takes it for no shape key at all.
+    is_all_ours = noted["made_basis"] and len(shape_keys.key_blocks) == 2
+    remove_keys(mesh, [key, shape_keys.reference_key] if is_all_ours else [key])
+
+
+def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
+    """Remove shape keys with their drivers, on every object of the mesh.
+
+    The active shape key is remembered per object, by number, and Blender corrects that of one
+    object only. So the key is removed through a passing object, and all are corrected alike.
+    """
+    for key in keys:
+        shape_keys = mesh.shape_keys
+        assert shape_keys is not None
+        place = shape_keys.key_blocks.find(key.name)
+        active = {obj: obj.active_shape_key_index for obj in bpy.data.objects if obj.data == mesh}
+        animation = shape_keys.animation_data
+        if animation is not None:  # Blender 4.2 would leave them behind, pointing nowhere
+            path = key.path_from_id() + "."
+            for driver in [d for d in animation.drivers if d.data_path.startswith(path)]:
+                animation.drivers.remove(driver)
+        passing = bpy.data.objects.new(key.name, mesh)
+        try:
+            passing.shape_key_remove(key)
+        finally:
+            bpy.data.objects.remove(passing)
+        for obj, index in active.items():
+            if index and index >= place:
+                obj.active_shape_key_index = index - 1

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write all or nothing: put a mesh back when writing to it fails half-way."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..access.attributes import add_attribute, our_attributes, read_attribute, remove_attribute
+from ..access.shapes import read_shapes, write_shapes
+from ..memory.note import read_note, write_note
+from .cubic_key import remove_keys
+
+
+@contextmanager
+def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
+    """Undo what the block did to the mesh if it raises.
+
+    It covers the positions, the points of shape keys, shape keys added, attributes of ours and
+    the note. It cannot bring removed shape keys back: remove those last.
+    """
+    state = _State(mesh)
+    try:
+        yield
+    except BaseException:
+        state.put_back()
+        raise
+
+
+class _State:
+    """What `all_or_nothing` puts back."""
+
+    def __init__(self, mesh: bpy.types.Mesh) -> None:
+        self.mesh = mesh
+        self.shapes = read_shapes(mesh)
+        self.note = read_note(mesh)
+        self.ours = {}
+        for name in our_attributes(mesh):
+            for size in (3, 4):
+                values = read_attribute(mesh, name, size)
+                if values is not None:
+                    self.ours[name] = values
+
+    def put_back(self) -> None:
+        """Undo all changes since the state was taken."""
+        mesh = self.mesh
+        if mesh.shape_keys is not None:
+            added = [k for k in mesh.shape_keys.key_blocks if k.name not in self.shapes.keys]
+            remove_keys(mesh, added[::-1])
+        for name in our_attributes(mesh):
+            remove_attribute(mesh, name)
+        for name, values in self.ours.items():
+            add_attribute(mesh, name, values)
+        write_note(mesh, self.note)
+        write_shapes(mesh, self.shapes)

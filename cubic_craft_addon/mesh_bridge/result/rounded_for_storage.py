@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of the solver's arrays is written: rounded, checked, and nothing moved needlessly."""
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+from ..access.rotations import quaternions_from_matrices
+from ..access.shapes import Shapes, carry
+
+
+def settled(
+    mesh: bpy.types.Mesh, positions: np.ndarray, base: np.ndarray, loose: np.ndarray
+) -> np.ndarray:
+    """Round positions to what is stored; vertices that stay, or are loose, keep their bits.
+
+    Parameters
+    ----------
+    mesh : the mesh that they are for, which the messages name
+    positions : (n,3) numpy array, object space
+    base : (n,3) numpy float32 array, the original positions
+    loose : (n,) numpy bool array, see `loose_vertices`
+
+    Returns
+    -------
+    (n,3) numpy float32 array
+
+    Raises
+    ------
+    CubicCraftError
+        As `check_shape`.
+    """
+    check_shape(mesh, positions, base.shape, "positions")
+    with np.errstate(over="ignore"):
+        rounded = np.asarray(positions, np.float32)
+    same = rounded == base
+    # By columns: reducing along so short an axis would take as long as all the rest.
+    stays = (same[:, 0] & same[:, 1] & same[:, 2]) | loose
+    result = np.where(stays[:, None], base, rounded)
+    check_shape(mesh, result, base.shape, "positions")
+    return result
+
+
+def settled_rotations(mesh: bpy.types.Mesh, rotations: np.ndarray, loose: np.ndarray) -> np.ndarray:
+    """Round rotations to what is stored; vertices in no face do not turn.
+
+    Parameters
+    ----------
+    mesh : the mesh that they are for, which the messages name
+    rotations : (n,3,3) numpy array
+    loose : (n,) numpy bool array
+
+    Returns
+    -------
+    (n,4) numpy float32 array of quaternions
+
+    Raises
+    ------
+    CubicCraftError
+        As `check_shape`.
+    """
+    check_shape(mesh, rotations, (len(loose), 3, 3), "rotations")
+    quaternions = quaternions_from_matrices(rotations)
+    quaternions[loose] = (1, 0, 0, 0)
+    return quaternions
+
+
+def carry_finite(
+    mesh: bpy.types.Mesh, original: Shapes, base: np.ndarray, rotations: np.ndarray
+) -> Shapes:
+    """Do what `carry` does, and refuse shape keys that have become infinite.
+
+    Raises
+    ------
+    CubicCraftError
+        As `check_shape`.
+    """
+    carried = carry(original, base, rotations)
+    for name, points in carried.keys.items():
+        check_shape(mesh, points, base.shape, f"shape key '{name}'")
+    return carried
+
+
+def check_shape(mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...], what: str) -> None:
+    """Check that an array to be written fits the mesh and is finite.
+
+    Raises
+    ------
+    CubicCraftError
+        Naming `what` is wrong with it.
+    """
+    if np.shape(array) != shape:
+        raise CubicCraftError(
+            f"The result does not fit mesh '{mesh.name}': its {what} have the shape "
+            f"{np.shape(array)} instead of {shape}; cubify it again"
+        )
+    if not np.isfinite(array).all():
+        raise CubicCraftError(
+            f"The result for mesh '{mesh.name}' is not finite in its {what}: nothing was written; "
+            "try a smaller cubeness, or clean up degenerate faces (Mesh > Clean Up)"
+        )

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is seen of an object, with its modifiers, as a mesh object of its own; the source stays.
+
+Until it is written it is in no scene. Texts, curves, surfaces and metaballs become meshes this way.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+from ..access.attributes import our_attributes, remove_attribute
+from ..access.checks import mesh_of
+from ..memory.note import NOTE, read_note
+from .new_object import link_beside, select_instead
+from .results import write_mesh
+
+KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""types of objects that are seen as meshes"""
+
+_PLAIN_PARENTS = ("OBJECT", "BONE", "VERTEX", "VERTEX_3")
+
+
+def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
+    """Return a new mesh object with the mesh that is seen of another, in no scene yet.
+
+    It has materials, UVs, vertex groups and attributes as far as the evaluated mesh has them, the
+    place of the source, and no modifiers and shape keys: they are in it.
+
+    Raises
+    ------
+    CubicCraftError
+        Nothing with faces is seen of the object; no new object is left then.
+    """
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    try:
+        mesh = bpy.data.meshes.new_from_object(
+            obj.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
+        )
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{obj.name}" is not seen as a mesh') from error
+    if not mesh.polygons:
+        bpy.data.meshes.remove(mesh)
+        raise CubicCraftError(
+            f'"{obj.name}" shows no faces of its own: give a curve a bevel, and realize instances'
+        )
+    _forget_ours(mesh)
+    mesh.name = f"{obj.data.name} Cubic" if obj.data else f"{obj.name} Cubic"
+    new = _copy(obj, mesh) if obj.type == "MESH" else _stand_in(obj, mesh)
+    new.name = f"{obj.name} Cubic"
+    return new
+
+
+def remove_seen(new: bpy.types.Object) -> None:
+    """Remove what `make_seen` has made."""
+    mesh = mesh_of(new)
+    bpy.data.objects.remove(new)
+    bpy.data.meshes.remove(mesh)
+
+
+def write_seen(
+    new: bpy.types.Object,
+    source: bpy.types.Object | None,
+    positions: np.ndarray,
+    rotations: np.ndarray,
+    prepare: Callable[[bpy.types.Object], None],
+    run: dict[str, Any] | None,
+) -> bpy.types.Object:
+    """Write a result to what `make_seen` has made, and show that beside the source.
+
+    Parameters
+    ----------
+    new, source : bpy.types.Object
+        The source is None where it was deleted in the meantime.
+    positions, rotations, prepare, run
+        As for `write_new_object`.
+
+    Raises
+    ------
+    CubicCraftError
+        As `write_mesh`. Whatever is raised, there is then no new object.
+    """
+    try:
+        write_mesh(mesh_of(new), positions, rotations, run)
+        if source is None:
+            bpy.context.scene.collection.objects.link(new)
+            prepare(new)
+            return new
+        link_beside(source, new)
+        prepare(new)
+        select_instead(source, new)
+    except BaseException:
+        remove_seen(new)
+        raise
+    return new
+
+
+def _forget_ours(mesh: bpy.types.Mesh) -> None:
+    """Remove what evaluating has brought along of an earlier result: it is of another mesh."""
+    for name in our_attributes(mesh):
+        remove_attribute(mesh, name)
+    if read_note(mesh):
+        del mesh[NOTE]
+
+
+def _copy(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    new = obj.copy()
+    assert new is not None
+    new.data = mesh
+    new.modifiers.clear()
+    new.active_shape_key_index = 0
+    new.show_only_shape_key = False
+    if new.parent_type not in _PLAIN_PARENTS:  # deforms as well, which is in the mesh
+        new.parent_type = "OBJECT"
+    return new
+
+
+def _stand_in(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    new = bpy.data.objects.new(obj.name, mesh)
+    new.parent = obj.parent
+    if obj.parent_type in _PLAIN_PARENTS:
+        new.parent_type, new.parent_bone = obj.parent_type, obj.parent_bone
+    new.matrix_parent_inverse = obj.matrix_parent_inverse
+    new.matrix_world = obj.matrix_world
+    return new

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is solved at once: an object by itself, or several that are kept together.
+
+`prepare` changes nothing.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from ... import solver
+from ..settings.values import Settings
+from .holds import Hold, holds_of
+from .member import Member, parts_of
+from .object_frame import Placement
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """What is done once per shapes, placements and handles of an assembly."""
+
+    members: tuple[Member, ...]
+    placements: tuple[Placement, ...]
+    """where each member is solved"""
+    setup: solver.Setup
+    is_still: np.ndarray
+    """(N,) bool, what the setup was made with"""
+    without_holds: solver.Setup
+    """the same before groups were held"""
+    holds: Sequence[Hold]
+    seconds: float
+
+    @property
+    def name(self):
+        """What to call it in messages."""
+        return _listed([member.name for member in self.members])
+
+    @property
+    def vertices(self):
+        """Number of vertices."""
+        return sum(member.vertices for member in self.members)
+
+    @property
+    def triangles(self):
+        """Number of triangles of the virtual triangulations."""
+        return sum(member.triangles for member in self.members)
+
+    @property
+    def components(self):
+        """Number of connected parts, loose vertices not counted."""
+        return sum(member.components for member in self.members)
+
+    @property
+    def is_idle(self):
+        """Whether nothing is asked to change at all."""
+        return bool(self.is_still.all())
+
+    @property
+    def settings(self):
+        """Those of the first member, for what all have in common."""
+        return self.members[0].settings
+
+    def with_cubeness(self, cubeness: float) -> Prepared:
+        """Return the same, to be solved at another cubeness."""
+        members = tuple(
+            replace(member, settings=replace(member.settings, cubeness=cubeness))
+            for member in self.members
+        )
+        return replace(self, members=members)
+
+    def parts(self) -> Iterator[tuple[Member, Placement, slice]]:
+        """Give each member with its placement and its part of the arrays, see `parts_of`."""
+        return parts_of(self.members, self.placements)
+
+
+class Joinable(Protocol):
+    """What `assemblies` puts together."""
+
+    @property
+    def settings(self) -> Settings:
+        """The settings of the object."""
+        ...
+
+    @property
+    def in_world(self) -> Placement | None:
+        """None where it cannot be solved with others."""
+        ...
+
+
+T = TypeVar("T", bound=Joinable)
+
+
+def assemblies(items: Sequence[T]) -> list[list[T]]:
+    """Return objects by what is solved at once, in the order of the first of each."""
+    joined = [item for item in items if _is_joined(item)]
+    return [
+        joined if _is_joined(item) else [item]
+        for item in items
+        if not _is_joined(item) or item is joined[0]
+    ]
+
+
+def _is_joined(item):
+    return item.settings.together == "SELECTION" and item.in_world is not None
+
+
+def prepare(members: Sequence[Member], earlier: Sequence[Prepared] = ()) -> Prepared:
+    """Factorise what is to be solved at once.
+
+    Parameters
+    ----------
+    members : sequence of Member
+        A single one is solved in its own coordinates, several in world space.
+    earlier : sequence of Prepared
+        What has not changed since is taken from them.
+
+    Raises
+    ------
+    CubicCraftError
+        They cannot be solved; the message names the objects.
+    """
+    begin = time.perf_counter()
+    placements = _placements(members)
+    is_still = np.concatenate([member.of_whole(member.is_still) for member in members])
+    is_held = _is_held(members)
+    try:
+        rest = _rest(members, placements, earlier)
+        setup = next(
+            (
+                other.without_holds
+                for other in earlier
+                if _has_setup(other, members, rest, is_still)
+            ),
+            None,
+        )
+        if setup is None:
+            # Somewhere the solver needs a vertex that is free.
+            is_some_free = not (is_still | is_held).all()
+            still = is_still if is_some_free and is_still.any() else None
+            mirrors = _mirrors(members, placements)
+            setup = solver.Setup(rest, np.flatnonzero(is_held), still, mirrors)
+        without_holds, holds = setup, holds_of(members, placements, rest)
+        if holds:
+            setup = _with_holds(setup, holds, earlier)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f"{_listed([m.name for m in members])}: {error}") from error
+    seconds = time.perf_counter() - begin + sum(member.seconds for member in members)
+    return Prepared(tuple(members), placements, setup, is_still, without_holds, holds, seconds)
+
+
+def _placements(members):
+    if len(members) == 1:
+        return (members[0].alone,)
+    return tuple(member.in_world for member in members if member.in_world is not None)
+
+
+def _rest(members, placements, earlier):
+    """Build the RestMesh, or take an earlier one of the same shapes: its links are known."""
+    proxy = members[0].settings.proxy
+    for other in earlier:
+        if not _has_shapes(other, members, placements):
+            continue
+        before, rest = other.settings.proxy, other.setup.rest
+        if before == proxy:
+            return rest
+        if replace(before, solidity=proxy.solidity) == proxy:
+            return rest.with_solidity(proxy.solidity)
+    positions, triangles = [], []
+    for member, placement, part in parts_of(members, placements):
+        F = member.whole.triangles
+        positions.append(placement.place(member.whole.images(member.shape.original)))
+        triangles.append(part.start + (F[:, ::-1] if placement.is_mirrored else F))
+    return solver.rest_mesh(np.concatenate(positions), np.concatenate(triangles), proxy)
+
+
+def _has_shapes(prepared, members, placements):
+    if len(prepared.members) != len(members):
+        return False
+    is_same = all(
+        one.whole.added == other.whole.added and one.shape.is_like(other.shape)
+        for one, other in zip(prepared.members, members, strict=True)
+    )
+    places = zip(prepared.placements, placements, strict=True)
+    return is_same and all(one.shape_key == other.shape_key for one, other in places)
+
+
+def _has_setup(prepared, members, rest, is_still):
+    if prepared.setup.rest is not rest or not np.array_equal(prepared.is_still, is_still):
+        return False
+    pairs = zip(prepared.members, members, strict=True)
+    if any(one.whole.mirrored != other.whole.mirrored for one, other in pairs):
+        return False
+    return np.array_equal(_is_held(prepared.members), _is_held(members))
+
+
+def _with_holds(setup, holds, earlier):
+    """Return a Setup with groups, or take an earlier one: only where they go has changed."""
+    for other in earlier:
+        if other.without_holds is setup and len(other.holds) == len(holds):
+            pairs = zip(other.holds, holds, strict=True)
+            if all(np.array_equal(one.weights, two.weights) for one, two in pairs):
+                return other.setup
+    return setup.with_holds([hold.weights for hold in holds])
+
+
+def _is_held(members):
+    """Return where handles hold vertices, of all that are solved."""
+    return np.concatenate([member.of_whole(member.is_held) for member in members])
+
+
+def _mirrors(members, placements):
+    """Return the Mirrors of all members where they are solved."""
+    total, found = sum(len(member.whole.source) for member in members), []
+    for member, placement, part in parts_of(members, placements):
+        whole = member.whole
+        for reflection, partner in zip(whole.mirrored, whole.partners, strict=True):
+            everywhere = np.full(total, solver.NO_PARTNER)
+            everywhere[part] = np.where(partner >= 0, partner + part.start, solver.NO_PARTNER)
+            found.append(placement.mirror(reflection.mirror(everywhere)))
+    return found
+
+
+def _listed(names):
+    quoted = [f'"{name}"' for name in names]
+    if len(quoted) > 3:
+        return f"{quoted[0]}, {quoted[1]} and {len(quoted) - 2} others"
+    return " and ".join(filter(None, [", ".join(quoted[:-1]), quoted[-1]]))

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Keep on Floor: what stands on the ground before Cubify stands on it afterwards."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import numpy as np
+
+from ... import solver
+
+_STANDING = 0.01
+"""of the whole height: how far above the lowest point a part may begin that stands on the ground"""
+
+
+def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """Return positions (N,3) of a run, with each component that stands put back on its feet.
+
+    The lowest point of a component that begins where the whole does keeps its height. Others stay
+    where they are, and so do those of which something is held.
+
+    Parameters
+    ----------
+    setup
+    positions : (N,3) array, where the run has taken the vertices of the input
+    up : (3,) array, unit vector
+    """
+    rest = setup.rest
+    used, place = rest.place
+    component = rest.component[place]
+    before = rest.input_positions[used] @ up
+    lowest = _lowest(before, component, rest.component_count)
+    drop = lowest - _lowest(positions[used] @ up, component, rest.component_count)
+    limit = lowest.min() + _STANDING * np.ptp(before)
+    drop[setup.is_anchored | (lowest > limit)] = 0.0
+    kept = positions.copy()
+    kept[used] += drop[component][:, None] * up
+    return kept
+
+
+def _lowest(heights, component, count):
+    """Return the least of the heights (n,) in each component, (count,)."""
+    lowest = np.full(count, np.inf)
+    np.minimum.at(lowest, component, heights)
+    return lowest

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
+
+import math
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Euler, Matrix
+
+from ... import solver
+from ...solver import CubicCraftError
+from ..settings.values import Settings
+
+_SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
+_DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
+_SMALLEST_TURN = 1e-6  # radians; a cube that is turned by less is taken as not turned
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How an object stands in the coordinates that it is solved in.
+
+    Those are its own, stretched as it is seen, where it is solved alone: nothing changes then while
+    it is moved or turned. Objects that are solved together meet in world space.
+    """
+
+    linear: np.ndarray
+    """(3,3) A of p = A v + t, invertible"""
+    offset: np.ndarray
+    """(3,) t"""
+    turn: np.ndarray
+    """(3,3) rotation or mirroring T of A = T S"""
+    stretch: np.ndarray
+    """(3,3) symmetric stretch S of A = T S, up to rounding"""
+    orientation: np.ndarray
+    """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame; one of
+    the 24 that are the same for a cube"""
+    up: np.ndarray
+    """(3,) unit vector that points up in the world"""
+
+    @property
+    def is_mirrored(self):
+        """Whether triangles face the other way there."""
+        return bool(np.linalg.det(self.linear) < 0.0)
+
+    @property
+    def key(self):
+        """All of it, for comparisons bit for bit."""
+        return self.shape_key, self.orientation.tobytes()
+
+    @property
+    def shape_key(self):
+        """All that decides where the vertices are."""
+        return self.linear.tobytes(), self.offset.tobytes()
+
+    @property
+    def matrix(self):
+        """(4,4) of p = A v + t."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = self.linear, self.offset
+        return matrix
+
+    def place(self, points):
+        """Return points (n,3) of the object where it is solved, float64."""
+        placed = points.astype(np.float64) @ self.linear.T
+        return placed + self.offset if self.offset.any() else placed
+
+    def read_back(self, placed):
+        """Return what `place` gave, or what has become of it, in object coordinates."""
+        centred = placed - self.offset if self.offset.any() else placed
+        return centred @ np.linalg.inv(self.linear).T
+
+    def mirror(self, mirror):
+        """Return the Mirror of an object's coordinates in those that it is solved in."""
+        linear = self.linear @ mirror.linear @ np.linalg.inv(self.linear)
+        offset = self.linear @ mirror.offset + self.offset - linear @ self.offset
+        return solver.Mirror(mirror.partner, linear, offset)
+
+    def read_rotations_back(self, rotations):
+        """Return the rotations (n,3,3) of surroundings of vertices in object coordinates.
+
+        On an object that is scaled unevenly they are the nearest rotations to what happens to a
+        vertex's surroundings; they turn the offsets of shape keys, and must not distort them.
+        """
+        if not np.array_equal(self.turn, np.eye(3)):
+            rotations = self.turn.T @ rotations @ self.turn
+        stretch = self.stretch
+        if np.allclose(stretch, stretch[0, 0] * np.eye(3), rtol=1e-6, atol=0.0):
+            return rotations
+        maps = np.linalg.inv(stretch) @ rotations @ stretch
+        return solver.svd_rotations(maps.swapaxes(1, 2))
+
+
+def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
+    """Return the placement of an object that is solved for itself: its coordinates, stretched.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    stretch, orientation = stretch_and_orientation(obj, settings)
+    orientation = _without_right_angles(orientation)
+    turn, _ = _turn_and_stretch(obj)
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2])
+
+
+def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
+    """Return the placement of an object in world space.
+
+    None where it has none: an object that is scaled flat is solved as if it were not scaled, and
+    would be in the wrong place beside others.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    world = np.array(obj.matrix_world, dtype=np.float64)
+    linear, offset = np.ascontiguousarray(world[:3, :3]), world[:3, 3].copy()
+    turn, stretch = _turn_and_stretch(obj)
+    if _is_flat(linear) or not np.isfinite(offset).all():
+        return None
+    orientation = proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
+    orientation, up = _without_right_angles(orientation), np.array([0.0, 0.0, 1.0])
+    return Placement(linear, offset, turn, stretch, orientation, up)
+
+
+def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
+    """Return the object's stretch and the orientation of the cube.
+
+    The world matrix of the object, W = T S, is split (polar decomposition) into a rotation or
+    mirroring T and a symmetric stretch S. The mesh is solved as it is seen, that is with positions
+    S v, and the cube's frame is given in the same coordinates. So an object scaled flat becomes as
+    cubic as the same mesh modelled flat.
+
+    Returns
+    -------
+    stretch : (3,3) array
+        S, invertible.
+    orientation : (3,3) array
+        The rotation Q that maps stretched object coordinates into the cube's frame.
+
+    Raises
+    ------
+    CubicCraftError
+        The space is FRAME and no frame object is set, or the object's matrix is not finite.
+    """
+    turn, stretch = _turn_and_stretch(obj)
+    return stretch, proper(_axes(settings).T @ _into_space(obj, settings, turn))
+
+
+def world_axes(obj: bpy.types.Object, settings: Settings):
+    """Return the axes of the cube in world space, as the columns of a (3,3) array.
+
+    Those of a mirrored object, which the angles are relative to, are left-handed.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    turn, _ = _turn_and_stretch(obj)
+    return turn @ _into_space(obj, settings, turn).T @ _axes(settings)
+
+
+def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
+    """Return the Euler angles (radians) that give the orientation, the inverse of the above.
+
+    Of the 24 that are the same for a cube, these are the smallest.
+    """
+    turn, _ = _turn_and_stretch(obj)
+    axes = proper(_into_space(obj, settings, turn) @ orientation.T)
+    return Matrix(solver.nearest_to_identity(axes.T).T).to_euler()
+
+
+def _turn_and_stretch(obj):
+    world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    if not np.isfinite(world).all():
+        raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
+    if _is_flat(world):
+        return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
+    U, sizes, Vt = np.linalg.svd(world)
+    return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
+
+
+def _is_flat(world):
+    sizes = np.linalg.svd(world, compute_uv=False)
+    return not sizes[-1] > _SMALLEST_STRETCH * max(sizes[0], 1e-30)
+
+
+def _axes(settings):
+    """Return the matrix of the settings' Euler angles."""
+    return np.array(Euler(settings.orientation).to_matrix(), dtype=np.float64)
+
+
+def _rounded(stretch):
+    """Drop the last digits, so that turning the object alone leaves the stretch bit for bit."""
+    unit = 10.0 ** (math.floor(math.log10(np.abs(stretch).max())) - _DIGITS)
+    return np.round(stretch / unit) * unit + 0.0  # no negative zeros
+
+
+def _into_space(obj, settings, turn):
+    """Return the matrix from stretched object coordinates into what the angles are relative to."""
+    if settings.space == "OBJECT":
+        return np.eye(3)
+    if settings.space == "WORLD":
+        return turn
+    if settings.frame is None:
+        raise CubicCraftError(
+            f'"{obj.name}" takes its orientation from a frame object, but none is set;'
+            " pick one or choose another space"
+        )
+    frame = settings.frame.matrix_world.to_quaternion().to_matrix()
+    return np.array(frame, dtype=np.float64).T @ turn
+
+
+def _without_right_angles(orientation):
+    """Return the identity where a cube looks as if it were not turned.
+
+    So an object that stands by a right angle, as imported files do, or is mirrored, gets the bits
+    of one that is not.
+    """
+    is_like = np.allclose(orientation, np.round(orientation), rtol=0.0, atol=_SMALLEST_TURN)
+    return np.eye(3) if is_like else orientation
+
+
+def proper(matrix):
+    """Return the rotation that is the same for a cube, which looks alike in a mirror."""
+    return matrix if np.linalg.det(matrix) > 0.0 else -matrix

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pipeline of what is solved at once: mesh bridge -> solver -> mesh bridge.
+
+`assembly.prepare` and `solve` change nothing, so that an exception or a cancel loses nothing;
+`write` does.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ... import solver
+from .. import handles, mesh_bridge
+from ..environment.kernel_cache import use_extension_folder
+from .assembly import Prepared
+from .floor import kept_on_floor
+from .mirrored_cubes import orientations
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A result for one object that has not been written yet."""
+
+    positions: np.ndarray
+    """(n,3) float32, object space"""
+    rotations: np.ndarray
+    """(n,3,3) float64 rotations of the vertices' surroundings, object space"""
+    result: solver.Result
+    """of all that was solved with it"""
+    setup_seconds: float
+    vertices: int
+    """number of vertices of all objects that were solved at once"""
+    objects: int = 1
+    """number of objects that were solved at once, this one included"""
+    matching: int | None = None
+    """number of vertices that have a mirror image, where Symmetry is asked for"""
+    start: mesh_bridge.Start = "HERE"
+    """what was solved where the mesh was edited by hand since its last result"""
+
+    @property
+    def own_vertices(self):
+        """Number of vertices of the object."""
+        return len(self.positions)
+
+    @property
+    def seconds(self):
+        """Time of the iterations."""
+        return self.result.solve_seconds
+
+    @property
+    def total_seconds(self):
+        """Time that the artist has waited for it."""
+        return self.setup_seconds + self.seconds + self.result.compile_seconds
+
+
+def start(prepared: Prepared) -> solver.Run:
+    """Start a run from the original shapes, with the settings of the members.
+
+    Raises
+    ------
+    CubicCraftError
+        A setting cannot be used, or the device is not there.
+    """
+    use_extension_folder()
+    settings = prepared.settings
+    try:
+        stylization = solver.Stylization(
+            prepared.setup,
+            _cubeness(prepared),
+            _orientation(prepared),
+            _targets(prepared),
+            device=settings.device.lower(),
+            keep_rotation=settings.rotation == "KEEP",
+            hold_matrices=[hold.matrix for hold in prepared.holds],
+        )
+        return solver.Run(stylization, settings.max_iterations, settings.tolerance)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
+
+
+def solve(
+    prepared: Prepared, on_iteration: Callable[[solver.Stylization], bool] | None = None
+) -> tuple[Solution, ...]:
+    """Run to the end, and return a Solution for each member.
+
+    `on_iteration` is called after each iteration, a true value cancels the run.
+
+    Raises
+    ------
+    CubicCraftError
+        As `start`, and where what the run had on a GPU is lost.
+    """
+    run = start(prepared)
+    try:
+        run.complete(on_iteration)
+        return solutions_of(prepared, run)
+    except solver.CubicCraftError as error:
+        raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
+
+
+def glance(prepared: Prepared, run: solver.Run, with_rotations: bool):
+    """Return positions and rotations, as in a Solution, that a run has come to so far.
+
+    One pair for each member. The rotations take time, and are None unless they are asked for.
+    """
+    if with_rotations:
+        return _read_back(prepared, *run.placed())
+    return _read_back(prepared, run.positions(), None)
+
+
+def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
+    """Return what a run has come to, for each member; it cannot go on after that."""
+    result = run.result()
+    found = _read_back(prepared, result.positions, result.rotations)
+    return tuple(
+        Solution(
+            positions,
+            rotations,
+            result,
+            prepared.seconds,
+            prepared.vertices,
+            len(prepared.members),
+            member.whole.matching,
+            member.shape.start,
+        )
+        for member, (positions, rotations) in zip(prepared.members, found, strict=True)
+    )
+
+
+def write(
+    obj: bpy.types.Object,
+    solution: Solution,
+    result: str,
+    remember: Callable[[bpy.types.Object], None] = lambda target: None,
+    run: dict[str, Any] | None = None,
+) -> bpy.types.Object:
+    """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
+
+    Parameters
+    ----------
+    result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
+    remember : callable
+        Called with the object that gets the cubic shape, before the step that cannot be taken back:
+        if it raises, or what follows, all meshes and objects are as they were before. What it has
+        done to the settings of an object that was there is for the caller to put back.
+    run : dict, optional
+        What to note on the mesh, a `LastRun`.
+
+    Returns
+    -------
+    bpy.types.Object
+        The object that now has the cubic shape.
+    """
+    if result == "NEW_OBJECT":
+        return mesh_bridge.write_new_object(
+            obj, solution.positions, solution.rotations, remember, run, solution.start
+        )
+    remember(obj)
+    if result == "SHAPE_KEY":
+        mesh_bridge.write_shape_key(obj, solution.positions, run, solution.start)
+    else:
+        mesh = mesh_bridge.mesh_of(obj)
+        mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)
+    return obj
+
+
+def _cubeness(prepared):
+    """Return the cubeness, a number or (N,) of them."""
+    factors = [member.map_weights for member in prepared.members]
+    values = [member.settings.cubeness for member in prepared.members]
+    if len(set(values)) == 1 and all(isinstance(factor, float) for factor in factors):
+        return values[0] * factors[0]
+    return np.concatenate(
+        [
+            member.of_whole(value * factor)
+            for member, value, factor in zip(prepared.members, values, factors, strict=True)
+        ]
+    )
+
+
+def _orientation(prepared):
+    """Return the orientation, (3,3), or (N,3,3) where the objects' axes differ.
+
+    Beyond a plane of symmetry the cube is mirrored as well.
+    """
+    found = [orientations(member.whole, placement) for member, placement, _ in prepared.parts()]
+    first = found[0][0]
+    # The rounding of world matrices is no difference.
+    if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in found):
+        return first
+    counts = [len(member.whole.source) for member in prepared.members]
+    return np.concatenate(
+        [np.broadcast_to(Q, (count, 3, 3)) for Q, count in zip(found, counts, strict=True)]
+    )
+
+
+def _targets(prepared):
+    """Return where the handles want the vertices, (N,3)."""
+    return np.concatenate(
+        [
+            placement.place(
+                member.whole.images(
+                    handles.targets(
+                        member.shape.original, member.handle_of, member.settings.handles
+                    )
+                )
+            )
+            for member, placement, _ in prepared.parts()
+        ]
+    )
+
+
+def _read_back(prepared, positions, rotations):
+    """Return what the solver gives, for each member in its object's coordinates."""
+    at_rest = prepared.setup.rest.input_positions
+    if prepared.settings.floor:
+        positions = kept_on_floor(prepared.setup, positions, prepared.placements[0].up)
+    is_held = np.zeros(len(at_rest), dtype=bool)
+    is_held[prepared.setup.pinned_input] = True
+    found = []
+    for member, placement, whole_part in prepared.parts():
+        part = slice(whole_part.start, whole_part.start + member.vertices)
+        own = placement.read_back(positions[part]).astype(np.float32)
+        # What the solver holds must not move by a rounding of the placement.
+        is_still = (positions[part] == at_rest[part]).all(axis=1) | prepared.is_idle
+        own[is_still] = member.shape.original[is_still]
+        turned = None if rotations is None else placement.read_rotations_back(rotations[part])
+        member.whole.settle(own, is_held[part] | is_still)
+        if turned is not None:
+            member.whole.settle_rotations(turned, is_held[part])
+        found.append((own, turned))
+    return found

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What there is to solve: one task per mesh, or per new object. And how all results are written."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..environment.new_taichi_warnings import taichi_news
+from ..handles.baked_pose import remember_pose
+from ..handles.own_pose import keep_poses
+from ..settings.overrides import Choice
+from ..settings.rollback import settings_kept
+from . import pipeline
+from .assembly import Prepared, prepare
+from .failures import UNFORESEEN, in_words
+from .last_run import LastRun, run_of
+from .member import Member, read_member
+from .object_frame import placement_alone, placement_in_world
+from .up_to_date import what_matters
+from .whole import modifier_reflections
+
+_log = logging.getLogger(__name__)
+
+
+class Task:
+    """An object to be cubified with its settings; `solution` is there once it is solved."""
+
+    def __init__(self, obj: bpy.types.Object, choice: Choice):
+        self.obj, self.mesh = obj, mesh_bridge.mesh_of(obj)
+        self.uid = obj.session_uid
+        self.settings = choice.settings_for(obj)
+        self.solution: pipeline.Solution | None = None
+        self.is_seen = False
+        """whether the object was made by `mesh_bridge.make_seen`"""
+        self.source: bpy.types.Object | None = None
+        """what it was made of"""
+        self._reflections = modifier_reflections(obj)
+        self._alone = placement_alone(obj, self.settings)
+        self.in_world = placement_in_world(obj, self.settings)
+
+    @property
+    def key(self):
+        """All that decides the solution beside the mesh; free of references to Blender's data."""
+        up = self._alone.up.tobytes() if self.settings.floor else b""
+        return replace(self.settings, frame=None), self._reflections, up, self._alone.key
+
+    @property
+    def key_in_world(self):
+        """The same for a task that is solved with others."""
+        return self.key, self.in_world and self.in_world.key
+
+    @property
+    def run(self) -> LastRun:
+        """What there is to say about the solution, once it is solved."""
+        assert self.solution is not None
+        return run_of(self.solution, what_matters(self.settings))
+
+    def is_like(self, other: Task) -> bool:
+        """Tell whether both have the same solution, each being solved alone."""
+        one, two = self._alone, other._alone
+        return (
+            self.mesh == other.mesh
+            and self.settings == other.settings
+            and self._reflections == other._reflections
+            and (not self.settings.floor or np.allclose(one.up, two.up))
+            and np.allclose(one.linear, two.linear)
+            and np.allclose(one.orientation, two.orientation)
+        )
+
+
+def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], list[str]]:
+    """Return the tasks, and the problems as texts.
+
+    A mesh that several objects share is one task, as the first of them stands; only new objects
+    can differ.
+    """
+    tasks, problems = [], []
+    unlike: dict[Task, list[str]] = {}
+    for obj in objects:
+        try:
+            task = Task(obj, choice)
+        except CubicCraftError as error:
+            problems.append(str(error))
+            continue
+        twin = next((other for other in tasks if other.mesh == task.mesh), None)
+        if twin is None or task.settings.result == "NEW_OBJECT":
+            tasks.append(task)
+        elif not twin.is_like(task):
+            unlike.setdefault(twin, []).append(f'"{obj.name}"')
+    return tasks, problems + [_in_one_mesh(twin, names) for twin, names in unlike.items()]
+
+
+def _in_one_mesh(twin, names):
+    """Say that objects have the shape of another: in one sentence, for there may be hundreds."""
+    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and has taken its shape;'
+    if len(names) == 1:
+        return f"{shares} make it single-user for a shape of its own"
+    others = "another object" if len(names) == 2 else f"{len(names) - 1} others"
+    return f"{shares} so have {others}; make them single-user for shapes of their own"
+
+
+def key_of(tasks: Sequence[Task]) -> tuple:
+    """Return all that decides the solutions of an assembly beside the meshes."""
+    if len(tasks) == 1:
+        return ((tasks[0].uid, tasks[0].key),)
+    return tuple((task.uid, task.key_in_world) for task in tasks)
+
+
+def prepare_all(
+    tasks: Sequence[Task],
+    known: Mapping[int, Member] | None = None,
+    earlier: Sequence[Prepared] = (),
+    *,
+    weights_changed: bool = False,
+) -> tuple[Prepared | None, list[str]]:
+    """Read and factorise an assembly, without the objects that cannot be used.
+
+    Parameters
+    ----------
+    tasks
+    known : mapping of int to Member, optional
+        What earlier runs have read, by the ``session_uid`` of the object.
+    earlier, weights_changed
+        As for `prepare` and `read_member`.
+
+    Returns
+    -------
+    prepared : Prepared or None
+    problems : list of str
+    """
+    members, problems = [], []
+    for task in tasks:
+        before = known.get(task.uid) if known else None
+        try:
+            member = read_member(task.obj, task.settings, before, weights_changed=weights_changed)
+        except CubicCraftError as error:
+            problems.append(str(error))
+        else:
+            members.append(member)
+    if not members:
+        return None, problems
+    try:
+        return prepare(members, earlier), problems
+    except CubicCraftError as error:
+        return None, [*problems, str(error)]
+
+
+def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
+    """Write the solutions of all tasks.
+
+    Returns
+    -------
+    summary : str
+        Empty if nothing was written.
+    problems : list of str
+        What was written before a failure stays and needs its undo step. Also that Taichi does not
+        work, once.
+    """
+    # All texts come before the first write: what follows a write must not fail.
+    solutions = [task.solution for task in tasks if task.solution is not None]
+    runs = [task.run for task in tasks]
+    written, problems = 0, taichi_news() if tasks else []
+    try:
+        for task, run in zip(tasks, runs, strict=True):
+            _write(choice, task, run)
+            written += 1
+    except UNFORESEEN as error:
+        _log.exception("Writing a result failed")  # this object has been put back
+        reason = in_words(error)
+        problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
+    if written == 1:
+        return f"Cubified: {runs[0].status}", problems
+    if written:
+        # What was solved at once has been waited for once.
+        waits = {id(s.result): s.total_seconds for s in solutions[:written]}
+        return f"Cubified {written} meshes in {sum(waits.values()):.2f} s", problems
+    return "", problems
+
+
+def _write(choice, task, run):
+    """Write one solution, or nothing at all."""
+
+    def remember(target):
+        keep_poses(target, choice.poses.get(task.uid, {}))
+        # A shape key poses nothing: its basis is still the original.
+        is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
+        remember_pose(target, is_posed=is_posed)
+        choice.remember_on(target, task.settings)
+
+    if task.is_seen:
+        solution, source = task.solution, task.source
+        mesh_bridge.write_seen(
+            task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
+        )
+        return
+    with settings_kept([task.mesh]):
+        pipeline.write(task.obj, task.solution, task.settings.result, remember, asdict(run))

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a cubic shape is the one that the settings ask for."""
+
+from collections.abc import Iterable
+from dataclasses import fields
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from ..settings.object_properties import object_properties
+from ..settings.properties import settings_of
+from ..settings.values import Settings
+from .last_run import LastRun
+
+# What computes, what is chosen anew for each run, and what a new mesh was made of.
+_IGNORED = {"device", "start", "with_modifiers"}
+_LABELS = {"handles": "Handles", "map_group": "Cubeness Map", "map_invert": "Cubeness Map"}
+_ROUNDING = 1e-5  # of matrices, relative
+
+
+def what_matters(settings: Settings) -> dict[str, Any]:
+    """Return the settings that decide the shape as values that JSON can hold.
+
+    How the object itself stands is no setting: an artist who turns a finished sculpture wants it
+    turned, whatever the angles count from.
+    """
+    names = (field.name for field in fields(settings) if field.name not in _IGNORED)
+    values = {name: getattr(settings, name) for name in names}
+    values["frame"] = _turn(settings.frame) if settings.space == "FRAME" else None
+    values["handles"] = [_handle(handle) for handle in settings.handles]
+    values["map_invert"] = bool(settings.map_group) and settings.map_invert
+    if settings.result == "NEW_OBJECT":
+        values["result"] = "MESH"  # as which it stands in the new object
+    return values
+
+
+def changes_since(obj: bpy.types.Object, run: LastRun) -> list[str]:
+    """Return what the panel calls the settings of an object that differ from those of the run.
+
+    Only what would change the shape counts. Cheap, as it runs at every redraw: weights that have
+    been painted since are not seen. Empty while the settings cannot be used at all, and where
+    results go to new objects, which leave this one as it is.
+    """
+    try:
+        settings = settings_of(obj)
+    except CubicCraftError:
+        return []
+    if settings.result == "NEW_OBJECT":
+        return []
+    now, then = what_matters(settings), run.settings
+    # A version that did not have a setting yet says nothing of it.
+    names = [name for name in now if name in then and not _is_same(now[name], then[name])]
+    return list(dict.fromkeys(_label(obj, name) for name in names))
+
+
+def _label(obj, name):
+    return _LABELS.get(name) or object_properties(obj).bl_rna.properties[name].name
+
+
+def _turn(frame):
+    return None if frame is None else _matrix(frame.matrix_world.to_quaternion().to_matrix())
+
+
+def _handle(handle):
+    matrix = np.reshape(handle.matrix, (4, 4))
+    return [handle.group, handle.threshold, _matrix(matrix[:3, :3]), _matrix(matrix[:3, 3])]
+
+
+def _matrix(array):
+    return {"matrix": np.ravel(array).astype(np.float64).tolist()}
+
+
+def _is_same(now: Any, then: Any) -> bool:
+    """Compare two values; single numbers in the 32 bits that Blender's properties have."""
+    if isinstance(now, dict):
+        return isinstance(then, dict) and _is_near(now["matrix"], then.get("matrix"))
+    if isinstance(now, list | tuple):
+        is_alike = isinstance(then, list) and len(then) == len(now)
+        return is_alike and all(map(_is_same, now, then))
+    if isinstance(now, float):
+        return isinstance(then, int | float) and np.float32(now) == np.float32(then)
+    return now == then
+
+
+def _is_near(now: list[float], then: Any) -> bool:
+    if not isinstance(then, list) or len(then) != len(now) or not _are_numbers(then):
+        return False
+    size = max(map(abs, (*now, *then)))
+    return all(abs(a - b) <= _ROUNDING * size for a, b in zip(now, then, strict=True))
+
+
+def _are_numbers(values: Iterable[Any]) -> bool:
+    return all(isinstance(value, int | float) for value in values)

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole of which an artist models a half: what the Mirror modifier adds is solved with it.
+
+So its other half is there when links are looked for, and the seam lies in the middle of a surface,
+not at the border of one.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ... import solver
+
+_LEAST_TOLERANCE = 1e-6  # of the largest extent: nearer to the plane than this is in it
+
+
+@dataclass(frozen=True)
+class Reflection:
+    """A reflection x -> A x + b in object coordinates, as plain numbers."""
+
+    linear: tuple[float, ...]
+    """A, row by row"""
+    offset: tuple[float, ...]
+    """b"""
+    tolerance: float
+    """vertices that are no further from their image are in the plane"""
+
+    def mirror(self, partner: np.ndarray) -> solver.Mirror:
+        """Return it with the partners (n,) of the vertices."""
+        return solver.Mirror(partner, np.reshape(self.linear, (3, 3)), np.array(self.offset))
+
+    @property
+    def matrix(self):
+        """The same as a matrix (4,4)."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = np.reshape(self.linear, (3, 3)), self.offset
+        return matrix
+
+    def image(self, points):
+        """Return the reflected points (n,3)."""
+        return points @ np.reshape(self.linear, (3, 3)).T + self.offset
+
+    def is_like(self, other):
+        """Tell whether both reflect alike."""
+        return np.allclose(self.linear + self.offset, other.linear + other.offset)
+
+    def commutes_with(self, other):
+        """Tell whether it does not matter which comes first."""
+        points = np.vstack([np.zeros(3), np.eye(3)])
+        size = 1.0 + np.abs(self.offset).max() + np.abs(other.offset).max()
+        apart = self.image(other.image(points)) - other.image(self.image(points))
+        return np.abs(apart).max() <= 1e-5 * size
+
+
+def flip(axis: int) -> Reflection:
+    """Return the reflection along an axis of the object, about its origin."""
+    linear = np.eye(3)
+    linear[axis, axis] = -1.0
+    return Reflection(tuple(linear.ravel().tolist()), (0.0, 0.0, 0.0), 0.0)
+
+
+def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
+    """Return what the first Mirror modifier of an object adds to its mesh, in the viewport.
+
+    Not one that cuts the mesh first (Bisect), whose vertices lie on both sides.
+    """
+    for modifier in obj.modifiers:
+        if not isinstance(modifier, bpy.types.MirrorModifier) or not modifier.show_viewport:
+            continue
+        tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
+        flags: Any = modifier  # its vectors of flags can be indexed, which bpy's stubs cannot say
+        numbers = [a for a in range(3) if flags.use_axis[a] and not flags.use_bisect_axis[a]]
+        place = _plane_object(obj, modifier)
+        if place is None:
+            return ()
+        return tuple(_placed(flip(axis), place, tolerance) for axis in numbers)
+    return ()
+
+
+def _plane_object(obj, modifier):
+    """Return the matrix (4,4) from the modifier's coordinates to the object's, None for none."""
+    if modifier.mirror_object is None:
+        return np.eye(4)
+    own = np.array(obj.matrix_world, dtype=np.float64)
+    other = np.array(modifier.mirror_object.matrix_world, dtype=np.float64)
+    if not (np.isfinite(own).all() and np.isfinite(other).all()):
+        return None
+    if min(abs(np.linalg.det(own)), abs(np.linalg.det(other))) < 1e-30:
+        return None
+    return np.linalg.inv(own) @ other
+
+
+def _placed(reflection, place, tolerance):
+    if np.array_equal(place, np.eye(4)):
+        return Reflection(reflection.linear, reflection.offset, tolerance)
+    M = np.eye(4)
+    M[:3, :3] = np.reshape(reflection.linear, (3, 3))
+    M = place @ M @ np.linalg.inv(place)
+    return Reflection(tuple(M[:3, :3].ravel().tolist()), tuple(M[:3, 3].tolist()), tolerance)
+
+
+class Whole:
+    """A mesh with its reflections, and which of all its vertices are each other's images.
+
+    Parameters
+    ----------
+    original : (n,3) float32 array
+        Object coordinates.
+    triangles : (m,3) int array
+    reflections : sequence of Reflection
+        What is added: the first is of the mesh, the second of both, and so on.
+    symmetry : sequence of bool
+        About which axes of the object the mesh itself is to be symmetric.
+
+    Attributes
+    ----------
+    reflections
+        As given.
+    added : tuple of Reflection
+        Those that commute with each other, by which it grows.
+    source : (N,) int array
+        The vertex of the mesh that each is an image of; the first n are those themselves.
+    mirrored : tuple of Reflection
+        All about which it is to stay symmetric.
+    """
+
+    def __init__(self, original, triangles, reflections=(), symmetry=(False, False, False)):
+        self._original, self._triangles = original, triangles
+        self.reflections = reflections
+        points = original.astype(np.float64)
+        self._size = float(np.ptp(points, axis=0).max()) if len(points) else 1.0
+        self.added = tuple(
+            one
+            for number, one in enumerate(reflections)
+            if all(one.commutes_with(other) for other in reflections[:number])
+        )
+        flips = [flip(axis) for axis in range(3) if symmetry[axis]]
+        self._asked = tuple(
+            one
+            for one in flips
+            if not any(one.is_like(other) for other in self.added)
+            and all(one.commutes_with(other) for other in self.added)
+        )
+        self.mirrored = self.added + self._asked
+        self._is_inside = [self._in_plane(one, points) for one in self.added]
+        self._number(len(points))
+
+    def _in_plane(self, reflection, points):
+        tolerance = max(reflection.tolerance, _LEAST_TOLERANCE * self._size)
+        return np.linalg.norm(reflection.image(points) - points, axis=1) <= tolerance
+
+    def _number(self, count):
+        """Give each image a number, and those that coincide the same one."""
+        own = np.arange(count)
+        self._numbers = np.empty((2 ** len(self.added), count), dtype=np.intp)
+        self._numbers[0] = own
+        sources, elements, total = [own], [np.zeros(count, dtype=np.intp)], count
+        for element in range(1, len(self._numbers)):
+            same = np.full(count, element)
+            for bit, is_inside in enumerate(self._is_inside):
+                same[is_inside] &= ~(1 << bit)
+            is_new = same == element
+            fresh = np.flatnonzero(is_new)
+            self._numbers[element] = self._numbers[same, own]
+            self._numbers[element, fresh] = total + np.arange(len(fresh))
+            total += len(fresh)
+            sources.append(fresh)
+            elements.append(np.full(len(fresh), element))
+        self.source, self._element = np.concatenate(sources), np.concatenate(elements)
+
+    @property
+    def is_plain(self):
+        """Whether nothing is added and nothing has to stay symmetric."""
+        return not self.mirrored
+
+    @cached_property
+    def triangles(self):
+        """(M,3) int triangles of all of it."""
+        F, found = self._triangles, [self._triangles]
+        for element in range(1, len(self._numbers)):
+            images = self._numbers[element][F]
+            if bin(element).count("1") % 2:
+                images = images[:, ::-1]
+            # A triangle in the plane is its own image.
+            found.append(images[(images >= len(self._original)).any(axis=1)])
+        return np.concatenate(found)
+
+    def images(self, points):
+        """Return points (n,3) of the mesh, float64, with their images (N,3)."""
+        result = points[self.source].astype(np.float64)
+        for bit, reflection in enumerate(self.added):
+            is_reflected = (self._element >> bit & 1).astype(bool)
+            result[is_reflected] = reflection.image(result[is_reflected])
+        return result
+
+    def elements(self):
+        """Give, for each image of the mesh, which vertices (N,) it has, and its map (4,4)."""
+        for element in range(len(self._numbers)):
+            matrix = np.eye(4)
+            for bit, reflection in enumerate(self.added):
+                if element >> bit & 1:
+                    matrix = reflection.matrix @ matrix
+            yield self._element == element, matrix
+
+    @cached_property
+    def own_partners(self):
+        """For each axis that was asked for, the partner (n,) of each vertex of the mesh."""
+        points = self._original.astype(np.float64)
+        tolerance = solver.MATCHING * self._size
+        found = [
+            one.mirror(solver.partners(points, one.image(points), tolerance)) for one in self._asked
+        ]
+        return solver.commuting(found)
+
+    @cached_property
+    def partners(self):
+        """For each of `mirrored`, the partner (N,) of each vertex of the whole."""
+        found = []
+        for bit in range(len(self.added)):
+            found.append(self._numbers[self._element ^ 1 << bit, self.source])
+        for mirror in self.own_partners:
+            partner = np.append(mirror.partner, solver.NO_PARTNER)[self.source]
+            there = self._numbers[self._element, np.maximum(partner, 0)]
+            found.append(np.where(partner >= 0, there, solver.NO_PARTNER))
+        return found
+
+    def sides(self):
+        """Return on which side of each of `mirrored` each vertex (N,) is, as bits of a number."""
+        sides = self._element.copy()
+        points = self._original[self.source]
+        for number, reflection in enumerate(self._asked, start=len(self.added)):
+            axis = reflection.linear[::4].index(-1.0)
+            sides |= (points[:, axis] < 0.0).astype(np.intp) << number
+        return sides
+
+    def settle(self, positions, is_held):
+        """Make new positions (n,3) float32 of the mesh exactly symmetric, in place.
+
+        What lies in the plane of a modifier stays as far from it as it was, which is what merges
+        the halves. Vertices that are held (n,) stay where they are.
+        """
+        for reflection, is_inside in zip(self.added, self._is_inside, strict=True):
+            inside = np.flatnonzero(is_inside & ~is_held)
+            normal = np.linalg.svd(np.eye(3) - np.reshape(reflection.linear, (3, 3)))[2][0]
+            if np.abs(normal).max() == 1.0:
+                axis = int(np.abs(normal).argmax())
+                positions[inside, axis] = self._original[inside, axis]
+            else:
+                off = (self._original[inside] - positions[inside].astype(np.float64)) @ normal
+                positions[inside] += off[:, None] * normal
+        for mirror in self.own_partners:
+            mirror.without(is_held).impose(positions)
+
+    def settle_rotations(self, rotations, is_held):
+        """Make rotations (n,3,3) of the vertices of the mesh symmetric, in place."""
+        for mirror in self.own_partners:
+            mirror.without(is_held).impose_rotations(rotations)
+
+    @property
+    def matching(self):
+        """Number of vertices that have a partner about every axis that was asked for, or None."""
+        if not self._asked:
+            return None
+        have = np.all([mirror.partner >= 0 for mirror in self.own_partners], axis=0)
+        return int(np.count_nonzero(have))

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Handles and cubeness map go along when their vertex group is renamed.
+
+Settings know a vertex group by its name, and Blender tells nobody what the old name was. So the
+names are compared after each update of an object: one that has changed while all others stayed in
+place is a rename. What is not clearly one is left alone, and the panel says what is missing.
+
+A group that has got the name of an attribute of ours gets another one first, before Blender acts
+on that (`mesh_bridge.set_groups_aside`).
+
+The names are kept in memory only. Renames are remembered, because an undo may bring the old name
+back into the settings: Blender has saved the step before we could follow.
+"""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import mesh_bridge
+from .object_properties import has_properties, object_properties
+
+_names: dict[str, tuple[str, ...]] = {}
+"""names of the vertex groups when the object was last looked at, by the object's full name"""
+_renames: dict[str, dict[str, str]] = {}
+"""old name to new name, by the object's full name"""
+
+
+@persistent
+def _follow_updates(_scene, depsgraph):
+    for update in depsgraph.updates:
+        if isinstance(update.id, bpy.types.Object) and update.id.type == "MESH":
+            _look_at(update.id.original)
+
+
+@persistent
+def _start_anew(*_):
+    _names.clear()
+    _renames.clear()
+    for obj in bpy.data.objects:
+        if obj.type == "MESH":
+            _look_at(obj)
+
+
+def _look_at(obj):
+    mesh_bridge.set_groups_aside(obj)
+    _follow(obj)
+
+
+def _follow(obj):
+    if not has_properties(obj):
+        return
+    properties = object_properties(obj)
+    if not properties.handles and not properties.map_group:
+        return
+    key = obj.name_full
+    names = tuple(group.name for group in obj.vertex_groups)
+    before = _names.get(key, names)
+    _names[key] = names
+    if names != before:
+        _renames.setdefault(key, {}).update(_rename(before, names))
+    renames = _renames.get(key)
+    if not renames:
+        return
+    for settings, name in ((properties, "map_group"), *((h, "group") for h in properties.handles)):
+        old = getattr(settings, name)
+        new = _name_now(old, names, renames)
+        if new != old:
+            setattr(settings, name, new)
+
+
+def _rename(before, now):
+    """Return {old name: new name} if that is all that has changed, else nothing."""
+    if len(before) != len(now):
+        return {}
+    pairs = [(old, new) for old, new in zip(before, now, strict=True) if old != new]
+    is_rename = len(pairs) == 1 and pairs[0][0] not in now and pairs[0][1] not in before
+    return dict(pairs) if is_rename else {}
+
+
+def _name_now(old, names, renames):
+    """Return what the vertex group `old` is called now; the same if that is not known."""
+    new, steps = old, 0
+    while new and new not in names and new in renames and steps < len(renames):
+        new, steps = renames[new], steps + 1
+    return new if new in names else old
+
+
+def register():
+    """Add the handlers."""
+    bpy.app.handlers.depsgraph_update_post.append(_follow_updates)
+    bpy.app.handlers.load_post.append(_start_anew)
+
+
+def unregister():
+    """Remove the handlers."""
+    bpy.app.handlers.load_post.remove(_start_anew)
+    bpy.app.handlers.depsgraph_update_post.remove(_follow_updates)
+    _names.clear()
+    _renames.clear()

@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings as Blender properties: on every object, and on the operator."""
+
+import math
+from dataclasses import fields
+from typing import Any
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    BoolVectorProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ..handles import Handle
+from ..handles.pose import object_handles
+from ..handles.properties import CubicCraftHandle
+from ..presets.selector import preset_property
+from ..run.last_run import last_run
+from ..screen import glimpse
+from .object_properties import PROPERTY, object_properties
+from .values import Settings
+
+_SPACES = (
+    (
+        "OBJECT",
+        "Object",
+        "The angles are relative to the object's own axes; it takes the cube along",
+    ),
+    (
+        "WORLD",
+        "World",
+        "The angles are relative to the axes of the world, however the object turns",
+    ),
+    ("FRAME", "Frame", "The angles are relative to the axes of another object"),
+)
+_RESULTS = (
+    ("MESH", "Mesh", "Move the vertices of the mesh; Restore brings the original back"),
+    ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be dialled and keyed'),
+    ("NEW_OBJECT", "New Object", "Leave the object as it is and make a cubic copy of it"),
+)
+_TOGETHER = (
+    ("OFF", "Off", "Every part becomes cubic for itself, whatever it touches"),
+    ("PARTS", "Parts", "The parts of a mesh stay on each other, such as eyes in their sockets"),
+    (
+        "SELECTION",
+        "Selection",
+        "Also meshes that are selected together stay on each other, such as clothes on a body",
+    ),
+)
+_REFINEMENTS = (
+    (
+        "AUTO",
+        "Auto",
+        "A coarse mesh is worked on as if it were finer, so that few vertices get as cubic as many;"
+        " it keeps its own vertices",
+    ),
+    ("OFF", "Off", "The mesh is taken as it is"),
+)
+# The numbers are in files. 0 was Auto, which Blender reads as the default.
+_ROTATIONS = (
+    ("KEEP", "No", "No part turns or leans over as a whole: what stands upright stays upright", 1),
+    ("FREE", "Yes", "A part may turn by some degrees, and fits the cube a little better", 2),
+)
+_DEVICES = (
+    ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
+    ("CPU", "CPU", "Taichi on the processor"),
+    ("GPU", "GPU", "Taichi on the graphics card"),
+    ("NUMPY", "NumPy", "Without Taichi: slower, runs everywhere"),
+)
+
+
+def _status(properties):
+    """Say it of the mesh, which other objects may show, too."""
+    run = last_run(properties.id_data)
+    return run.status if run else ""
+
+
+_STARTS = (
+    ("HERE", "From Here", "Start from the mesh as it is now; the former original is then lost"),
+    ("ORIGINAL", "From the Original", "Start from the original; what was edited since is lost"),
+)
+_OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
+
+
+class StartProperty:
+    """Mixin of what the operator and the object share, but Live and presets have not.
+
+    Each object keeps its own, for one run: on a mesh that is edited once more, a click is to lose
+    nothing that was not asked for.
+    """
+
+    start: EnumProperty(
+        name="Start",
+        description="What Cubify and Live start from: the mesh was edited by hand since it was"
+        " cubified",
+        items=_STARTS,
+        default=Settings.start,
+        options={"SKIP_SAVE"},
+    )
+
+
+class RunProperties:
+    """Mixin of all settings that the operator and the object share.
+
+    SKIP_SAVE concerns the operator only: its values come from the object, not from its last run.
+    """
+
+    cubeness: FloatProperty(
+        name="Cubeness",
+        description="How strongly the surface turns toward the sides of the cube: 0 keeps it, 0.1"
+        " goes a third of the way, 0.4 most of it. More than the slider has, up to 10, can be"
+        " typed",
+        default=Settings.cubeness,
+        min=0.0,
+        max=10.0,
+        soft_max=0.5,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
+    orientation: FloatVectorProperty(
+        name="Orientation",
+        description="Rotation of the cube",
+        subtype="EULER",
+        default=Settings.orientation,
+        soft_min=-math.pi / 4,
+        soft_max=math.pi / 4,
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
+    space: EnumProperty(
+        name="Relative To",
+        description="What the rotation of the cube is relative to",
+        items=_SPACES,
+        default=Settings.space,
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
+    use_handles: BoolProperty(
+        name="Handles",
+        description="Hold and pose the vertices of the object's handles",
+        default=True,
+        options=_OPTIONS,
+    )
+    map_group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group whose weights scale the cubeness",
+        options=_OPTIONS,
+    )
+    map_invert: BoolProperty(
+        name="Invert",
+        description="Cubic where the vertex group is not",
+        default=Settings.map_invert,
+        options=_OPTIONS,
+    )
+    result: EnumProperty(
+        name="Write To",
+        description="Where the cubic shape goes",
+        items=_RESULTS,
+        default=Settings.result,
+        options=_OPTIONS,
+    )
+    with_modifiers: BoolProperty(
+        name="With Modifiers",
+        description="Make the new object of what is seen: the modifiers are in its mesh, as if"
+        " they had been applied, also an Armature's pose. Without it, and in Live, the mesh below"
+        " the modifiers becomes cubic",
+        default=Settings.with_modifiers,
+        options=_OPTIONS,
+    )
+    solidity: FloatProperty(
+        name="Solidity",
+        description="How firmly limbs, necks and walls keep their thickness, and bodies their"
+        " volume. 0 is a hollow skin, which may fold flat; more is less cubic",
+        default=Settings.solidity,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
+    together: EnumProperty(
+        name="Keep Together",
+        description="What moves along with what it touches: eyes with the head, buttons with the"
+        " coat",
+        items=_TOGETHER,
+        default=Settings.together,
+        options=_OPTIONS,
+    )
+    refine: EnumProperty(
+        name="Refine",
+        description="How meshes of few vertices are treated",
+        items=_REFINEMENTS,
+        default=Settings.refine,
+        options=_OPTIONS,
+    )
+    rotation: EnumProperty(
+        name="Parts May Turn",
+        description="Whether parts stand as they do, or may turn as a whole to fit the cube."
+        " Parts with handles stand as their handles say",
+        items=_ROTATIONS,
+        default=Settings.rotation,
+        options=_OPTIONS,
+    )
+    symmetry: BoolVectorProperty(
+        name="Symmetry",
+        description="Halves that are mirror images about the object's origin stay so, exactly. A"
+        " Mirror modifier is followed without it",
+        subtype="XYZ",
+        default=Settings.symmetry,
+        options=_OPTIONS,
+    )
+    hold_rest: BoolProperty(
+        name="Hold the Rest",
+        description="Where no handle is pinned, what is far from handles that are moved stays where"
+        " it is, as a whole, and still becomes cubic. Off: it goes along",
+        default=Settings.hold_rest,
+        options=_OPTIONS,
+    )
+    floor: BoolProperty(
+        name="Keep on Floor",
+        description="The lowest point keeps its height in the world; not of parts that handles or"
+        " the cubeness map hold",
+        default=Settings.floor,
+        options=_OPTIONS,
+    )
+    device: EnumProperty(
+        name="Device",
+        description="What computes",
+        items=_DEVICES,
+        default=Settings.device,
+        options=_OPTIONS,
+    )
+    max_iterations: IntProperty(
+        name="Max Iterations",
+        description="Stop after this many iterations, converged or not",
+        default=Settings.max_iterations,
+        min=1,
+        soft_max=5000,
+        options=_OPTIONS,
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Stop when an iteration moves no vertex by more than this part of the largest"
+        " distance from the original, and the energy no longer falls",
+        default=Settings.tolerance,
+        min=1e-9,
+        max=1.0,
+        precision=6,
+        options=_OPTIONS,
+    )
+
+
+class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
+    """The settings of an object, saved with it."""
+
+    preset: preset_property()
+    frame: PointerProperty(
+        name="Frame",
+        description="Object whose axes are those of the cube",
+        type=bpy.types.Object,
+    )
+    handles: CollectionProperty(type=CubicCraftHandle)
+    active_handle: IntProperty(
+        name="Active Handle",
+        description="Number of the handle that the buttons are about",
+        min=0,
+        options=set(),
+    )
+    is_target: BoolProperty(
+        name="Target",
+        description="A handle follows this object, or once did",
+    )
+    is_made_target: BoolProperty(
+        name="Made as Target",
+        description="This object was made to be followed by a handle, and goes with it",
+    )
+    status: StringProperty(
+        name="Last Run",
+        description="What the run did that the mesh has its shape from",
+        get=_status,
+    )
+
+
+def value_of(properties: Any, name: str) -> Any:
+    """Return a property of a property group, or of an operator, as a plain value.
+
+    An enum that holds a number which has no item any more, from an older file, is at its default.
+    """
+    value = getattr(properties, name)
+    if value == "" and isinstance(getattr(Settings, name, None), str):
+        return getattr(Settings, name)
+    return value if isinstance(value, str | int | float | bpy.types.ID | None) else tuple(value)
+
+
+def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None) -> Settings:
+    """Return the object's settings as plain values.
+
+    Parameters
+    ----------
+    obj
+    handles : tuple of Handle, optional
+        In place of the object's own.
+
+    Raises
+    ------
+    CubicCraftError
+        The object's own handles cannot be used, see `object_handles`.
+    """
+    p = object_properties(obj)
+    own = object_handles(obj) if handles is None else handles
+    names = [field.name for field in fields(Settings) if field.name != "handles"]
+    return Settings(handles=own, **{name: value_of(p, name) for name in names})
+
+
+def register():
+    """Add `Object.cubic_craft`."""
+    bpy.utils.register_class(CubicCraftProperties)
+    setattr(bpy.types.Object, PROPERTY, PointerProperty(type=CubicCraftProperties))
+
+
+def unregister():
+    """Remove `Object.cubic_craft`; the values stay in the file."""
+    delattr(bpy.types.Object, PROPERTY)
+    bpy.utils.unregister_class(CubicCraftProperties)

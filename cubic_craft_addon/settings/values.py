@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of one run as plain values, wherever they come from."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from dataclasses import dataclass
+
+import bpy
+
+from ... import solver
+from ..handles import Handle
+from ..mesh_bridge import Start
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What the artist has chosen for one object. The defaults are those of the panel."""
+
+    cubeness: float = 0.4
+    orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Euler XYZ angles in radians"""
+    space: str = "WORLD"
+    """what the angles are relative to: OBJECT, WORLD or FRAME"""
+    frame: bpy.types.Object | None = None
+    """the object that is the FRAME"""
+    handles: tuple[Handle, ...] = ()
+    """where they overlap, the first counts"""
+    map_group: str = ""
+    """name of the vertex group that scales the cubeness, or empty"""
+    map_invert: bool = False
+    start: Start = "HERE"
+    """where to start a mesh that was edited by hand since its last result: HERE or ORIGINAL"""
+    result: str = "MESH"
+    """MESH, SHAPE_KEY or NEW_OBJECT"""
+    with_modifiers: bool = False
+    """the NEW_OBJECT is made of what is seen, in place of the bare mesh"""
+    solidity: float = 0.1
+    """how far limbs, walls and the volume keep their thickness; 0 is a hollow skin"""
+    together: str = "SELECTION"
+    """what follows its neighbours: OFF nothing, PARTS those of a mesh, SELECTION those of all"""
+    refine: str = "AUTO"
+    """AUTO solves coarse meshes on a finer copy, OFF as they are"""
+    rotation: str = "KEEP"
+    """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
+    symmetry: tuple[bool, bool, bool] = (False, False, False)
+    """about which axes of the object halves stay mirror images"""
+    hold_rest: bool = True
+    """whether what is far from handles that are moved stays where it is"""
+    floor: bool = False
+    """whether what stands on the ground keeps its height"""
+    device: str = "AUTO"
+    """AUTO, CPU, GPU or NUMPY"""
+    max_iterations: int = 1000
+    tolerance: float = 1e-3
+
+    @property
+    def proxy(self) -> solver.ProxyOptions:
+        """What is asked of the mesh that is solved in place of the bare one."""
+        return solver.ProxyOptions(
+            solidity=self.solidity,
+            together=self.together != "OFF",
+            refine=self.refine == "AUTO",
+        )

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An overlay in the viewport: the cube that the active mesh is turned toward.
+
+The switch lies on the window manager, so that turning it leaves no undo step. The draw handler
+exists only while the extension is registered.
+"""
+
+import itertools
+
+import bpy
+import gpu
+import numpy as np
+from bpy.props import BoolProperty
+from gpu_extras.batch import batch_for_shader
+from mathutils import Vector
+
+from ...solver import CubicCraftError
+from .. import live
+from ..handles.owner import panel_object
+from ..run.object_frame import world_axes
+from ..screen import glimpse
+
+PROPERTY = "cubic_craft_overlay"
+
+_MARGIN = 1.1  # the cube is larger than the object by this factor
+_LINE_WIDTH = 2.0  # pixels
+_EDGE_COLOR = (1.0, 1.0, 1.0, 0.35)
+_AXIS_COLORS = ((0.96, 0.25, 0.33, 1.0), (0.55, 0.85, 0.15, 1.0), (0.2, 0.55, 1.0, 1.0))
+
+_handle = None
+
+
+def lines_of(obj: bpy.types.Object):
+    """Return the lines of the overlay for an object.
+
+    Returns
+    -------
+    points : (30,3) array
+        World space; each two are a line: the three axes, then the twelve edges of the cube.
+    colors : list of 30 RGBA tuples
+
+    Raises
+    ------
+    CubicCraftError
+        The object's orientation is not defined, for want of a frame object.
+    """
+    corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
+    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    axes = world_axes(obj, live.settings_now(obj))  # columns
+    along = (corners - centre) @ axes
+    half = max(np.abs(along).max() * _MARGIN, 1e-6) * axes
+    points, colors = [], []
+    for axis, color in zip(half.T, _AXIS_COLORS, strict=True):
+        points += [centre, centre + axis]
+        colors += [color, color]
+    for a, b in itertools.combinations(itertools.product((-1, 1), repeat=3), 2):
+        if sum(x != y for x, y in zip(a, b, strict=True)) == 1:
+            points += [centre + half @ a, centre + half @ b]
+            colors += [_EDGE_COLOR, _EDGE_COLOR]
+    return np.array(points), colors
+
+
+def _draw():
+    context = bpy.context
+    if not (getattr(context.window_manager, PROPERTY) or glimpse.is_seen()):
+        return
+    obj = panel_object(context)
+    if obj is None:
+        return
+    if not context.space_data.overlay.show_overlays:
+        return
+    try:
+        points, colors = lines_of(obj)
+    except CubicCraftError:
+        return  # the panel says what is wrong
+    shader = gpu.shader.from_builtin("POLYLINE_SMOOTH_COLOR")
+    batch = batch_for_shader(shader, "LINES", {"pos": points.tolist(), "color": colors})
+    gpu.state.blend_set("ALPHA")
+    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    shader.uniform_float("lineWidth", _LINE_WIDTH * context.preferences.system.ui_scale)
+    batch.draw(shader)
+    gpu.state.blend_set("NONE")
+
+
+def _redraw(_self, _context):
+    glimpse.redraw_views()
+
+
+def register():
+    """Add the switch and the draw handler."""
+    global _handle
+    switch = BoolProperty(
+        name="Show Cube",
+        description="Draw the cube that the active mesh is turned toward in the viewport, also"
+        " while it is not being turned",
+        update=_redraw,
+    )
+    setattr(bpy.types.WindowManager, PROPERTY, switch)
+    _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+
+
+def unregister():
+    """Remove the draw handler and the switch."""
+    global _handle
+    glimpse.forget()
+    bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
+    _handle = None
+    delattr(bpy.types.WindowManager, PROPERTY)

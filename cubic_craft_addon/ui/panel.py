@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel in the sidebar of the 3D viewport."""
+
+import bpy
+
+from ...solver import CubicCraftError
+from .. import job, live, mesh_bridge
+from ..environment.modes import is_mode_usable
+from ..environment.requirements import check_requirements
+from ..handles.owner import panel_object
+from ..handles.pose import object_handles
+from ..run.last_run import last_run
+from ..run.up_to_date import changes_since
+from ..screen.text_fit import room_for_text, wrapped
+from ..settings.object_properties import object_properties
+from . import edited, overlay, seen, status_panel
+from . import handles_panel as handles_panel
+from . import presets_panel as presets_panel
+from .symmetry_panel import draw_symmetry
+
+DEFAULT_TAB = "Cubic Craft"
+_BOX = 2.0  # widths of an icon that a box and the icon in it take from a line
+
+
+class CUBIC_PT_main(bpy.types.Panel):
+    """All of CubicCraft."""
+
+    bl_label = "CubicCraft"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = DEFAULT_TAB
+
+    def draw(self, context):
+        """Draw all sections for the active object, or the mesh that it poses."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        session = live.current()
+        obj = panel_object(context) or (session and session.first_object(context))
+        if obj is None:
+            seen.draw_other(layout, context.active_object)
+            return
+        if obj != context.active_object:
+            layout.label(text=obj.name, icon="MESH_DATA")
+        _draw_cubify(context, layout, obj)
+        for identifier, title, draw, is_closed in _SECTIONS:
+            header, body = layout.panel(identifier, default_closed=is_closed)
+            if identifier == handles_panel.SECTION:
+                handles_panel.draw_switch(header, obj)
+            header.label(text=title)
+            header.enabled = job.current() is None
+            if body is not None:
+                body.enabled = job.current() is None
+                draw(body, obj)
+
+
+def _draw_cubify(context, layout, obj):
+    session = live.current()
+    run = last_run(obj)
+    changes = changes_since(obj, run) if run and not session else []
+    column = layout.column()
+    column.enabled = job.current() is None
+    edited.draw(column, obj)
+    presets_panel.draw(column, live.shared_properties(obj))
+    column.prop(live.shared_properties(obj), "cubeness", slider=True)
+    row = layout.row()
+    row.scale_y = 1.5
+    row.operator(
+        "cubic_craft.cubify",
+        text="Update" if changes else "Cubify",
+        icon="FILE_REFRESH" if changes else "MESH_CUBE",
+    )
+    row = row.row(align=True)
+    row.operator(
+        "cubic_craft.live",
+        icon="CHECKMARK" if session else "PLAY",
+        text="Confirm" if session else "Live",
+        depress=session is not None,
+    )
+    if session:
+        row.operator("cubic_craft.live_cancel", text="", icon="X")
+    row = layout.row(align=True)
+    row.operator("cubic_craft.restore", icon="LOOP_BACK")
+    row.operator("cubic_craft.apply", icon="CHECKMARK")
+    problem = "; ".join(session.all_problems) if session else _problem(context, obj)
+    if problem:
+        _draw_problem(context, layout, problem)
+    status_panel.draw(context, layout, obj, run, changes)
+    seen.draw_hint(layout, obj)
+
+
+def _draw_problem(context, layout, text):
+    column = layout.box().column(align=True)
+    icon = "ERROR"
+    for line in wrapped(text, room_for_text(context, _BOX)):
+        column.label(text=line, icon=icon)
+        icon = "BLANK1"
+
+
+def _draw_orientation(layout, obj):
+    properties = live.shared_properties(obj)
+    layout.prop(bpy.context.window_manager, overlay.PROPERTY)
+    layout.prop(properties, "space")
+    if properties.space == "FRAME":
+        if live.current():
+            layout.prop_search(properties, "frame", bpy.data, "objects")
+        else:
+            layout.prop(properties, "frame")
+    layout.prop(properties, "orientation")
+    layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
+
+
+def _draw_shape(layout, obj):
+    properties = live.shared_properties(obj)
+    layout.prop(properties, "together")
+    layout.prop(properties, "solidity", slider=True)
+    layout.prop(properties, "refine")
+    layout.prop(properties, "rotation")
+    draw_symmetry(layout, obj, properties)
+    layout.prop(properties, "floor")
+
+
+def _draw_map(layout, obj):
+    properties = live.own_properties(obj)
+    layout.prop_search(properties, "map_group", obj, "vertex_groups")
+    row = layout.row()
+    row.active = bool(properties.map_group)
+    row.prop(properties, "map_invert")
+
+
+def _draw_result(layout, obj):
+    properties = live.shared_properties(obj)
+    layout.prop(properties, "result")
+    if properties.result == "NEW_OBJECT" and not live.current():
+        layout.prop(properties, "with_modifiers")
+
+
+def _draw_solver(layout, obj):
+    properties = live.shared_properties(obj)
+    layout.prop(properties, "device")
+    layout.prop(properties, "max_iterations")
+    layout.prop(properties, "tolerance")
+
+
+_SECTIONS = (
+    ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
+    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
+    (handles_panel.SECTION, "Handles", handles_panel.draw, False),
+    ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
+    ("CUBIC_PT_result", "Result", _draw_result, False),
+    ("CUBIC_PT_solver", "Solver", _draw_solver, True),
+)
+
+
+def _problem(context, obj):
+    """Return what would make Cubify refuse the object, or an empty text."""
+    if not is_mode_usable(context):
+        return ""  # the way out is offered in place of a message
+    try:
+        check_requirements()
+        mesh_bridge.check_usable(obj)
+        object_handles(obj)
+    except CubicCraftError as error:
+        return str(error)
+    properties = object_properties(obj)
+    group = properties.map_group
+    if group and group not in obj.vertex_groups:
+        return f'"{obj.name}" has no vertex group "{group}"; pick another one'
+    if properties.space == "FRAME" and properties.frame is None:
+        return "No frame object is set; pick one or choose another space"
+    return ""
+
+
+def move_to_tab(tab):
+    """Show the panel in another tab of the sidebar."""
+    bpy.utils.unregister_class(CUBIC_PT_main)
+    CUBIC_PT_main.bl_category = tab or DEFAULT_TAB
+    bpy.utils.register_class(CUBIC_PT_main)
+
+
+register, unregister = bpy.utils.register_classes_factory((CUBIC_PT_main,))

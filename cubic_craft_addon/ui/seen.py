@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is seen and what becomes cubic: where they differ, the panel says so and offers both."""
+
+from typing import Any
+
+import bpy
+
+from .. import job, live, mesh_bridge
+from ..settings.object_properties import object_properties
+from . import job_progress as job_panel
+
+# Modifiers of which the mesh below says little, and those of which it does where it is fine.
+_MAKING = {"ARRAY", "BOOLEAN", "MULTIRES", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY"}
+_MAKING |= {"WIREFRAME"}
+_ROUNDING = {"SUBSURF", "BEVEL"}
+_COARSE = 2000  # vertices
+_ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # groups of nodes that Blender itself brings
+
+
+def can_be_seen(obj: bpy.types.Object) -> bool:
+    """Tell whether an object may show a mesh that is not its own."""
+    if obj.type not in mesh_bridge.KINDS or not obj.visible_get():
+        return False
+    return obj.type != "MESH" or bool(_that_matter(obj))
+
+
+def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Say that what is seen is not what becomes cubic, and offer it; nothing where it is."""
+    properties = object_properties(obj)
+    is_asked_for = properties.result == "NEW_OBJECT" and properties.with_modifiers
+    if is_asked_for or live.current() or job.current() or not _that_matter(obj):
+        return
+    box = layout.box()
+    box.label(text="Modifiers are not seen", icon="INFO")
+    _draw_button(box, "Cubify What You See")
+
+
+def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
+    """Draw the panel of an object that is no mesh: what can be seen becomes a new one."""
+    if obj is None or obj.type not in mesh_bridge.KINDS:
+        layout.label(text="Select a mesh to make cubic", icon="INFO")
+        return
+    running = job.current()
+    if running is not None:
+        job_panel.draw(layout, running, lambda texts: tuple(texts)[-1])
+    else:
+        _draw_button(layout, "Cubify to New Mesh")
+
+
+def _draw_button(layout, text):
+    row = layout.row()
+    row.scale_y = 1.5
+    button = row.operator("cubic_craft.cubify", text=text, icon="MESH_CUBE")
+    button.result, button.with_modifiers = "NEW_OBJECT", True
+
+
+def _that_matter(obj):
+    """Return the modifiers that show something else than the mesh, in the viewport."""
+    is_coarse = len(obj.data.vertices) < _COARSE
+    return [
+        modifier
+        for modifier in obj.modifiers
+        if modifier.show_viewport
+        and (modifier.type in _MAKING or (is_coarse and modifier.type in _ROUNDING))
+        and not _only_shades(modifier)
+    ]
+
+
+def _only_shades(modifier):
+    group = modifier.node_group if modifier.type == "NODES" else None
+    return modifier.type == "NODES" and (group is None or group.name.startswith(_ONLY_SHADES))

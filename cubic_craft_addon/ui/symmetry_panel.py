@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Symmetry in the panel: the axes, and how much of the mesh is symmetric at all."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..run.whole import Whole, modifier_reflections
+
+_MOST_VERTICES = 200_000
+"""of larger meshes only the line of the last run tells, as counting would hold up the panel"""
+_AXES = "XYZ"
+
+
+def draw_symmetry(layout, obj, properties):
+    """Draw the axes, and below them what is symmetric."""
+    row = layout.row(align=True, heading="Symmetry")
+    for axis, name in enumerate(_AXES):
+        row.prop(properties, "symmetry", index=axis, text=name, toggle=True)
+    text = _says(obj, tuple(properties.symmetry))
+    if text:
+        layout.label(text=text, icon="MOD_MIRROR")
+
+
+def _says(obj, symmetry):
+    """Return what there is to say about the halves of an object, or an empty text."""
+    is_mirrored = bool(modifier_reflections(obj))
+    if not any(symmetry):
+        return "Follows the Mirror modifier" if is_mirrored else ""
+    mesh = mesh_bridge.mesh_of(obj)
+    if mesh.is_editmode or len(mesh.vertices) > _MOST_VERTICES:
+        return ""
+    try:
+        positions = mesh_bridge.original_positions(mesh)
+    except CubicCraftError:
+        return ""
+    matching = _matching(positions.tobytes(), symmetry)
+    return f"{matching:,} of {len(positions):,} match"
+
+
+@lru_cache(maxsize=4)
+def _matching(positions, symmetry):
+    """Count the vertices with a partner, of positions as bytes."""
+    V = np.frombuffer(positions, np.float32).reshape(-1, 3)
+    return Whole(V, np.empty((0, 3), dtype=np.intp), (), symmetry).matching

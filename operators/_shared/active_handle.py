@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the operators on handles share: the mesh and the handle that they are about."""
+
+from typing import Any
+
+from ...cubic_craft_addon import mesh_bridge
+from ...cubic_craft_addon.handles.own_pose import identify
+from ...cubic_craft_addon.handles.owner import panel_object
+from ...cubic_craft_addon.settings.object_properties import object_properties
+from ...solver import CubicCraftError
+from .selection import poll_idle
+
+
+def poll_mesh(operator_class, context, modes=("OBJECT",)):
+    """Tell whether there is a mesh whose handles can be changed, and say what is missing."""
+    if not poll_idle(operator_class):
+        return False
+    if context.mode not in modes:
+        operator_class.poll_message_set("Switch to Object Mode first")
+        return False
+    obj = panel_object(context)
+    if obj is None:
+        operator_class.poll_message_set("Make a mesh object active first")
+        return False
+    if not obj.is_editable:
+        operator_class.poll_message_set("The object is linked from another file; make it local")
+        return False
+    return True
+
+
+def poll_handle(operator_class, context):
+    """Tell whether there is an active handle, and say what is missing."""
+    if not poll_mesh(operator_class, context):
+        return False
+    if active_handle(panel_object(context)) is None:
+        operator_class.poll_message_set("Add a handle first")
+        return False
+    return True
+
+
+def active_handle(obj) -> Any:
+    """Return the handle of the object that is active in its list, or None."""
+    properties = object_properties(obj)
+    number = properties.active_handle
+    return properties.handles[number] if number < len(properties.handles) else None
+
+
+def add_handle(obj, group):
+    """Add a pinned handle to the end of the object's list, make it active, and return it."""
+    properties = object_properties(obj)
+    handle = properties.handles.add()
+    handle.group = group
+    identify(handle)  # now, so that no undo step from while Live runs is without it
+    properties.active_handle = len(properties.handles) - 1
+    return handle
+
+
+def members(obj, handle):
+    """Return which vertices (n,) bool of the object are in the handle.
+
+    Raises
+    ------
+    CubicCraftError
+        There is no such vertex group, or none of its vertices weighs enough.
+    """
+    found = mesh_bridge.group_weights(obj, handle.group) >= handle.threshold
+    if not found.any():
+        raise CubicCraftError(
+            f'no vertex of "{obj.name}" has a weight of {handle.threshold:g} or more in the vertex'
+            f' group "{handle.group}"; paint it or lower the threshold'
+        )
+    return found

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Restore and Apply share: both work on meshes that hold something of ours."""
+
+import logging
+
+from ...cubic_craft_addon import mesh_bridge
+from ...cubic_craft_addon.run.failures import UNFORESEEN, in_words
+from ...cubic_craft_addon.settings.rollback import settings_kept
+from ...solver import CubicCraftError
+from .selection import poll_any_usable, report_all, selected_meshes
+
+_log = logging.getLogger(__name__)
+
+
+def poll_originals(operator_class, context):
+    """Tell whether a selected mesh holds something of ours that can be changed.
+
+    Cheap, as it runs at every redraw.
+    """
+    objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_traces(obj.data)]
+    if not objects:
+        operator_class.poll_message_set("The mesh has its original shape; Cubify it first")
+        return False
+    return poll_any_usable(operator_class, objects)
+
+
+def for_each_original(operator, context, action, done):
+    """Call ``action(obj)`` once per selected mesh that holds something of ours, and report.
+
+    The action changes the mesh as its last step, or not at all. It returns what else there is to
+    say, or an empty text.
+    """
+    problems, names, remarks = [], [], []
+    meshes = set()
+    for obj in selected_meshes(context):
+        if obj.data in meshes or not mesh_bridge.has_traces(obj.data):
+            continue
+        meshes.add(obj.data)
+        try:
+            mesh_bridge.check_usable(obj)
+            with settings_kept([obj.data]):
+                remark = action(obj)
+        except CubicCraftError as error:
+            problems.append(str(error))
+        except UNFORESEEN as error:
+            # This one has been put back; the others need their undo step.
+            _log.exception("%s failed", operator.bl_label)
+            problems.append(f'"{obj.name}" is unchanged: {in_words(error)}')
+        else:
+            names.append(obj.name)
+            remarks.append(remark)
+    if not names:
+        return report_all(operator, "", problems)
+    texts = [f"{done} {', '.join(names)}", *dict.fromkeys(filter(None, remarks))]
+    return report_all(operator, "; ".join(texts), problems)

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects an operator works on."""
+
+from typing import Any
+
+from ...cubic_craft_addon import job, live, mesh_bridge
+from ...cubic_craft_addon.environment.modes import MESSAGE, is_mode_usable
+from ...cubic_craft_addon.handles.owner import panel_object, posed_mesh
+from ...cubic_craft_addon.ui import seen
+from ...solver import CubicCraftError
+
+
+def selected_meshes(context):
+    """Return the selected mesh objects, the active one first.
+
+    If none is selected, those whose handles follow what is selected; if there are none either, the
+    active one, or the one that it poses.
+    """
+    active = panel_object(context)
+    selected = context.selected_objects
+    objects = [obj for obj in selected if obj.type == "MESH"]
+    if not objects:
+        posed = (posed_mesh(context, obj) for obj in selected)
+        objects = list(dict.fromkeys(obj for obj in posed if obj is not None))
+    if not objects:
+        return [active] if active is not None else []
+    return sorted(objects, key=lambda obj: obj != active)
+
+
+def poll_idle(operator_class):
+    """Tell whether no Cubify runs, which what is done to its meshes would make worthless."""
+    if job.current() is None:
+        return True
+    operator_class.poll_message_set("Cubify is running; cancel it by Esc")
+    return False
+
+
+def panel_mesh(context) -> Any:
+    """Return the mesh object whose settings the panel shows, None if it shows none."""
+    session = live.current()
+    return panel_object(context) or (session and session.first_object(context))
+
+
+def poll_panel_mesh(operator_class, context):
+    """Tell whether the panel shows a mesh, and say what is missing."""
+    if not poll_idle(operator_class):
+        return False
+    if panel_mesh(context) is None:
+        operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
+
+
+def selected_sources(context):
+    """Return the selected objects that are seen as meshes, the active one first.
+
+    If none is selected, those of `selected_meshes`, or the active one.
+    """
+    active = context.active_object
+    objects = [obj for obj in context.selected_objects if obj.type in mesh_bridge.KINDS]
+    objects = objects or selected_meshes(context)
+    if not objects and active is not None and active.type in mesh_bridge.KINDS:
+        return [active]
+    return sorted(objects, key=lambda obj: obj != active)
+
+
+def poll_sources(operator_class, context):
+    """Tell whether there is something that can be cubified, with or without its modifiers."""
+    if not poll_work(operator_class, context):
+        return False
+    if any(seen.can_be_seen(obj) for obj in selected_sources(context)):
+        return True
+    return poll_usable(operator_class, context)
+
+
+def poll_meshes(operator_class, context):
+    """Tell whether there is a mesh to work on, and say what is missing."""
+    if not poll_work(operator_class, context):
+        return False
+    if not selected_meshes(context):
+        operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
+
+
+def poll_work(operator_class, context):
+    """Tell whether meshes can be worked on now, whichever they are."""
+    if not poll_idle(operator_class):
+        return False
+    if live.current() is not None:
+        operator_class.poll_message_set("Confirm or cancel Live first")
+        return False
+    if not is_mode_usable(context):
+        operator_class.poll_message_set(MESSAGE)
+        return False
+    return True
+
+
+def poll_usable(operator_class, context):
+    """Tell whether there is a mesh that can be cubified, and say what is wrong with the first."""
+    return poll_meshes(operator_class, context) and poll_any_usable(
+        operator_class, selected_meshes(context)
+    )
+
+
+def poll_any_usable(operator_class, objects):
+    """Tell whether one of the objects can be used, and say what is wrong with the first."""
+    problems = []
+    for obj in objects:
+        try:
+            mesh_bridge.check_usable(obj)
+        except CubicCraftError as error:
+            problems.append(str(error))
+        else:
+            return True
+    operator_class.poll_message_set(problems[0])
+    return False
+
+
+def report_all(operator, done, problems):
+    """Report what was done (a text, empty for nothing) and the problems, and return the status.
+
+    ERROR means that nothing was done, WARNING that a part was.
+    """
+    if not done:
+        operator.report({"ERROR"}, "; ".join(problems))
+        return {"CANCELLED"}
+    operator.report({"INFO"}, done)
+    for problem in problems:  # last: Blender shows the last report
+        operator.report({"WARNING"}, problem)
+    return {"FINISHED"}

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Errors that nobody has foreseen: one line for the artist, the traceback for the console."""
+
+import functools
+import logging
+
+from ...cubic_craft_addon.run.failures import UNFORESEEN, in_words
+from ...solver import CubicCraftError
+
+_log = logging.getLogger(__name__)
+
+
+def reporting(execute):
+    """Wrap `execute` of an operator, which changes nothing where it raises, to report what it does.
+
+    Without it Blender would show the artist a traceback.
+    """
+
+    @functools.wraps(execute)
+    def reporting_execute(self, context):
+        try:
+            return execute(self, context)
+        except CubicCraftError as error:
+            self.report({"ERROR"}, str(error))
+        except UNFORESEEN as error:
+            _log.exception("%s failed", self.bl_label)
+            self.report({"ERROR"}, f"Nothing has changed: {in_words(error)}")
+        return {"CANCELLED"}
+
+    return reporting_execute

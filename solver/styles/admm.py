@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The local problem by the alternating direction method of multipliers (ADMM): from any start.
+
+Per vertex, and divided by its area a_i so that nothing depends on scale or tessellation:
+
+    min over R in SO(3):  -tr(R S_i / a_i) + lam_i |Q R n_i|_1
+
+is split by z = Q R n_i (Boyd et al., "Distributed Optimization and Statistical Learning via the
+Alternating Direction Method of Multipliers", 2011, sections 3.1.1, 3.3.1 and 3.4.1). It solves what
+`active_set.py` cannot certify.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..rotation_fit import fit_rotations
+
+
+@dataclass(frozen=True)
+class AdmmOptions:
+    """Tolerances and penalty of the ADMM. Penalties are in units of the vertex area."""
+
+    max_iterations: int = 100
+    absolute: float = 1e-7
+    """absolute part of the tolerance of either residual"""
+    relative: float = 1e-5
+    """relative part of the tolerance of either residual"""
+    rho_start: float = 2.0
+    rho_min: float = 1e-2
+    rho_max: float = 1e3
+    balance: float = 10.0
+    """mu: how far apart the residuals may be before the penalty changes"""
+    factor: float = 2.0
+    """tau: by how much the penalty then changes"""
+
+
+def admm_rotations(problem, R, s, options):
+    """Return rotations and subgradients that minimise the local energy near R.
+
+    Parameters
+    ----------
+    problem, R, s
+        As in `active_set.active_set_rotations`.
+    options : AdmmOptions
+
+    Returns
+    -------
+    R : (n,3,3) float array
+    s : (n,3) float array
+        The sign of z_k, and the multiplier where z_k is zero.
+    """
+    R, s = R.copy(), s.copy()
+    plain = problem.lam == 0.0
+    R[plain] = fit_rotations(problem.S[plain], R[plain])
+    todo = np.flatnonzero(~plain)
+    problem = problem.part(todo)
+    rho = np.full(len(todo), options.rho_start)
+    z = np.where(np.abs(s[todo]) < 1.0, 0.0, problem.cube_normals(R[todo]))
+    u = s[todo] * (problem.lam / rho)[:, None]
+    for _ in range(options.max_iterations):
+        if not len(todo):
+            break
+        R[todo], z, u, is_done, rho_new = _iteration(problem, R[todo], z, u, rho, options)
+        multipliers = u * (rho / problem.lam)[:, None]
+        s[todo] = np.where(z == 0.0, np.clip(multipliers, -1.0, 1.0), np.sign(z))
+        u *= (rho / rho_new)[:, None]
+        more = ~is_done
+        todo, problem = todo[more], problem.part(more)
+        z, u, rho = z[more], u[more], rho_new[more]
+    return R, s
+
+
+def _iteration(problem, R, z, u, rho, o):
+    S, normals, Q, lam = problem
+    pull = np.einsum("nji,nj->ni", Q, z - u) * rho[:, None]
+    R = fit_rotations(S + normals[:, :, None] * pull[:, None, :], R)
+    x = problem.cube_normals(R)
+    threshold = (lam / rho)[:, None]
+    z_new = np.sign(x + u) * np.maximum(np.abs(x + u) - threshold, 0.0)
+    u = u + x - z_new
+    primal = np.linalg.norm(z_new - x, axis=1)
+    dual = rho * np.linalg.norm(z_new - z, axis=1)
+    size = np.maximum(np.linalg.norm(x, axis=1), np.linalg.norm(z_new, axis=1))
+    force = rho * np.linalg.norm(u, axis=1)
+    is_done = (primal <= o.absolute + o.relative * size) & (dual <= o.absolute + o.relative * force)
+    change = np.ones(len(rho))
+    change[primal > o.balance * dual] = o.factor
+    change[dual > o.balance * primal] = 1.0 / o.factor
+    return R, z_new, u, is_done, np.clip(rho * change, o.rho_min, o.rho_max)
