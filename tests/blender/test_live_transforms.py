@@ -104,3 +104,40 @@ def test_shape_keys_go_along(begin, live):
     offset = points_of(obj.data, "Smile") - smile
     assert np.linalg.norm(offset[0]) > 0.1
     assert offset == pytest.approx(np.broadcast_to(offset[0], offset.shape), abs=1e-5)
+
+
+@WAYS
+@pytest.mark.parametrize("is_live", [True, False])
+@pytest.mark.parametrize("was_cubic", [False, True])
+def test_it_does_so_after_an_undo_to_the_moment_of_the_transform(
+    begin, live, transform, was_cubic, is_live
+):
+    """Blender keeps the undo step of an operator before anybody can see what it has done."""
+    obj = add_monkey()
+    name, before = obj.name, position_of(obj.data)
+    if transform is apply_transform:
+        obj.matrix_basis = Matrix.LocRotScale(None, Euler((0.3, 0.2, 0.1)), (1.0, 1.5, 0.5))
+        bpy.context.view_layer.update()
+    if was_cubic:
+        cubify()
+    session = begin(obj, cubeness=0.8)
+    tick_to_rest(session)
+    bpy.ops.ed.undo_push(message="Live")
+    way = transform(obj)
+    bpy.ops.ed.undo_push(message="Transform")
+    bpy.context.view_layer.update()
+    session.wake()
+    tick_to_rest(session)
+    bpy.ops.ed.undo_push(message="Something else")
+    if not is_live:
+        session.on(live.Event.CANCEL)
+    bpy.ops.ed.undo()
+    if is_live:
+        tick_to_rest(session)
+        session.on(live.Event.CANCEL)
+    check_gone(live)
+    obj = bpy.data.objects[name]
+    select(obj)
+    if was_cubic:
+        assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert position_of(obj.data) == pytest.approx(moved(before, way), abs=2e-6)

@@ -13,6 +13,7 @@ from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.fingerprint import fingerprint_of_values
 from ..memory.note import read_note
 from .edit_mode import EditedMesh
+from .moved import take_along
 from .store import drop_live_part, marked, remove_live_attributes, shapes_before, write_live_part
 
 _ended_in_edit_mode: dict[str, dict[str, Any]] = {}
@@ -50,8 +51,11 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     part = read_note(mesh).get("live") or _part_of_undone(present)
     if not part:
         return False
-    if edited and part["fingerprint"]:
-        _ended_in_edit_mode[part["fingerprint"]] = part
+    if edited:
+        if part["fingerprint"]:
+            _ended_in_edit_mode[part["fingerprint"]] = part
+    elif present is not None and not _is_as_shown(part, present):
+        part = take_along(mesh, part, present) or part
     read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
     before = shapes_before(present, part, read) if present is not None else None
     if before is not None:
@@ -75,6 +79,10 @@ def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str
     """
     meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
     return [mesh.name for mesh in meshes if end_preview(mesh)]
+
+
+def _is_as_shown(part: dict[str, Any], present: Shapes) -> bool:
+    return part["fingerprint"] in ("", fingerprint_of_values(present.base))
 
 
 def _may_be_undone(mesh: bpy.types.Mesh) -> bool:

@@ -16,13 +16,13 @@ from ..access.attributes import LIVE, check_names
 from ..access.checks import check_writable
 from ..access.rotations import matrices_from_quaternions
 from ..access.shapes import Shapes, read_shapes, write_shapes
-from ..memory.affine import fit
 from ..memory.note import check_note, read_note
 from ..memory.original import Start, original_shapes
 from ..result.cubic_key import find_cubic_key
 from ..result.rounded_for_storage import carry_finite, settled, settled_rotations
 from .end import end_preview
-from .store import marked, move_live, store_live, write_live_part
+from .moved import take_along
+from .store import marked, store_live, write_live_part
 
 
 class Preview:
@@ -116,11 +116,8 @@ class Preview:
             return False
         if (present.base == self._shown).all():
             return False
-        way = fit(self._shown, present.base)
-        if way is None:
+        if take_along(mesh, part, present, self._shown) is None:
             return False
-        move_live(mesh, way.moved)
-        write_live_part(mesh, marked(part, present))
         self._shown = present.base
         return True
 
