@@ -31,5 +31,5 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
 
 def _apply(obj):
     rest_in_pose(obj.data)
-    mesh_bridge.forget(obj.data)
+    mesh_bridge.discard_original(obj.data)
     return ""

@@ -15,14 +15,14 @@ from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
-from ..cubic_craft_addon.run.failures import UNFORESEEN
+from ..cubic_craft_addon.run.failures import UNEXPECTED
 from ..cubic_craft_addon.run.last_run import last_run
 from ..cubic_craft_addon.run.up_to_date import changes_since
 from ..cubic_craft_addon.settings.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
     OF_EACH_OBJECT,
-    Choice,
+    SettingsOverrides,
     find_frame,
     values_of,
 )
@@ -92,7 +92,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
             return report_all(self, *work.write(is_alone=True))
         finally:
             # What has been written needs its undo step, whatever fails in tidying up.
-            with contextlib.suppress(*UNFORESEEN):
+            with contextlib.suppress(*UNEXPECTED):
                 work.discard()
             manager.progress_end()
 
@@ -145,7 +145,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         is_seen = _asks_for_what_is_seen(self, context)
         objects = selected_sources(context) if is_seen else selected_meshes(context)
         _adopt_settings(self, objects)
-        return job.Job(_choice(self, objects[0]), objects)
+        return job.Job(_overrides(self, objects[0]), objects)
 
     def _report_cancel(self):
         reason = self._watched.reason
@@ -186,7 +186,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
 
 
 def _asks_for_what_is_seen(operator, context):
-    """Tell whether it is about what is seen: it says so, the active object does, or is no mesh."""
+    """Return whether it is about what is seen: as told, as the active object says, or no mesh."""
     active = panel_object(context)
     if active is None or not selected_meshes(context):
         return True
@@ -225,11 +225,13 @@ def _set_for_new_mesh(operator):
             setattr(operator, name, value)
 
 
-def _choice(operator, active):
+def _overrides(operator, active):
     names = tuple(n for n in (*ALL, "start") if operator.properties.is_property_set(n))
     frame = find_frame(operator.frame, active) if operator.space == "FRAME" else None
     is_given = operator.properties.is_property_set("handles")
-    return Choice(values_of(operator, names), frame, _handles(operator) if is_given else None)
+    return SettingsOverrides(
+        values_of(operator, names), frame, _handles(operator) if is_given else None
+    )
 
 
 def _handles(operator):
@@ -251,7 +253,7 @@ def _affine(item):
 
 
 def _is_to_cancel(event):
-    """Tell whether it is Esc, or Ctrl-Z, which takes back what was clicked last: this."""
+    """Return whether it is Esc, or Ctrl-Z, which takes back what was clicked last: this."""
     if event.value != "PRESS":
         return False
     is_undo = event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt)

@@ -42,7 +42,7 @@ class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
 
 
 def _is_ours_alone(target):
-    """Tell whether we made the object and only collections and scenes still use it."""
+    """Return whether we made the object and only collections and scenes still use it."""
     if not object_properties(target).is_made_target or target.library is not None:
         return False
     users = bpy.data.user_map(subset=[target])[target]

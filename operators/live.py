@@ -136,7 +136,7 @@ def _is_over_viewport(context, event):
 
 
 def _is_in_view(context, event):
-    """Tell whether the mouse is on the view itself, not on the sidebar with its context menus."""
+    """Return whether the mouse is on the view itself, not on the sidebar with its context menus."""
     for area in context.screen.areas:
         if area.type == "VIEW_3D" and _contains(area, event):
             regions = [r for r in area.regions if r.width > 1 and _contains(r, event)]

@@ -23,7 +23,7 @@ START = 30.0
 """the first t: that of the 59th iteration, as if it had long been under way"""
 RESTART = 4.0
 """the t after the energy has risen, of the 7th iteration; 1 where it rises once more at once"""
-FURTHER = 0.65
+OVERSHOOT = 0.65
 """share of the further step; the more, the longer the details swing about their place"""
 
 
@@ -43,7 +43,7 @@ class Momentum:
         self._energies = np.full(count, np.inf)
         self._has_risen = np.zeros(count, dtype=bool)
 
-    def see(self, energies):
+    def observe(self, energies):
         """Take in the energies (count,) of the extrapolated point; restart what has risen."""
         has_risen = energies > self._energies
         self._t[has_risen] = np.where(self._has_risen, 1.0, RESTART)[has_risen]
@@ -56,10 +56,10 @@ class Momentum:
         -------
         momentum : (count,) array
             In ways from the positions before to the new ones.
-        further : (count,) array
+        overshoot : (count,) array
             In steps from the extrapolated point to the new positions.
         """
         t_next = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * self._t * self._t))
-        momentum, further = (self._t - 1.0) / t_next, FURTHER * self._t / t_next
+        momentum, overshoot = (self._t - 1.0) / t_next, OVERSHOOT * self._t / t_next
         self._t = t_next
-        return momentum, further
+        return momentum, overshoot

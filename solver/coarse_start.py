@@ -33,7 +33,7 @@ _LEAST_DETERMINANT = 0.9  # less was no average of similar rotations
 
 
 def coarse_stylization(fine):
-    """Return the Stylization of a coarser mesh whose end `carry_up` takes to a fresh one, or None.
+    """Return the Stylization of a coarser mesh whose end `prolongate` takes to it, or None.
 
     None for small meshes, for the plain iteration, and where there is no coarser mesh.
     """
@@ -44,19 +44,19 @@ def coarse_stylization(fine):
     return fine.coarser()
 
 
-def carry_up(coarse, fine):
+def prolongate(coarse, fine):
     """Let a fresh Stylization start from what a coarser one has come to."""
     positions, R = coarse.placed()
     merged = R[fine.rest.coarse.cluster]
-    fine.start_from(*_on_fine(fine.rest, positions, _smoothed(fine.rest, merged)))
+    fine.start_from(*_prolongate(fine.rest, positions, _smoothed(fine.rest, merged)))
 
 
-def glance_up(positions, R, rest):
+def preview_on_fine(positions, R, rest):
     """Return rotations and positions of a finer mesh at a glance, from placed (k,3) and (k,3,3)."""
-    return _on_fine(rest, positions, R[rest.coarse.cluster])
+    return _prolongate(rest, positions, R[rest.coarse.cluster])
 
 
-def _on_fine(rest, positions, R):
+def _prolongate(rest, positions, R):
     """Return R (n,3,3), and where it turns the vertices about those that they were merged into."""
     cluster = rest.coarse.cluster
     offset = rest.V - rest.coarse.rest.input_positions[cluster]

@@ -44,12 +44,12 @@ class Motion:
         for _ in range(times):
             self.put(self._setup.global_step.positions(rhs, self._U))
 
-    def step(self, momentum, further, keep_rotation):
+    def step(self, momentum, overshoot, keep_rotation):
         """Do one global step.
 
         Parameters
         ----------
-        momentum, further : (component_count,) arrays
+        momentum, overshoot : (component_count,) arrays
             How far the point goes on from the new positions, see `Momentum.next`.
         keep_rotation : bool
             Keep each component without pins as it stands at rest.
@@ -65,13 +65,15 @@ class Motion:
         )
         for constraint in self._constraints:
             constraint.impose(U)
-        way, point = U - self._U, U - self.point
-        displacement = largest(way)
+        step, point = U - self._U, U - self.point
+        displacement = largest(step)
         if rest.component_count > 1:
-            momentum, further = (share[rest.component][:, None] for share in (momentum, further))
-        way *= momentum
-        point *= further
-        point += way
+            momentum, overshoot = (
+                share[rest.component][:, None] for share in (momentum, overshoot)
+            )
+        step *= momentum
+        point *= overshoot
+        point += step
         point += U
         self.point, self._U = point, U
         return displacement, largest(U - rest.V)

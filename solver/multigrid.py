@@ -26,7 +26,7 @@ _SMOOTHED_PART = 4.0  # the smoother damps the upper end of the spectrum, down t
 
 
 def has_multigrid():
-    """Tell whether the package pyamg, which builds the hierarchy, is installed."""
+    """Return whether the package pyamg, which builds the hierarchy, is installed."""
     return optional_package("pyamg") is not None
 
 
@@ -73,16 +73,16 @@ class Multigrid:
 
     def solve(self, B, near):
         """Return X (n,3), nearer to A X = B than the given one (n,3)."""
-        rest = (B.T - _product(self._A, np.ascontiguousarray(near.T))) * self.scale
-        return near + (self.scale * self._cycle(rest.astype(np.float32), 0)).T
+        residual = (B.T - _product(self._A, np.ascontiguousarray(near.T))) * self.scale
+        return near + (self.scale * self._cycle(residual.astype(np.float32), 0)).T
 
     def _cycle(self, B, depth):
         if depth == len(self.levels):
             return self._solve_coarsest(B.T.astype(np.float64)).T.astype(np.float32)
         level = self.levels[depth]
         X = level.smooth(B)
-        rest = _product(level.restrict, B - _product(level.A, X))
-        X += _product(level.P, self._cycle(rest, depth + 1))
+        residual = _product(level.restrict, B - _product(level.A, X))
+        X += _product(level.P, self._cycle(residual, depth + 1))
         X += level.smooth(B - _product(level.A, X))
         return X
 

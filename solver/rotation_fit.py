@@ -45,8 +45,8 @@ def fit_rotations(M, guess):
         todo, step = todo[is_safe], step[is_safe]
         R[todo] = _cayley(step) @ R[todo]
         todo = todo[(step * step).sum(1) > ANGLE_TOLERANCE**2]
-    rest = np.concatenate([*uncertified, todo])
-    R[rest] = svd_rotations(M[rest])
+    others = np.concatenate([*uncertified, todo])
+    R[others] = svd_rotations(M[others])
     return R
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .coarse_start import MAX_ITERATIONS, TOLERANCE, carry_up, coarse_stylization, glance_up
+from .coarse_start import MAX_ITERATIONS, TOLERANCE, coarse_stylization, preview_on_fine, prolongate
 from .errors import CubicCraftError
 from .proxy import PAPER
 from .rest import rest_mesh
@@ -181,7 +181,7 @@ class Run:
     def _advance_coarse(self):
         self._coarse.advance()
         if self._coarse.reason is not None:
-            carry_up(self._coarse.stylization, self.stylization)
+            prolongate(self._coarse.stylization, self.stylization)
             self._coarse_iterations = self._coarse.iterations
             self._coarse = None
 
@@ -223,7 +223,7 @@ class Run:
         if self._coarse is None:
             return state.rotations, state.positions
         positions, R = self._coarse.placed()
-        return glance_up(positions, R, state.rest)
+        return preview_on_fine(positions, R, state.rest)
 
     def result(self):
         """Return the Result of what has been done; the iteration cannot go on after it."""

@@ -189,16 +189,18 @@ class Stylization:
         """Fit the rotations to the positions."""
         arap, cubic = self._local.update(self._motion.point)
         if self._acceleration is not None:
-            self._acceleration.see(arap + cubic)
+            self._acceleration.observe(arap + cubic)
         self.energy = Energy(float(arap.sum()), float(cubic.sum()))
 
     def global_step(self):
         """Move the positions toward the rotations of the local step before."""
         if self._acceleration is None:
-            momentum = further = np.zeros(self.rest.component_count)
+            momentum = overshoot = np.zeros(self.rest.component_count)
         else:
-            momentum, further = self._acceleration.next()
-        self.displacement, self.distance = self._motion.step(momentum, further, self._keep_rotation)
+            momentum, overshoot = self._acceleration.next()
+        self.displacement, self.distance = self._motion.step(
+            momentum, overshoot, self._keep_rotation
+        )
         self.iteration += 1
 
     def finish(self):

@@ -10,5 +10,5 @@ MESSAGE = "Switch to Object Mode first"
 
 
 def is_mode_usable(context: bpy.types.Context) -> bool:
-    """Tell whether meshes can be read and written in the present mode."""
+    """Return whether meshes can be read and written in the present mode."""
     return context.mode in _MODES

@@ -6,7 +6,7 @@ from ... import solver
 _told = ""
 
 
-def taichi_news() -> list[str]:
+def new_taichi_warnings() -> list[str]:
     """Return what is to be told about Taichi now, as one text or none."""
     global _told
     problem = solver.problem_with_taichi()

@@ -56,7 +56,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context):
-        """Tell whether a mesh is live, and it or what its handles follow is active."""
+        """Return whether a mesh is live, and it or what its handles follow is active."""
         return live_object(context) is not None
 
     def setup(self, _context):

@@ -49,7 +49,7 @@ def rest_in_pose(mesh: bpy.types.Mesh) -> None:
                 handle.is_baked = False
 
 
-def settle(
+def rebase_edited_handles(
     objects: list[bpy.types.Object], start_of: Callable[[bpy.types.Object], mesh_bridge.Start]
 ) -> None:
     """Do so for each mesh object that starts from where it is, as edited since it was written."""
@@ -61,7 +61,7 @@ def settle(
 
 
 def _is_as(handle, other):
-    """Tell whether a handle moves vertices as the other one, with which the mesh was written."""
+    """Return whether a handle moves vertices as the other one, with which the mesh was written."""
     target = live_target(handle)
     if target is not None or live_target(other) is not None:
         return target == live_target(other)

@@ -56,7 +56,7 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
 
 
 def has_pose(handle: CubicCraftHandle) -> bool:
-    """Tell whether the handle has a pose of its own."""
+    """Return whether the handle has a pose of its own."""
     return own_pose(handle) != IDENTITY
 
 

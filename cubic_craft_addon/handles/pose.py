@@ -213,7 +213,7 @@ def _reference(obj, handle):
 
 
 def _is_plain_child(target, reference):
-    """Tell whether nothing but its own transform says where the target is on the reference."""
+    """Return whether nothing but its own transform says where the target is on the reference."""
     return (
         target.parent == reference
         and target.parent_type == "OBJECT"

@@ -14,12 +14,12 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..handles.baked_pose import settle
+from ..handles.baked_pose import rebase_edited_handles
 from ..live.live_run import LiveRun
 from ..run.assembly import assemblies
 from ..run.member import Shape
 from ..run.tasks import Task, plan, write_all
-from ..settings.overrides import Choice
+from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept, settings_untouched
 
 _LONG_SETUP = 15_000  # vertices; what has more is not factorised in the wink of an eye
@@ -43,17 +43,17 @@ class Job:
 
     Parameters
     ----------
-    choice : Choice
+    overrides : SettingsOverrides
     objects : list of bpy.types.Object
         The active one first.
     """
 
-    def __init__(self, choice: Choice, objects: list[bpy.types.Object]):
-        self._choice = choice
+    def __init__(self, overrides: SettingsOverrides, objects: list[bpy.types.Object]):
+        self._overrides = overrides
         self._problems: list[str] = []
         self._made: list[tuple[bpy.types.Object, bpy.types.Object]] = []
         try:
-            self._plan(self._make_seen(objects) if choice.is_of_what_is_seen else objects)
+            self._plan(self._make_seen(objects) if overrides.is_of_what_is_seen else objects)
         except BaseException:
             self.discard()
             raise
@@ -73,8 +73,8 @@ class Job:
     def _plan(self, objects: list[bpy.types.Object]) -> None:
         meshes = [obj for obj in objects if isinstance(obj.data, bpy.types.Mesh)]
         with settings_untouched(_meshes(meshes)):
-            settle(meshes, self._choice.start_of)
-            self._tasks, problems = plan(self._choice, objects)
+            rebase_edited_handles(meshes, self._overrides.start_of)
+            self._tasks, problems = plan(self._overrides, objects)
         self._problems += problems
         sources = {new.session_uid: source for new, source in self._made}
         for task in self._tasks:
@@ -158,11 +158,11 @@ class Job:
         """
         objects = [task.obj for task in self._tasks]
         with settings_kept(_meshes(objects)):
-            settle(objects, self._choice.start_of)
+            rebase_edited_handles(objects, self._overrides.start_of)
             if not is_alone:
                 self._drop_changed()
             solved = [task for task in self._tasks if task.solution is not None]
-            summary, unwritten = write_all(self._choice, solved)
+            summary, unwritten = write_all(self._overrides, solved)
             problems = self._problems + unwritten
             if not summary:
                 raise CubicCraftError("; ".join(problems))
@@ -185,7 +185,7 @@ class Job:
                 self._problems.append(problem)
 
     def _change_of(self, task: Task) -> str:
-        now = Task(task.obj, self._choice)
+        now = Task(task.obj, self._overrides)
         is_same = now.key == task.key
         if task.uid in self._joined:
             is_same = now.key_in_world == task.key_in_world
@@ -209,7 +209,7 @@ def _if_there(obj: bpy.types.Object | None) -> bpy.types.Object | None:
 
 
 def _is_twin(task: Task, group: Sequence[Task]) -> bool:
-    """Tell whether a task has been solved that has the solution of a group of one."""
+    """Return whether a task has been solved that has the solution of a group of one."""
     if task.solution is None or task.solution.objects > 1 or len(group) > 1:
         return False
     return task.is_like(group[0])

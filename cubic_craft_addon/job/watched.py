@@ -12,7 +12,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from ..run.failures import UNFORESEEN
+from ..run.failures import UNEXPECTED
 from ..screen import status_text
 from ..screen.redraw import redraw_panels
 from .job import Job, Step
@@ -101,7 +101,7 @@ class WatchedJob:
         global _current
         self._steps.close()
         if self._job is not None:
-            with contextlib.suppress(*UNFORESEEN):  # what has been written needs its undo step
+            with contextlib.suppress(*UNEXPECTED):  # what has been written needs its undo step
                 self._job.discard()
         self._job = None
         if _current is not self:

@@ -15,7 +15,7 @@ from ..settings.values import Settings
 from . import properties, stale_previews
 from .machine import Event
 from .poses import pose_of, reset_poses, set_pose
-from .properties import live_choice, live_properties
+from .properties import live_overrides, live_properties
 from .session import Session
 
 __all__ = (
@@ -72,11 +72,11 @@ def settings_now(obj: bpy.types.Object) -> Settings:
     Raises
     ------
     CubicCraftError
-        As `live_choice`.
+        As `live_overrides`.
     """
     if current() is None:
         return settings_of(obj, handles=())
-    return replace(live_choice([obj]), handles=()).settings_for(obj)
+    return replace(live_overrides([obj]), handles=()).settings_for(obj)
 
 
 def register():

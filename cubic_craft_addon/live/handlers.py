@@ -83,5 +83,5 @@ def remove():
 
 
 def is_installed():
-    """Tell whether a session is told what happens."""
+    """Return whether a session is told what happens."""
     return _session is not None

@@ -101,7 +101,7 @@ class LiveMesh:
         if moment is None or moment == self._shown_moment:
             return False
         self._shown_moment = moment
-        found = self.run.glance(self.object_uid, self._preview.needs_rotations)
+        found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
         if found is None:
             return False
         self._preview.show(mesh, *found)

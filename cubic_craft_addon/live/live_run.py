@@ -46,7 +46,7 @@ class LiveRun:
         return self._key is not None
 
     def is_changed(self, tasks: Sequence[Task]) -> bool:
-        """Tell whether the tasks ask for something else than what is being done."""
+        """Return whether the tasks ask for something else than what is being done."""
         return key_of(tasks) != self._key
 
     def restart(
@@ -166,7 +166,7 @@ class LiveRun:
             return None  # what is seen stays until there is something better
         return self._run.iterations, self.is_done
 
-    def glance(self, uid: int, with_rotations: bool):
+    def intermediate_result(self, uid: int, with_rotations: bool):
         """Return positions and rotations of an object at the present moment, None if not in it.
 
         The rotations take time, and may be None unless they are asked for.
@@ -177,7 +177,7 @@ class LiveRun:
             return solution and (solution.positions, solution.rotations)
         moment = (self.moment, with_rotations)
         if moment != self._glance_moment:
-            found = pipeline.glance(self.prepared, self._run, with_rotations)
+            found = pipeline.intermediate_result(self.prepared, self._run, with_rotations)
             members = self.prepared.members
             self._glance = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._glance_moment = moment

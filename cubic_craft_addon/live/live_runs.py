@@ -32,7 +32,7 @@ class LiveRuns:
         return [text for run in self._runs.values() for text in run.problems]
 
     def is_changed(self, groups: Groups) -> bool:
-        """Tell whether something else is asked for than what is being done."""
+        """Return whether something else is asked for than what is being done."""
         if not groups:
             return any(run.is_asked_for for run in self._runs.values())
         if groups.keys() != self._runs.keys():

@@ -55,7 +55,7 @@ def reset_poses(obj: bpy.types.Object) -> None:
 
 
 def by_object(poses: Poses) -> dict[int, dict[int, Pose]]:
-    """Return poses as `Choice` takes them."""
+    """Return poses as `SettingsOverrides` takes them."""
     found: dict[int, dict[int, Pose]] = {}
     for (object_uid, handle_uid), pose in poses.items():
         found.setdefault(object_uid, {})[handle_uid] = pose

@@ -12,7 +12,7 @@ from bpy.props import PointerProperty, StringProperty
 
 from ..presets.selector import preset_property
 from ..screen import glimpse
-from ..settings.overrides import ALL, OF_EACH_OBJECT, Choice, find_frame, values_of
+from ..settings.overrides import ALL, OF_EACH_OBJECT, SettingsOverrides, find_frame, values_of
 from ..settings.properties import RunProperties, object_properties, value_of
 from . import poses, wake
 
@@ -76,7 +76,7 @@ def set_live_values(values: dict[str, Any]) -> None:
             setattr(target, name, value)
 
 
-def live_choice(objects: list[bpy.types.Object]) -> Choice:
+def live_overrides(objects: list[bpy.types.Object]) -> SettingsOverrides:
     """Return the settings for objects, of which the active one is the first.
 
     Raises
@@ -90,7 +90,7 @@ def live_choice(objects: list[bpy.types.Object]) -> Choice:
         values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
     is_framed = objects and values["space"] == "FRAME"
     found = find_frame(frame, objects[0]) if is_framed else None
-    return Choice(values, found, poses=posed)
+    return SettingsOverrides(values, found, poses=posed)
 
 
 def register():

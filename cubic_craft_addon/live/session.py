@@ -12,12 +12,12 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..handles.baked_pose import settle
+from ..handles.baked_pose import rebase_edited_handles
 from ..run.assembly import assemblies
 from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
 from ..settings.object_properties import object_properties
-from ..settings.overrides import Choice
+from ..settings.overrides import SettingsOverrides
 from . import handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
@@ -73,7 +73,7 @@ class Session:
         self._undo_steps = UndoSteps()
         self.error, self.summary = "", ""
         self.problems: list[str] = []
-        settle(objects, lambda obj: object_properties(obj).start)
+        rebase_edited_handles(objects, lambda obj: object_properties(obj).start)
         properties.adopt(objects[0])
         self._values = properties.live_values()
         self._history = History(self._values)
@@ -270,7 +270,7 @@ class Session:
         self._is_undone = False
 
     def _is_too_young(self, now):
-        """Tell whether the runs have yet to be seen: else a drag would show nothing at all."""
+        """Return whether the runs have yet to be seen: else a drag would show nothing at all."""
         working = [mesh for mesh in self.meshes if mesh.is_working]
         is_seen = all(mesh.is_seen for mesh in working)
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
@@ -321,7 +321,7 @@ class Session:
         for mesh, task in self._pairs():
             task.solution = mesh.solution
         solved = [task for task in self._tasks.values() if task.solution is not None]
-        self.summary, unwritten = write_all(self._choice, solved)
+        self.summary, unwritten = write_all(self._overrides, solved)
         self.problems = self.all_problems + unwritten
 
     def _start_timer(self):
@@ -347,7 +347,7 @@ class Session:
         poses.set_live_poses({})
         self._tasks.clear()
         self._groups.clear()
-        self._choice = Choice({})
+        self._overrides = SettingsOverrides({})
         self._runs.release()
         for mesh in self.meshes:
             mesh.release()
@@ -373,11 +373,11 @@ class Session:
         self._tasks: dict[int, Task] = {}
         self._groups: dict[tuple[int, ...], list[Task]] = {}
         try:
-            self._choice: Choice = properties.live_choice(objects)
+            self._overrides: SettingsOverrides = properties.live_overrides(objects)
         except CubicCraftError as error:
             self._plan_problems = [str(error)]
             return
-        tasks, self._plan_problems = plan(self._choice, objects)
+        tasks, self._plan_problems = plan(self._overrides, objects)
         self._tasks = {task.uid: task for task in tasks}
         self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
 

@@ -22,7 +22,7 @@ from .memory.run_note import read_run
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.new_object import write_new_object
-from .result.restore import forget, has_traces, restore
+from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
 from .result.seen import KINDS, make_seen, remove_seen, write_seen
 
@@ -32,9 +32,9 @@ __all__ = (
     "Start",
     "check_editable",
     "check_usable",
+    "discard_original",
     "end_all_previews",
     "end_preview",
-    "forget",
     "group_weights",
     "has_original",
     "has_preview",

@@ -60,7 +60,7 @@ class Preset:
         return self.path.with_suffix(".png")
 
     def is_of(self, properties: Any) -> bool:
-        """Tell whether properties have its values."""
+        """Return whether properties have its values."""
         return all(_is_like(getattr(properties, name), v) for name, v in self.values.items())
 
 

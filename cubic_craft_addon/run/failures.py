@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the artist is told when something goes wrong that nobody has foreseen."""
 
-UNFORESEEN = (Exception, KeyboardInterrupt)
+UNEXPECTED = (Exception, KeyboardInterrupt)
 """what an operator reports instead of letting it through: Blender would show a traceback"""
 
 

@@ -37,7 +37,7 @@ class Shape:
     """what it was to be read from, where the mesh was edited by hand since its last result"""
 
     def is_like(self, other: Shape) -> bool:
-        """Tell whether both are the same, bit for bit."""
+        """Return whether both are the same, bit for bit."""
         if self is other:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()

@@ -28,6 +28,6 @@ def orientations(whole: Whole, placement: Placement) -> np.ndarray:
 
 
 def _looks_alike(turn):
-    """Tell whether a cube that is turned or mirrored so looks as before."""
+    """Return whether a cube that is turned or mirrored so looks as before."""
     sizes = np.abs(turn)
     return np.minimum(sizes, np.abs(sizes - 1.0)).max() <= _ALIKE

@@ -103,7 +103,7 @@ def solve(
         raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
 
 
-def glance(prepared: Prepared, run: solver.Run, with_rotations: bool):
+def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: bool):
     """Return positions and rotations, as in a Solution, that a run has come to so far.
 
     One pair for each member. The rotations take time, and are None unless they are asked for.

@@ -12,14 +12,14 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..environment.new_taichi_warnings import taichi_news
+from ..environment.new_taichi_warnings import new_taichi_warnings
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
-from ..settings.overrides import Choice
+from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept
 from . import pipeline
 from .assembly import Prepared, prepare
-from .failures import UNFORESEEN, in_words
+from .failures import UNEXPECTED, in_words
 from .last_run import LastRun, run_of
 from .member import Member, read_member
 from .object_frame import placement_alone, placement_in_world
@@ -32,10 +32,10 @@ _log = logging.getLogger(__name__)
 class Task:
     """An object to be cubified with its settings; `solution` is there once it is solved."""
 
-    def __init__(self, obj: bpy.types.Object, choice: Choice):
+    def __init__(self, obj: bpy.types.Object, overrides: SettingsOverrides):
         self.obj, self.mesh = obj, mesh_bridge.mesh_of(obj)
         self.uid = obj.session_uid
-        self.settings = choice.settings_for(obj)
+        self.settings = overrides.settings_for(obj)
         self.solution: pipeline.Solution | None = None
         self.is_seen = False
         """whether the object was made by `mesh_bridge.make_seen`"""
@@ -63,7 +63,7 @@ class Task:
         return run_of(self.solution, what_matters(self.settings))
 
     def is_like(self, other: Task) -> bool:
-        """Tell whether both have the same solution, each being solved alone."""
+        """Return whether both have the same solution, each being solved alone."""
         one, two = self._alone, other._alone
         return (
             self.mesh == other.mesh
@@ -75,7 +75,9 @@ class Task:
         )
 
 
-def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], list[str]]:
+def plan(
+    overrides: SettingsOverrides, objects: list[bpy.types.Object]
+) -> tuple[list[Task], list[str]]:
     """Return the tasks, and the problems as texts.
 
     A mesh that several objects share is one task, as the first of them stands; only new objects
@@ -85,7 +87,7 @@ def plan(choice: Choice, objects: list[bpy.types.Object]) -> tuple[list[Task], l
     unlike: dict[Task, list[str]] = {}
     for obj in objects:
         try:
-            task = Task(obj, choice)
+            task = Task(obj, overrides)
         except CubicCraftError as error:
             problems.append(str(error))
             continue
@@ -152,7 +154,7 @@ def prepare_all(
         return None, [*problems, str(error)]
 
 
-def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
+def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, list[str]]:
     """Write the solutions of all tasks.
 
     Returns
@@ -166,12 +168,12 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     # All texts come before the first write: what follows a write must not fail.
     solutions = [task.solution for task in tasks if task.solution is not None]
     runs = [task.run for task in tasks]
-    written, problems = 0, taichi_news() if tasks else []
+    written, problems = 0, new_taichi_warnings() if tasks else []
     try:
         for task, run in zip(tasks, runs, strict=True):
-            _write(choice, task, run)
+            _write(overrides, task, run)
             written += 1
-    except UNFORESEEN as error:
+    except UNEXPECTED as error:
         _log.exception("Writing a result failed")  # this object has been put back
         reason = in_words(error)
         problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
@@ -184,15 +186,15 @@ def write_all(choice: Choice, tasks: list[Task]) -> tuple[str, list[str]]:
     return "", problems
 
 
-def _write(choice, task, run):
+def _write(overrides, task, run):
     """Write one solution, or nothing at all."""
 
     def remember(target):
-        keep_poses(target, choice.poses.get(task.uid, {}))
+        keep_poses(target, overrides.poses.get(task.uid, {}))
         # A shape key poses nothing: its basis is still the original.
-        is_posed = task.settings.result != "SHAPE_KEY" and choice.uses_own_handles(task.obj)
+        is_posed = task.settings.result != "SHAPE_KEY" and overrides.uses_own_handles(task.obj)
         remember_pose(target, is_posed=is_posed)
-        choice.remember_on(target, task.settings)
+        overrides.remember_on(target, task.settings)
 
     if task.is_seen:
         solution, source = task.solution, task.source

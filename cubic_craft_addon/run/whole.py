@@ -46,11 +46,11 @@ class Reflection:
         return points @ np.reshape(self.linear, (3, 3)).T + self.offset
 
     def is_like(self, other):
-        """Tell whether both reflect alike."""
+        """Return whether both reflect alike."""
         return np.allclose(self.linear + self.offset, other.linear + other.offset)
 
     def commutes_with(self, other):
-        """Tell whether it does not matter which comes first."""
+        """Return whether it does not matter which comes first."""
         points = np.vstack([np.zeros(3), np.eye(3)])
         size = 1.0 + np.abs(self.offset).max() + np.abs(other.offset).max()
         apart = self.image(other.image(points)) - other.image(self.image(points))

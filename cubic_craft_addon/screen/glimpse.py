@@ -23,7 +23,7 @@ def on_turn(_properties, _context):
 
 
 def is_seen() -> bool:
-    """Tell whether the cube has been turned just now."""
+    """Return whether the cube has been turned just now."""
     return time.monotonic() < _until
 
 
@@ -37,9 +37,9 @@ def redraw_views() -> None:
 
 def _end():
     """Take the cube away, or come back when it is time."""
-    rest = _until - time.monotonic()
-    if rest > 0.0:
-        return rest
+    remaining = _until - time.monotonic()
+    if remaining > 0.0:
+        return remaining
     redraw_views()
     return None
 

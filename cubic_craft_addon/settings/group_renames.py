@@ -5,7 +5,7 @@ Settings know a vertex group by its name, and Blender tells nobody what the old 
 names are compared after each update of an object: one that has changed while all others stayed in
 place is a rename. What is not clearly one is left alone, and the panel says what is missing.
 
-A group that has got the name of an attribute of ours gets another one first, before Blender acts
+A group that has got the name of our attribute gets another one first, before Blender acts
 on that (`mesh_bridge.set_groups_aside`).
 
 The names are kept in memory only. Renames are remembered, because an undo may bring the old name

@@ -27,7 +27,7 @@ _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the
 
 
 @dataclass(frozen=True)
-class Choice:
+class SettingsOverrides:
     """What the artist has chosen for all objects of a run."""
 
     values: Mapping[str, Any]
@@ -57,13 +57,13 @@ class Choice:
         return replace(settings_of(obj, handles), **changes)
 
     def uses_own_handles(self, obj: bpy.types.Object) -> bool:
-        """Tell whether an object is cubified with its own handles."""
+        """Return whether an object is cubified with its own handles."""
         is_on = self.values.get("use_handles", object_properties(obj).use_handles)
         return self.handles is None and is_on
 
     @property
     def is_of_what_is_seen(self) -> bool:
-        """Tell whether new objects are made of what is seen, with the modifiers."""
+        """Return whether new objects are made of what is seen, with the modifiers."""
         values = self.values
         return values.get("result") == "NEW_OBJECT" and bool(values.get("with_modifiers"))
 

@@ -30,7 +30,7 @@ def draw(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the mesh was edited since it was cubified, and its original is still there."""
+    """Return whether the mesh was edited since it was cubified, and its original is still there."""
     if not mesh_bridge.has_traces(mesh):
         return False
     if mesh.session_uid not in _known:
@@ -45,7 +45,7 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
 def _on_update(_scene, depsgraph):
     for update in depsgraph.updates:
         if update.is_updated_geometry:
-            # Also where the mesh itself is not named: an operator of ours has changed the note.
+            # Also where the mesh itself is not named: our operator has changed the note.
             data = update.id.original
             mesh = data.data if isinstance(data, bpy.types.Object) else data
             if isinstance(mesh, bpy.types.Mesh):

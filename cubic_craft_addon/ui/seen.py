@@ -18,7 +18,7 @@ _ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # groups of nodes that Blende
 
 
 def can_be_seen(obj: bpy.types.Object) -> bool:
-    """Tell whether an object may show a mesh that is not its own."""
+    """Return whether an object may show a mesh that is not its own."""
     if obj.type not in mesh_bridge.KINDS or not obj.visible_get():
         return False
     return obj.type != "MESH" or bool(_that_matter(obj))

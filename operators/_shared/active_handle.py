@@ -12,7 +12,7 @@ from .selection import poll_idle
 
 
 def poll_mesh(operator_class, context, modes=("OBJECT",)):
-    """Tell whether there is a mesh whose handles can be changed, and say what is missing."""
+    """Return whether there is a mesh whose handles can be changed, and say what is missing."""
     if not poll_idle(operator_class):
         return False
     if context.mode not in modes:
@@ -29,7 +29,7 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
 
 
 def poll_handle(operator_class, context):
-    """Tell whether there is an active handle, and say what is missing."""
+    """Return whether there is an active handle, and say what is missing."""
     if not poll_mesh(operator_class, context):
         return False
     if active_handle(panel_object(context)) is None:

@@ -4,7 +4,7 @@
 import logging
 
 from ...cubic_craft_addon import mesh_bridge
-from ...cubic_craft_addon.run.failures import UNFORESEEN, in_words
+from ...cubic_craft_addon.run.failures import UNEXPECTED, in_words
 from ...cubic_craft_addon.settings.rollback import settings_kept
 from ...solver import CubicCraftError
 from .selection import poll_any_usable, report_all, selected_meshes
@@ -13,7 +13,7 @@ _log = logging.getLogger(__name__)
 
 
 def poll_originals(operator_class, context):
-    """Tell whether a selected mesh holds something of ours that can be changed.
+    """Return whether a selected mesh holds something of ours that can be changed.
 
     Cheap, as it runs at every redraw.
     """
@@ -42,7 +42,7 @@ def for_each_original(operator, context, action, done):
                 remark = action(obj)
         except CubicCraftError as error:
             problems.append(str(error))
-        except UNFORESEEN as error:
+        except UNEXPECTED as error:
             # This one has been put back; the others need their undo step.
             _log.exception("%s failed", operator.bl_label)
             problems.append(f'"{obj.name}" is unchanged: {in_words(error)}')

@@ -28,7 +28,7 @@ def selected_meshes(context):
 
 
 def poll_idle(operator_class):
-    """Tell whether no Cubify runs, which what is done to its meshes would make worthless."""
+    """Return whether no Cubify runs, which what is done to its meshes would make worthless."""
     if job.current() is None:
         return True
     operator_class.poll_message_set("Cubify is running; cancel it by Esc")
@@ -42,7 +42,7 @@ def panel_mesh(context) -> Any:
 
 
 def poll_panel_mesh(operator_class, context):
-    """Tell whether the panel shows a mesh, and say what is missing."""
+    """Return whether the panel shows a mesh, and say what is missing."""
     if not poll_idle(operator_class):
         return False
     if panel_mesh(context) is None:
@@ -65,7 +65,7 @@ def selected_sources(context):
 
 
 def poll_sources(operator_class, context):
-    """Tell whether there is something that can be cubified, with or without its modifiers."""
+    """Return whether there is something that can be cubified, with or without its modifiers."""
     if not poll_work(operator_class, context):
         return False
     if any(seen.can_be_seen(obj) for obj in selected_sources(context)):
@@ -74,7 +74,7 @@ def poll_sources(operator_class, context):
 
 
 def poll_meshes(operator_class, context):
-    """Tell whether there is a mesh to work on, and say what is missing."""
+    """Return whether there is a mesh to work on, and say what is missing."""
     if not poll_work(operator_class, context):
         return False
     if not selected_meshes(context):
@@ -84,7 +84,7 @@ def poll_meshes(operator_class, context):
 
 
 def poll_work(operator_class, context):
-    """Tell whether meshes can be worked on now, whichever they are."""
+    """Return whether meshes can be worked on now, whichever they are."""
     if not poll_idle(operator_class):
         return False
     if live.current() is not None:
@@ -97,14 +97,14 @@ def poll_work(operator_class, context):
 
 
 def poll_usable(operator_class, context):
-    """Tell whether there is a mesh that can be cubified, and say what is wrong with the first."""
+    """Return whether there is a mesh that can be cubified, and say what is wrong with the first."""
     return poll_meshes(operator_class, context) and poll_any_usable(
         operator_class, selected_meshes(context)
     )
 
 
 def poll_any_usable(operator_class, objects):
-    """Tell whether one of the objects can be used, and say what is wrong with the first."""
+    """Return whether one of the objects can be used, and say what is wrong with the first."""
     problems = []
     for obj in objects:
         try:

@@ -4,7 +4,7 @@
 import functools
 import logging
 
-from ...cubic_craft_addon.run.failures import UNFORESEEN, in_words
+from ...cubic_craft_addon.run.failures import UNEXPECTED, in_words
 from ...solver import CubicCraftError
 
 _log = logging.getLogger(__name__)
@@ -22,7 +22,7 @@ def reporting(execute):
             return execute(self, context)
         except CubicCraftError as error:
             self.report({"ERROR"}, str(error))
-        except UNFORESEEN as error:
+        except UNEXPECTED as error:
             _log.exception("%s failed", self.bl_label)
             self.report({"ERROR"}, f"Nothing has changed: {in_words(error)}")
         return {"CANCELLED"}

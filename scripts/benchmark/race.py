@@ -9,7 +9,7 @@ from .meshes import read
 from .our_solver import energy_of, load_kernels, over, solve
 
 OUR_SECONDS = 120.0
-"""after which a run of ours is given up"""
+"""after which our run is given up"""
 PLAIN_SECONDS, PLAIN_ITERATIONS, PLAIN_GAP = 30.0, 400, 0.01
 """where the plain iteration is left"""
 LONG_SECONDS, LONG_ITERATIONS, LONG_TOLERANCE = 30.0, 5000, 1e-6
@@ -34,7 +34,7 @@ def race(path, cubeness, best, runs, plain_runs, pymeshlab_runs):
     dict
         The ``rest`` energy and the ``best``, now known; ``ours``, ``plain`` and ``pymeshlab``, each
         a list of runs with ``seconds`` and the judged ``energy`` of its end, and those of our
-        solver also as `Run.figures`; and ``long``, a run of ours that goes on beyond its own stop,
+        solver also as `Run.figures`; and ``long``, our run that goes on beyond its own stop,
         or None where that had come near enough.
     """
     V, F = read(path)

@@ -44,7 +44,7 @@ def end_gap(case, program):
 
 
 def ends_by_itself(case, program):
-    """Tell whether every run of a program came to its own stop."""
+    """Return whether every run of a program came to its own stop."""
     return all(run["reason"] == "converged" for run in case[program])
 
 

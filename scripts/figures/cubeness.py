@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figure 5: one mesh at growing cubeness."""
 
+from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 from .picture import Picture, side_by_side
-from .workshop import AS_IN_THE_PAPER, Workshop
 
 __all__ = ("compose",)
 
@@ -11,11 +11,11 @@ HEIGHT = 460
 """pixels"""
 
 
-def compose(workshop: Workshop) -> Picture:
+def compose(meshes: FigureMeshes) -> Picture:
     """Stand the original and its cubic versions in a row."""
-    (model,) = workshop.there(["bunny"], instead=["monkey"])
-    groups = [workshop.group(model, model.original, "original", "grey")]
+    (model,) = meshes.there(["bunny"], instead=["monkey"])
+    groups = [meshes.group(model, model.original, "original", "grey")]
     for value in CUBENESS:
-        shape = workshop.cubified(model, value, **AS_IN_THE_PAPER)
-        groups.append(workshop.group(model, shape, f"cubeness {value:g}", "green"))
+        shape = meshes.cubified(model, value, **AS_IN_THE_PAPER)
+        groups.append(meshes.group(model, shape, f"cubeness {value:g}", "green"))
     return side_by_side(groups, HEIGHT)

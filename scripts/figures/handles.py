@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 from headless.studio import FINISHES, surface
 
+from .figure_meshes import FigureMeshes
 from .picture import Picture, side_by_side
-from .workshop import Workshop
 
 __all__ = ("compose",)
 
@@ -28,17 +28,17 @@ HEIGHT = 560
 """pixels"""
 
 
-def compose(workshop: Workshop) -> Picture:
+def compose(meshes: FigureMeshes) -> Picture:
     """Show each mesh at rest, and posed and cubic, with its handles coloured."""
     groups = []
-    for model in workshop.there(list(POSES), instead=list(OWN_POSES)):
+    for model in meshes.there(list(POSES), instead=list(OWN_POSES)):
         name, cubeness = (POSES | OWN_POSES)[model.name]
-        handles = workshop.handles(model, workshop.root / name)
-        posed = workshop.cubified(model, cubeness, handles=handles)
+        handles = meshes.handles(model, meshes.root / name)
+        posed = meshes.cubified(model, cubeness, handles=handles)
         label = f"posed, cubeness {cubeness:g}"
         for group in (
-            workshop.group(model, model.original, "original, its handles", "grey"),
-            workshop.group(model, posed, label, "green"),
+            meshes.group(model, model.original, "original, its handles", "grey"),
+            meshes.group(model, posed, label, "green"),
         ):
             _colour(group.copies[0].data, group.finish, handles)
             groups.append(group)

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from headless.quiet import captured
 
-from .workshop import Model
+from .figure_meshes import Model
 
 __all__ = ("painted_hide",)
 

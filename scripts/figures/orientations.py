@@ -9,8 +9,8 @@ from headless.gallery import Group
 from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
 
+from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
 from .picture import Picture, side_by_side
-from .workshop import AS_IN_THE_PAPER, Model, Workshop, moved
 
 __all__ = ("compose",)
 
@@ -32,16 +32,16 @@ AWAY = (-0.62, -0.30)
 """middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
 
 
-def compose(workshop: Workshop) -> Picture:
+def compose(meshes: FigureMeshes) -> Picture:
     """Stand the cubic versions in a row, each with the cube that it is turned toward."""
-    (model,) = workshop.there(["bunny"], instead=["monkey"])
+    (model,) = meshes.there(["bunny"], instead=["monkey"])
     clay = surface("Cube", *FINISHES["clay"])
     groups = []
     for label, angles in ORIENTATIONS.items():
         # Left free, the whole mesh would turn toward the cube.
         settings = AS_IN_THE_PAPER | {"rotation": "KEEP"}
-        shape = workshop.cubified(model, CUBENESS, angles, **settings)
-        group = workshop.group(model, shape, label, "green")
+        shape = meshes.cubified(model, CUBENESS, angles, **settings)
+        group = meshes.group(model, shape, label, "green")
         _add_cube(group, model, angles, clay)
         groups.append(group)
     return side_by_side(groups, HEIGHT)

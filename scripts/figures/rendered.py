@@ -11,8 +11,8 @@ from headless.progress import ProgressBar
 from headless.render import render
 
 from . import cubeness, handles, orientations, teaser, uv_texture
+from .figure_meshes import FigureMeshes
 from .picture import Picture
-from .workshop import Workshop
 
 __all__ = ("render_figures",)
 
@@ -42,10 +42,10 @@ def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
     empty_blender()
     bar = ProgressBar()
     with registered(root) as extension:
-        workshop = Workshop(extension, root, options.meshes, bar, options.verbose)
+        meshes = FigureMeshes(extension, root, options.meshes, bar, options.verbose)
         for number in wanted:
             name, compose = COMPOSERS[number]
-            picture = compose(workshop)
+            picture = compose(meshes)
             path = options.output / f"{name}.png"
             with bar.task(f"figure {number}") as task:
                 _render(picture, path, options)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Table 1: ten iterations of ours beside the paper's, from the last benchmark."""
+"""Table 1: ten our iterations beside the paper's, from the last benchmark."""
 
 import json
 from pathlib import Path

@@ -7,8 +7,8 @@ from headless.gallery import ELEVATION, UP, Gallery, outline, scene_for_gallery,
 from headless.studio import furnish
 from mathutils import Vector
 
+from .figure_meshes import FigureMeshes
 from .picture import NOMINAL_WIDTH, Picture
-from .workshop import Workshop
 
 __all__ = ("compose",)
 
@@ -23,17 +23,17 @@ ROWS_APART = 0.25
 """in the picture, between the top of the front row and the bottom of the back row"""
 
 
-def compose(workshop: Workshop) -> Picture:
+def compose(meshes: FigureMeshes) -> Picture:
     """Stand the originals in a row, and the cubic versions in one before it."""
-    models = workshop.there(list(CAST), instead=list(OWN_CAST))
+    models = meshes.there(list(CAST), instead=list(OWN_CAST))
     cubeness = CAST | OWN_CAST
-    shapes = [workshop.cubified(model, cubeness[model.name]) for model in models]
+    shapes = [meshes.cubified(model, cubeness[model.name]) for model in models]
     scene = scene_for_gallery()
     gallery = Gallery(scene, [], Vector(), 0.0, 0.0, [])
     pairs = []
     for model, shape in zip(models, shapes, strict=True):
-        grey = workshop.group(model, model.original, f"{model.name}, original", "grey")
-        pairs.append((grey, workshop.group(model, shape, f"{model.name}, cubic", "green")))
+        grey = meshes.group(model, model.original, f"{model.name}, original", "grey")
+        pairs.append((grey, meshes.group(model, shape, f"{model.name}, cubic", "green")))
     outlines = [[outline(group, turns=False) for group in pair] for pair in pairs]
     lift = max(front[3] for _, front in outlines) + ROWS_APART
     lift -= min(back[2] for back, _ in outlines)

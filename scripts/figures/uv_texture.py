@@ -8,9 +8,9 @@ import bpy
 from headless.gallery import Group
 from headless.studio import surface
 
+from .figure_meshes import FigureMeshes, Model
 from .hide import painted_hide
 from .picture import Picture, side_by_side
-from .workshop import Model, Workshop
 
 __all__ = ("compose",)
 
@@ -21,22 +21,22 @@ HEIGHT = 560
 """pixels"""
 
 
-def compose(workshop: Workshop) -> Picture:
+def compose(meshes: FigureMeshes) -> Picture:
     """Show a painted mesh and one with a grid, each before and after."""
-    (model,) = workshop.there(["spot"], instead=["monkey"])
-    shape = workshop.cubified(model, CUBENESS)
+    (model,) = meshes.there(["spot"], instead=["monkey"])
+    shape = meshes.cubified(model, CUBENESS)
     groups: list[Group] = []
     for image, name in ((painted_hide(model), "painted"), (_grid(), "grid")):
         material = _textured(image)
         for positions, label in ((model.original, name), (shape, f"{name}, cubeness {CUBENESS:g}")):
-            groups.append(_dressed(workshop, model, positions, label, material))
+            groups.append(_dressed(meshes, model, positions, label, material))
     return side_by_side(groups, HEIGHT)
 
 
 def _dressed(
-    workshop: Workshop, model: Model, positions, label: str, material: bpy.types.Material
+    meshes: FigureMeshes, model: Model, positions, label: str, material: bpy.types.Material
 ) -> Group:
-    group = workshop.group(model, positions, label, "grey")
+    group = meshes.group(model, positions, label, "grey")
     mesh = group.copies[0].data
     mesh.materials.clear()
     mesh.materials.append(material)

@@ -51,7 +51,7 @@ def remove_copy(copy: bpy.types.Object) -> None:
 
 
 def _needs_object(modifier: bpy.types.Modifier) -> bool:
-    """Tell whether a modifier refers to another object, whose place the copy does not share."""
+    """Return whether a modifier refers to another object, whose place the copy does not share."""
     return any(
         prop.type == "POINTER" and isinstance(getattr(modifier, prop.identifier), bpy.types.Object)
         for prop in modifier.bl_rna.properties

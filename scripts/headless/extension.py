@@ -28,7 +28,9 @@ class Extension:
         self.presets = _room("cubic_craft_addon.presets.files")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
-        self._taichi_news = _room("cubic_craft_addon.environment.new_taichi_warnings").taichi_news
+        self._taichi_news = _room(
+            "cubic_craft_addon.environment.new_taichi_warnings"
+        ).new_taichi_warnings
         self.version = read_version(root)
 
     def notices(self) -> list[str]:

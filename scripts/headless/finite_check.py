@@ -53,7 +53,7 @@ def refuse_infinite(path: Path) -> None:
 
 
 def _holds_all(data: bytes) -> bool:
-    """Tell whether a .ply can have as many rows as its header says, of a byte each at least."""
+    """Return whether a .ply can have as many rows as its header says, of a byte each at least."""
     header, _, body = data.partition(b"end_header")
     rows = [line.split() for line in header.splitlines()]
     return sum(int(row[2]) for row in rows if row[:1] == [b"element"]) <= len(body)

@@ -1,7 +1,7 @@
 """Ctrl-C, or being told to end: one line, the exit code that shells expect, and nothing half-done.
 
 Python runs signal handlers in the main thread, which cannot be told anything while Blender renders
-or exports. So a thread of ours waits for the signal, tidies up and ends the process at once.
+or exports. So our thread waits for the signal, tidies up and ends the process at once.
 Nothing is lost by that: every file is written under a temporary name (see `output_files`).
 """
 

@@ -145,7 +145,7 @@ def _listed(folder: Path) -> list[Path]:
 
 
 def _has_ended(process: int) -> bool:
-    """Tell whether a process of this machine is certainly gone."""
+    """Return whether a process of this machine is certainly gone."""
     if sys.platform == "win32":
         return False  # asking would end it there
     try:

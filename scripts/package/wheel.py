@@ -69,7 +69,7 @@ class Wheel:
         return [f for f in self.files if re.match(r"[^/]+\.data/(purelib|platlib)/", f)]
 
     def fits(self, platform, python):
-        """Tell whether this Python can import it on this platform."""
+        """Return whether this Python can import it on this platform."""
         return not self.tags.isdisjoint(platform.tags(python))
 
     def requirements(self, platform, python):

@@ -59,7 +59,7 @@ def arrays_for(device):
 
 
 def is_on_its_own_memory(device):
-    """Tell whether a device has to be sent what it is to read."""
+    """Return whether a device has to be sent what it is to read."""
     return device != "taichi-cpu"
 
 

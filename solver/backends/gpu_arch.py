@@ -33,7 +33,7 @@ def gpu_arch(ti):
 
 @cache
 def _vulkan_starts():
-    """Tell whether Taichi starts on Vulkan, by trying it in another process.
+    """Return whether Taichi starts on Vulkan, by trying it in another process.
 
     Where the driver is missing or broken, even asking whether Vulkan is there crashes the process,
     and in Blender the artist's work with it.

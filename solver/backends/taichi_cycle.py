@@ -43,10 +43,10 @@ class TaichiCycle:
             smoothing = (level.of_b, level.of_ab)
             calls += [
                 (kernels.smooth, (*level.A, B, X, *smoothing)),
-                (kernels.subtract, (*level.A, X, B, level.rest)),
-                (kernels.multiply, (*level.restrict, level.rest, b)),
+                (kernels.subtract, (*level.A, X, B, level.residual)),
+                (kernels.multiply, (*level.restrict, level.residual, b)),
                 (kernels.add, (*level.P, x, X)),
-                (kernels.smooth_more, (*level.A, level.rest, X, *smoothing)),
+                (kernels.smooth_more, (*level.A, level.residual, X, *smoothing)),
             ]
         return calls
 
@@ -55,13 +55,13 @@ class TaichiCycle:
         kernels, levels = self._kernels, list(zip(self._levels, self._vectors[:-1], strict=True))
         for (level, (B, X)), (b, _) in zip(levels, self._vectors[1:], strict=True):
             kernels.smooth(*level.A, B, X, level.of_b, level.of_ab)
-            kernels.subtract(*level.A, X, B, level.rest)
-            kernels.multiply(*level.restrict, level.rest, b)
+            kernels.subtract(*level.A, X, B, level.residual)
+            kernels.multiply(*level.restrict, level.residual, b)
         kernels.multiply_dense(self._inverse, *self._vectors[-1])
         for (level, (B, X)), (_, x) in zip(levels[::-1], self._vectors[:0:-1], strict=True):
             kernels.add(*level.P, x, X)
-            kernels.subtract(*level.A, X, B, level.rest)
-            kernels.smooth_more(*level.A, level.rest, X, level.of_b, level.of_ab)
+            kernels.subtract(*level.A, X, B, level.residual)
+            kernels.smooth_more(*level.A, level.residual, X, level.of_b, level.of_ab)
 
 
 class _Level:
@@ -71,7 +71,7 @@ class _Level:
             for matrix in (level.A, level.P, level.restrict)
         )
         self.of_b, self.of_ab = float(level.of_b), float(level.of_ab)
-        self.rest = arrays.keep(np.zeros((level.A.shape[0], 4), np.float32))
+        self.residual = arrays.keep(np.zeros((level.A.shape[0], 4), np.float32))
 
 
 @cache

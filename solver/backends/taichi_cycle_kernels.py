@@ -64,11 +64,11 @@ def make_cycle_kernels():
 
     @ti.kernel
     def subtract(
-        indptr: integers, indices: integers, data: values, X: vectors, B: vectors, rest: vectors
+        indptr: integers, indices: integers, data: values, X: vectors, B: vectors, residual: vectors
     ):
-        """Set rest = B - A X."""
-        for i in range(rest.shape[0]):
-            rest[i] = B[i] - row(indptr, indices, data, X, i)
+        """Set residual = B - A X."""
+        for i in range(residual.shape[0]):
+            residual[i] = B[i] - row(indptr, indices, data, X, i)
 
     @ti.kernel
     def multiply(indptr: integers, indices: integers, data: values, X: vectors, Y: vectors):

@@ -15,7 +15,7 @@ from . import taichi_runtime
 from .arrays import arrays_for, one_row
 from .numpy_local_step import area_scale, local_cubeness
 from .rows import HostRows
-from .warmup import rehearse
+from .warmup import warm_up
 
 
 class TaichiLocalStep:
@@ -122,7 +122,7 @@ class TaichiLocalStep:
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)
-        self.compile_seconds += rehearse([(kernel, arguments)]) + motion.compile_seconds
+        self.compile_seconds += warm_up([(kernel, arguments)]) + motion.compile_seconds
         return motion
 
     def start_from(self, R):

@@ -8,7 +8,7 @@ import numpy as np
 from ..motion import largest
 from . import taichi_runtime
 from .taichi_cycle import TaichiCycle
-from .warmup import rehearse
+from .warmup import warm_up
 
 
 class TaichiMotion:
@@ -59,7 +59,7 @@ class TaichiMotion:
         count = len(self._centre)
         nothing = np.zeros(count)
         still = (np.zeros((count, 3)), np.zeros((count, 3)), nothing, nothing)
-        self.compile_seconds = rehearse(
+        self.compile_seconds = warm_up(
             [
                 (
                     self._kernels.residual,
@@ -90,7 +90,7 @@ class TaichiMotion:
         for _ in range(times):
             self.step(np.zeros(len(self._centre)), np.zeros(len(self._centre)), False)
 
-    def step(self, momentum, further, keep_rotation):
+    def step(self, momentum, overshoot, keep_rotation):
         """Do one global step; see `Motion.step`."""
         before = self.positions.copy() if self._constraints else None
         self._local.start_device()
@@ -98,7 +98,7 @@ class TaichiMotion:
         self._kernels.residual(*arguments)
         self._cycle.run()
         whole = self._whole(keep_rotation)
-        self._kernels.move(*self._move_arguments(*whole, momentum, further))
+        self._kernels.move(*self._move_arguments(*whole, momentum, overshoot))
         if before is not None:
             return self._impose(before)
         displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
@@ -131,7 +131,7 @@ class TaichiMotion:
             self._torques,
         )
 
-    def _move_arguments(self, twist, shift, momentum, further):
+    def _move_arguments(self, twist, shift, momentum, overshoot):
         real = self._local.real
         return (
             *self._chunks,
@@ -142,7 +142,7 @@ class TaichiMotion:
             shift.astype(real),
             self._P,
             momentum.astype(real),
-            further.astype(real),
+            overshoot.astype(real),
             self.point,
             self._U,
             self._largest,

@@ -80,7 +80,7 @@ def make_motion_kernels(real):
         shift: vectors,
         P: vectors,
         momentum: scalars,
-        further: scalars,
+        overshoot: scalars,
         point: vectors,
         U: vectors,
         largest: vectors,
@@ -96,11 +96,11 @@ def make_motion_kernels(real):
             displacement, distance = real(0.0), real(0.0)
             for i in range(bounds[c], bounds[c + 1]):
                 u = moved(point[i], X[i], scale[i]) + mu.cross(P[i]) + by
-                way = u - U[i]
-                displacement = ti.max(displacement, ti.abs(way).max())
+                step = u - U[i]
+                displacement = ti.max(displacement, ti.abs(step).max())
                 distance = ti.max(distance, ti.abs(u - V[i]).max())
                 U[i] = u
-                point[i] = u + momentum[k] * way + further[k] * (u - point[i])
+                point[i] = u + momentum[k] * step + overshoot[k] * (u - point[i])
             largest[c] = vec3(displacement, distance, 0.0)
 
     @ti.kernel

@@ -88,7 +88,7 @@ def start(device):
 
 
 def _is_writable(folder):
-    """Tell whether files can be made in a folder, which is made if need be.
+    """Return whether files can be made in a folder, which is made if need be.
 
     Taichi does not ask: when its program ends, as at the end of Blender, it makes the folder, and
     crashes the process if it cannot.

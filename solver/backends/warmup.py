@@ -9,7 +9,7 @@ from .taichi_runtime import quick_compilation
 _rehearsed = set()
 
 
-def rehearse(calls):
+def warm_up(calls):
     """Run kernels on next to nothing, those that have been before excepted; return the seconds.
 
     Parameters

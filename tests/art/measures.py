@@ -142,7 +142,7 @@ def volume(U, F):
 
 
 def is_closed(V, F):
-    """Tell whether each edge has a triangle at both of its sides, seams welded."""
+    """Return whether each edge has a triangle at both of its sides, seams welded."""
     corners = welded(V, F)
     ways = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     there, count = np.unique(ways, axis=0, return_counts=True)

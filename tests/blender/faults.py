@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Let any function of the extension fail, found by running it: no list of them to keep.
 
-`places` runs an operator and notes every function of ours that is called from its `execute`.
+`places` runs an operator and notes every function of our own that is called from its `execute`.
 `failing` lets one of them raise when it is entered. Both use Python's profiling hook, so nothing is
 patched, and functions that were imported by name fail like all others.
 """

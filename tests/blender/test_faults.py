@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whatever function of ours fails: nothing has changed, one line says why, and Cubify works again.
+"""Whatever function fails: nothing has changed, one line says why, and Cubify works again.
 
 The functions are those that run (see `faults`), so that none is forgotten. With
 ``CUBIC_CRAFT_FAULTS=1`` every function fails in every scenario, at its first and at its last call,

@@ -25,7 +25,7 @@ def start(package):
         select(*objects)
         names = [name for name in choice.ALL if name not in choice.OF_EACH_OBJECT]
         values = choice.values_of(objects[0].cubic_craft, tuple(names))
-        watched = jobs.WatchedJob(jobs.Job(choice.Choice(values), list(objects)))
+        watched = jobs.WatchedJob(jobs.Job(choice.SettingsOverrides(values), list(objects)))
         watched.advance(0.0)
         watched.watch(bpy.context.window)
         return watched

@@ -133,7 +133,7 @@ def test_what_was_not_written_is_removed(extension):
     jobs = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.job")
     choice = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.settings.overrides")
     obj = add_modifiers(add_monkey())
-    watched = jobs.WatchedJob(jobs.Job(choice.Choice(SEEN), [obj]))
+    watched = jobs.WatchedJob(jobs.Job(choice.SettingsOverrides(SEEN), [obj]))
     watched.advance(0.0)
     watched.watch(bpy.context.window)
     assert len(bpy.data.objects) == 2

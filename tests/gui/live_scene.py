@@ -110,7 +110,7 @@ def wait_over():
 
 
 def _is_of_missing_taichi(text):
-    """Tell whether it is what the first run of a Blender without Taichi tells once."""
+    """Return whether it is what the first run of a Blender without Taichi tells once."""
     return os.environ.get("EXPECT_DEVICE") == "numpy" and text.startswith("Taichi does not work")
 
 

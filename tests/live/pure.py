@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Load what decides in Live by itself: it must not need Blender, nor anything else of ours."""
+"""Load what decides in Live by itself: it must not need Blender, nor anything else of our code."""
 
 import importlib.util
 import sys

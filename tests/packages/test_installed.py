@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The built Linux packages in Blenders that have nothing of ours on the Python path, offline.
+"""The built Linux packages in Blenders that have nothing of our code on the Python path, offline.
 
 ``CUBIC_CRAFT_BARE_PYTHONS``: Pythons with bpy and what it needs; ``CUBIC_CRAFT_PACKAGES``: the
 folder of the packages. ``make test-package`` makes both.

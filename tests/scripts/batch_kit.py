@@ -45,7 +45,7 @@ def wait_for_children(process, count=1):
 
 
 def is_there(number):
-    """Tell whether a process still runs."""
+    """Return whether a process still runs."""
     try:
         os.kill(number, 0)
     except ProcessLookupError:

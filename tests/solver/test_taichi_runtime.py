@@ -102,7 +102,7 @@ def test_a_foreign_init_does_not_matter_and_is_left_alone(moment):
         field.fill(7)
         again = stylize(V, F, device="cpu", max_iterations=5).positions
         np.testing.assert_array_equal(again, expected)
-        assert (field.to_numpy() == 7).all()  # a second init of ours would have destroyed it
+        assert (field.to_numpy() == 7).all()  # our second init would have destroyed it
         """
     )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Point attributes of ours on a mesh, added and removed without disturbing the artist's.
+"""Our point attributes on a mesh, added and removed without disturbing the artist's.
 
 Adding or removing an attribute shifts the others inside Blender's list, and Blender remembers
 the active one by its place in that list. It also frees the RNA pointers to all of them, so none
@@ -32,14 +32,14 @@ _NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
 
 
 def is_our_name(name: str) -> bool:
-    """Tell whether we call attributes so."""
+    """Return whether we call attributes so."""
     return _NAMES.fullmatch(name) is not None
 
 
 def our_attributes(
     mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE, KEY)
 ) -> list[str]:
-    """List the names of the attributes of ours on a mesh, of all kinds or of some."""
+    """List the names of our attributes on a mesh, of all kinds or of some."""
     return [
         attribute.name
         for attribute in mesh.attributes
@@ -126,7 +126,7 @@ def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
 
 
 def _is_ours(attribute: bpy.types.Attribute) -> bool:
-    """Tell whether an attribute that is called as ours are is one of them."""
+    """Return whether an attribute that is called as ours are is one of them."""
     return attribute.domain == "POINT" and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
 
 

@@ -86,7 +86,7 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
 
 
 def is_linked(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the mesh is linked or overridden data: what is written to it does not stay."""
+    """Return whether the mesh is linked or overridden data: what is written to it does not stay."""
     return mesh.library is not None or mesh.override_library is not None or not mesh.is_editable
 
 

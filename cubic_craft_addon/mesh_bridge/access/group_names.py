@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertex groups that are called as attributes of ours are.
+"""Vertex groups that are called as our attributes are.
 
 To Blender they are attributes of one name. Blender 5.2 keeps only the group when it writes a mesh
 back on leaving Edit Mode, or joins meshes, and drops our attribute with the original.
@@ -14,7 +14,7 @@ from .checks import is_linked
 
 
 def set_groups_aside(obj: bpy.types.Object) -> None:
-    """Give vertex groups on a mesh with attributes of ours a number, if they are called so.
+    """Give vertex groups on a mesh with our attributes a number, if they are called so.
 
     It does what Blender does with attributes of the same name. Works in Edit Mode, too. Cheap: it
     may be called after each update of the object.

@@ -58,5 +58,5 @@ def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndar
 
 
 def is_complete(marks: np.ndarray, run: np.ndarray) -> bool:
-    """Tell whether a run is of all vertices of its result."""
+    """Return whether a run is of all vertices of its result."""
     return np.float32(len(run)) == marks[run[0], 2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The note of ours on a mesh: one custom property that says what we wrote.
+"""Our note on a mesh: one custom property that says what we wrote.
 
 It is JSON text, because custom properties cannot hold lists of texts, with some of these parts:
 
@@ -93,7 +93,7 @@ def check_note(mesh: bpy.types.Mesh) -> None:
 
 
 def _is_ours(note: dict[str, Any]) -> bool:
-    """Tell whether a note says only what we write, so that nobody else must check it."""
+    """Return whether a note says only what we write, so that nobody else must check it."""
     if not note or not note.keys() <= {"mesh", "key", "live", "run"}:
         return False
     for part in (note[name] for name in ("mesh", "live") if name in note):
@@ -110,5 +110,5 @@ def _is_ours(note: dict[str, Any]) -> bool:
 
 
 def _fits(part: Any, types: dict[str, Any]) -> bool:
-    """Tell whether a part of a note has the entries that it should have."""
+    """Return whether a part of a note has the entries that it should have."""
     return isinstance(part, dict) and all(isinstance(part.get(n), t) for n, t in types.items())

@@ -34,7 +34,7 @@ def offset_sums(points: np.ndarray, base: np.ndarray) -> list[float]:
 
 
 def same_offsets(one: list[float], other: list[float]) -> bool:
-    """Tell whether two results of `offset_sums` differ by no more than rounding."""
+    """Return whether two results of `offset_sums` differ by no more than rounding."""
     if len(one) != len(other) or one[0] != other[0]:
         return False
     roundings = np.sqrt(max(3 * one[0], 1)) * _ROUNDING * max(one[1], other[1])

@@ -73,7 +73,7 @@ def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarra
 
 
 def has_original(mesh: bpy.types.Mesh | None) -> bool:
-    """Tell whether the mesh holds a result of ours that `restore` can take back.
+    """Return whether the mesh holds our result that `restore` can take back.
 
     It compares the positions (2 ms per 100 000 vertices, more where they have changed). False where
     there is no mesh, or one that cannot be read, as in Edit Mode.
@@ -87,7 +87,7 @@ def has_original(mesh: bpy.types.Mesh | None) -> bool:
 
 
 def starts_here(mesh: bpy.types.Mesh, start: Start = "HERE") -> bool:
-    """Tell whether what we wrote to the mesh is what the next result starts from.
+    """Return whether what we wrote to the mesh is what the next result starts from.
 
     So it is where the mesh was edited by hand since. False where we have written nothing.
     """
@@ -95,7 +95,7 @@ def starts_here(mesh: bpy.types.Mesh, start: Start = "HERE") -> bool:
 
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the mesh was edited by hand since we wrote it, and its original is still there.
+    """Return whether the mesh was edited by hand since we wrote it, and still has its original.
 
     As expensive as `has_original`.
 
@@ -125,7 +125,7 @@ def recognise_result(mesh: bpy.types.Mesh) -> Recognised | None:
 
 
 def has_stored(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the mesh holds an original, valid or stale. Cheap: it reads no positions."""
+    """Return whether the mesh holds an original, valid or stale. Cheap: it reads no positions."""
     return ORIGINAL in our_attributes(mesh, (ORIGINAL,))
 
 
@@ -205,7 +205,7 @@ def _start_of(mesh: bpy.types.Mesh, start: Start) -> Recognised | None:
 
 
 def _has_other_reference(mesh: bpy.types.Mesh, stored: dict[str, Any]) -> bool:
-    """Tell whether the artist has deleted Basis, so that another shape key has become the base."""
+    """Return whether the artist has deleted Basis, so that another key has become the base."""
     if mesh.shape_keys is None:
         return False
     return mesh.shape_keys.reference_key.name in {entry["name"] for entry in stored["keys"]}

@@ -27,7 +27,7 @@ steps, this lasts until Blender ends.
 
 
 def has_preview(mesh: bpy.types.Mesh | None) -> bool:
-    """Tell whether a preview is on the mesh. Cheap: it reads no positions."""
+    """Return whether a preview is on the mesh. Cheap: it reads no positions."""
     return isinstance(mesh, bpy.types.Mesh) and "live" in read_note(mesh)
 
 
@@ -86,7 +86,7 @@ def _is_as_shown(part: dict[str, Any], present: Shapes) -> bool:
 
 
 def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether an undo may have brought back a preview without its note."""
+    """Return whether an undo may have brought back a preview without its note."""
     return bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
 
 

@@ -19,7 +19,7 @@ from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.note import check_note, read_note
 from ..memory.original import Start, original_shapes
 from ..result.cubic_key import find_cubic_key
-from ..result.rounded_for_storage import carry_finite, settled, settled_rotations
+from ..result.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from .end import end_preview
 from .moved import take_along
 from .store import marked, store_live, write_live_part
@@ -86,7 +86,7 @@ class Preview:
         """
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh)
-        base = settled(mesh, positions, self._original.base, self._loose)
+        base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
         shown = self._with_keys(mesh, base, rotations)
         finished = marked(part, shown)
         # Should writing fail half-way, `end_preview` must not take the mixture for an edit.
@@ -134,7 +134,7 @@ class Preview:
             if rotations is None:
                 matrices = np.broadcast_to(np.eye(3), (len(base), 3, 3))
             else:
-                quaternions = settled_rotations(mesh, rotations, self._loose)
+                quaternions = rotations_for_storage(mesh, rotations, self._loose)
                 matrices = matrices_from_quaternions(quaternions)
             shown = carry_finite(mesh, original, base, matrices)
         if self._cubic_key is None:

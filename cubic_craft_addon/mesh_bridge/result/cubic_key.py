@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shape key of ours: made, found again, removed.
+"""Our shape key: made, found again, removed.
 
 The artist may rename it, dial it, key it and drive it. It is found by its points, under any name.
 With other points than we wrote it is the artist's, whatever it is called: it is never changed or
@@ -26,7 +26,7 @@ _BASE = f"{KEY}.base"
 
 
 def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
-    """Find the shape key of ours, or None. As reference key it would no longer be a result."""
+    """Find our shape key, or None. As reference key it would no longer be a result."""
     noted = read_note(mesh).get("key")
     if noted is None or mesh.shape_keys is None:
         return None
@@ -56,7 +56,7 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
 def write_cubic_key(
     obj: bpy.types.Object, positions: np.ndarray, key: bpy.types.ShapeKey | None
 ) -> None:
-    """Write positions to the shape key of ours, which is made where it is missing.
+    """Write positions to our shape key, which is made where it is missing.
 
     `key` is what `find_cubic_key` found before anything was written. It keeps its value, its range,
     and what drives it. One that the artist has edited is no longer ours and stays; the note forgets
@@ -96,7 +96,7 @@ def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray
 
 
 def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
-    """Remove the shape key of ours, and Basis where we made it and no other key needs it.
+    """Remove our shape key, and Basis where we made it and no other key needs it.
 
     `key` is what `find_cubic_key` found before anything was written: it compares the key with
     the base. Removing it is the last that is done, as it cannot be taken back.

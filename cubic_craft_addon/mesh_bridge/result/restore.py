@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Take results of ours back, or let them stand and forget where they came from."""
+"""Take our results back, or let them stand and forget where they came from."""
 
 import bpy
 
@@ -45,7 +45,7 @@ def restore(obj: bpy.types.Object) -> None:
 
 
 def has_traces(mesh: bpy.types.Mesh | None) -> bool:
-    """Tell whether anything of ours is on the mesh, valid or stale: something to `forget`.
+    """Return whether we have left anything on the mesh, valid or stale.
 
     Cheap: it reads no positions. False where there is no mesh.
     """
@@ -54,7 +54,7 @@ def has_traces(mesh: bpy.types.Mesh | None) -> bool:
     return bool(read_note(mesh)) or bool(our_attributes(mesh))
 
 
-def forget(mesh: bpy.types.Mesh) -> None:
+def discard_original(mesh: bpy.types.Mesh) -> None:
     """Keep the shape and remove everything else of ours, valid or stale.
 
     The shape key "Cubic" stays. Of a preview that has been left on, nothing is kept.

@@ -21,7 +21,7 @@ from ..memory.run_note import note_run
 from ..preview.end import end_preview
 from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .rollback import all_or_nothing
-from .rounded_for_storage import carry_finite, settled, settled_rotations
+from .rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 
 
 def write_mesh(
@@ -53,8 +53,8 @@ def write_mesh(
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, start)
     loose = loose_vertices(mesh)
-    positions = settled(mesh, positions, original.base, loose)
-    quaternions = settled_rotations(mesh, rotations, loose)
+    positions = rounded_for_storage(mesh, positions, original.base, loose)
+    quaternions = rotations_for_storage(mesh, rotations, loose)
     written = carry_finite(mesh, original, positions, matrices_from_quaternions(quaternions))
     with all_or_nothing(mesh):
         drop_stored(mesh)
@@ -95,7 +95,7 @@ def write_shape_key(
     end_preview(mesh)
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, start)
-    positions = settled(mesh, positions, original.base, loose_vertices(mesh))
+    positions = rounded_for_storage(mesh, positions, original.base, loose_vertices(mesh))
     with all_or_nothing(mesh):
         write_shapes(mesh, original)
         drop_stored(mesh)

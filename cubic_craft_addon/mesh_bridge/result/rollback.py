@@ -16,7 +16,7 @@ from .cubic_key import remove_keys
 def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Undo what the block did to the mesh if it raises.
 
-    It covers the positions, the points of shape keys, shape keys added, attributes of ours and
+    It covers the positions, the points of shape keys, shape keys added, our attributes and
     the note. It cannot bring removed shape keys back: remove those last.
     """
     state = _State(mesh)

@@ -9,7 +9,7 @@ from ..access.rotations import quaternions_from_matrices
 from ..access.shapes import Shapes, carry
 
 
-def settled(
+def rounded_for_storage(
     mesh: bpy.types.Mesh, positions: np.ndarray, base: np.ndarray, loose: np.ndarray
 ) -> np.ndarray:
     """Round positions to what is stored; vertices that stay, or are loose, keep their bits.
@@ -41,7 +41,9 @@ def settled(
     return result
 
 
-def settled_rotations(mesh: bpy.types.Mesh, rotations: np.ndarray, loose: np.ndarray) -> np.ndarray:
+def rotations_for_storage(
+    mesh: bpy.types.Mesh, rotations: np.ndarray, loose: np.ndarray
+) -> np.ndarray:
     """Round rotations to what is stored; vertices in no face do not turn.
 
     Parameters

@@ -72,7 +72,7 @@ def check_positions(positions, rest, case):
 
 
 def check_refusal(message):
-    """Check that an operator's error is a sentence of ours and no exception that went through."""
+    """Check that an operator's error is our sentence and no exception that went through."""
     assert "Traceback" not in message, message
     assert "Hostile" in message, message
 

@@ -53,7 +53,7 @@ def test_nothing_reads_or_writes_in_edit_mode(bridge, error, monkey):
         lambda: bridge.write_shape_key(monkey, result[0]),
         lambda: bridge.write_new_object(monkey, *result),
         lambda: bridge.restore(monkey),
-        lambda: bridge.forget(mesh),
+        lambda: bridge.discard_original(mesh),
     ):
         with pytest.raises(error, match="is in Edit Mode: go back to Object Mode"):
             call()
@@ -171,7 +171,7 @@ def test_linked_data(bridge, error, library, override):
         lambda: bridge.write_shape_key(obj, result[0]),
         lambda: bridge.write_new_object(obj, *result),
         lambda: bridge.restore(obj),
-        lambda: bridge.forget(obj.data),
+        lambda: bridge.discard_original(obj.data),
     ):
         with pytest.raises(error, match=r"linked.*make it local"):
             call()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of ours that the artist has given to vertex groups, UV maps and other attributes."""
+"""Our names that the artist has given to vertex groups, UV maps and other attributes."""
 
 import bpy
 import pytest
@@ -27,7 +27,7 @@ def without_group_names(taken):
 
 
 @pytest.mark.parametrize("when", ["before", "after", "between two"])
-@pytest.mark.parametrize("end", ["restore", "forget"])
+@pytest.mark.parametrize("end", ["restore", "discard_original"])
 def test_groups_cost_neither_the_original_nor_themselves(bridge, monkey, when, end):
     original = position_of(monkey.data).tobytes()
     if when != "before":
@@ -42,7 +42,7 @@ def test_groups_cost_neither_the_original_nor_themselves(bridge, monkey, when, e
         bridge.restore(monkey)
         assert position_of(monkey.data).tobytes() == original
     else:
-        bridge.forget(monkey.data)
+        bridge.discard_original(monkey.data)
     assert not bridge.has_traces(monkey.data)
     assert without_group_names(snapshot_object(monkey))["groups"] == groups
     assert [[(e.group, e.weight) for e in v.groups] for v in monkey.data.vertices] == weights
@@ -170,13 +170,13 @@ def test_attribute_of_the_artist_in_the_way(bridge, error, monkey, kind, name):
     ):
         with pytest.raises(error, match=f"'Monkey' has an attribute '{name}'.*rename or remove"):
             call()
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     assert not bridge.has_traces(mesh)
     assert differences(before, snapshot_object(monkey)) == []
 
 
 def test_restore_beside_an_attribute_in_the_way(bridge, error, plain_monkey):
-    """A name of ours that is not in use on this mesh: only Cubify needs it."""
+    """Our name that is not in use on this mesh: only Cubify needs it."""
     mesh = plain_monkey.data
     original = position_of(mesh).tobytes()
     cubify(bridge, plain_monkey)

@@ -56,7 +56,7 @@ def test_property_of_others_under_our_name_is_never_touched(bridge, error, keyed
     objects = len(bpy.data.objects)
     positions, rotations = cubic_like(bridge.original_positions(mesh))
     assert not bridge.has_original(mesh) and not bridge.has_traces(mesh)
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     for call in (
         lambda: bridge.check_usable(keyed_monkey),
         lambda: bridge.write_mesh(mesh, positions, rotations),
@@ -91,7 +91,7 @@ def test_attribute_of_the_artist_with_a_similar_name(bridge, monkey):
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
 def test_traces_come_and_go(bridge, monkey, result):
     assert not bridge.has_traces(monkey.data)
-    for remove in (bridge.restore, lambda obj: bridge.forget(obj.data)):
+    for remove in (bridge.restore, lambda obj: bridge.discard_original(obj.data)):
         cubify(bridge, monkey, result)
         assert bridge.has_traces(monkey.data)
         remove(monkey)
@@ -135,7 +135,7 @@ def test_stale(bridge, error, plain_monkey, edit):
     with pytest.raises(error, match=r"'Suzanne' has been edited since .* original now: Apply"):
         bridge.restore(plain_monkey)
     assert differences(before, snapshot_object(plain_monkey)) == []
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     assert not bridge.has_traces(mesh)
     assert NOTE not in mesh
     assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
@@ -147,6 +147,6 @@ def test_forget_an_edited_key_keeps_it(bridge, keyed_monkey):
     cubify(bridge, keyed_monkey, "SHAPE_KEY")
     mesh.shape_keys.key_blocks["Cubic"].points[3].co.x += 1
     points = points_of(mesh, "Cubic")
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     assert not bridge.has_traces(mesh)
     assert np.array_equal(points_of(mesh, "Cubic"), points)

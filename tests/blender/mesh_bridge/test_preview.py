@@ -92,7 +92,7 @@ def test_other_calls_end_it_first(bridge, state, result):
         "MESH": lambda o: bridge.write_mesh(o.data, *made),
         "SHAPE_KEY": lambda o: bridge.write_shape_key(o, made[0]),
         "RESTORE": bridge.restore,
-        "FORGET": lambda o: bridge.forget(o.data),
+        "FORGET": lambda o: bridge.discard_original(o.data),
         "NEW_OBJECT": lambda o: bridge.write_new_object(o, *made),
     }
     other = obj.copy()

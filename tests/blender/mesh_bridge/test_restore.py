@@ -61,7 +61,7 @@ def test_forget_keeps_the_shape(bridge, error, monkey):
     before = snapshot_object(monkey)
     bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
     written = snapshot_object(monkey)
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     after = snapshot_object(monkey)
     assert differences(before, after, ignore=POSITIONS + SHAPE_KEY_POINTS) == []
     assert differences(written, after, ignore=STORED) == []
@@ -75,7 +75,7 @@ def test_forget_keeps_the_shape_key(bridge, monkey):
     bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
     written = snapshot_object(monkey)
     points = points_of(mesh, "Cubic")
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     assert differences(written, snapshot_object(monkey), ignore=STORED) == []
     bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh), 1)[0])
     assert points_of(mesh, "Cubic").tobytes() == points.tobytes()
@@ -84,7 +84,7 @@ def test_forget_keeps_the_shape_key(bridge, monkey):
 
 def test_forget_nothing(bridge, monkey):
     before = snapshot_object(monkey)
-    bridge.forget(monkey.data)
+    bridge.discard_original(monkey.data)
     assert differences(before, snapshot_object(monkey)) == []
 
 
@@ -92,6 +92,6 @@ def test_forget_a_stale_original(bridge, plain_monkey):
     mesh = plain_monkey.data
     bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
     mesh.vertices[0].co.x += 1
-    bridge.forget(mesh)
+    bridge.discard_original(mesh)
     assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
     assert "cubic_craft_note" not in mesh

@@ -5,7 +5,7 @@ import pytest
 from rich_mesh import cubic_like, points_of, position_of, set_points
 from snapshot import STORED, differences, snapshot_object
 
-# The key of ours in a snapshot, and that there are keys at all.
+# Our key in a snapshot, and that there are keys at all.
 OUR_KEY = (
     *STORED,
     "*shape_keys/blocks/Cubic/*",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A package dropped on the window of a Blender without network and with nothing of ours.
+"""A package dropped on the window of a Blender without network and with nothing of our code.
 
 PACKAGE is its file, FIRST_VERSION its version. Used, disabled, enabled, removed, installed again.
 """

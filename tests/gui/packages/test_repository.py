@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender that has nothing of ours is pointed at our repository: install, Cubify, update, remove.
+"""A Blender without our code is pointed at our repository: install, Cubify, update, remove.
 
 /share/first and /share/newer are repositories; they are served on localhost, the only network.
 """

@@ -81,17 +81,17 @@ def meshes_in_view():
 
 
 def is_on():
-    """Tell whether the extension is switched on."""
+    """Return whether the extension is switched on."""
     return hasattr(bpy.types.WindowManager, "cubic_craft_live")
 
 
 def is_live():
-    """Tell whether Live runs."""
+    """Return whether Live runs."""
     return is_on() and scene.live().current() is not None
 
 
 def is_cubifying():
-    """Tell whether a Cubify goes on beside Blender."""
+    """Return whether a Cubify goes on beside Blender."""
     return is_on() and scene.job().current() is not None
 
 

@@ -23,7 +23,7 @@ _PRIMITIVES = (
     ("mesh.primitive_grid_add", {"x_subdivisions": 6, "y_subdivisions": 6}),
 )
 
-# Attributes of ours are called so, and vertex groups may be, too.
+# Our attributes are called so, and vertex groups may be, too.
 _NAMES_OF_OURS = ("cubic_craft_original", "cubic_craft_rotation", "cubic_craft_live")
 
 

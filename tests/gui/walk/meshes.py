@@ -50,7 +50,7 @@ def _read(mesh):
 
 
 def _is_edited(data, note):
-    """Tell whether the shape, of which a preview may be shown, is none that was written to it."""
+    """Return whether the shape, of which a preview may be shown, is none that was written to it."""
     shape = data.shape
     if "live" in note:
         before = data.attribute(LIVE)

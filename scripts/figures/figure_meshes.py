@@ -20,9 +20,9 @@ from headless.pose import handles_of_all
 from headless.progress import ProgressBar
 from mathutils import Euler, Matrix
 
-from .cast import FILES, OWN_SHAPES, Role
+from .models import FILES, OWN_SHAPES, Role
 
-__all__ = ("AS_IN_THE_PAPER", "Model", "Workshop", "moved")
+__all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "moved")
 
 AS_IN_THE_PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
 """settings for figures that show what the energy of the paper does"""
@@ -53,7 +53,7 @@ class Model:
         return turn.to_matrix().to_4x4() @ self.object.matrix_world
 
 
-class Workshop:
+class FigureMeshes:
     """Loads the cast, cubifies it, and makes groups for galleries."""
 
     def __init__(
