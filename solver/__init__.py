@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .errors import CubicCraftError
 
 if TYPE_CHECKING:
-    from .auto_orientation import auto_orient, nearest_to_identity
+    from .auto_orientation import auto_orient
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .edge_distances import edge_distances, nearest_distances
     from .progress import Progress
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .runner import Result, Run, run, stylize
     from .setup import Setup
     from .stop_rule import StopRule
+    from .styles.cube import nearest_to_identity
     from .stylization import Energy, Stylization
     from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
@@ -75,7 +76,7 @@ _MODULES = {
     "commuting": "symmetry",
     "edge_distances": "edge_distances",
     "nearest_distances": "edge_distances",
-    "nearest_to_identity": "auto_orientation",
+    "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
     "problem_with_taichi": "backends",
     "rest_mesh": "rest",

@@ -5,6 +5,8 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
+from .styles.cube import cost, nearest_to_identity
+
 SAMPLES = 100_000
 """rotations over SO(3), of which a 24th is distinct for a cube: about 5 degrees apart"""
 CANDIDATES = 12
@@ -57,14 +59,8 @@ def auto_orient(normals, areas):
     return nearest_to_identity(best)
 
 
-def nearest_to_identity(Q):
-    """Return the rotation nearest to the identity that is the same as Q (3,3) for a cube."""
-    same = Rotation.create_group("O").as_matrix() @ Q
-    return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
-
-
 def _cost(Q, normals, areas):
-    return float(areas @ np.abs(normals @ Q.T).sum(axis=1))
+    return float(areas @ cost(normals @ Q.T))
 
 
 def _costs(Qs, normals, areas):

@@ -37,7 +37,7 @@ def coarse_stylization(fine):
 
     None for small meshes, for the plain iteration, and where there is no coarser mesh.
     """
-    count = fine.rest.largest_component  # many small parts are no slower than one of them
+    count = fine.rest.topology.largest_component  # many small parts are no slower than one of them
     least = COARSEST_VERTICES if fine.is_coarse else LEAST_VERTICES
     if count < least or not fine.is_accelerated or fine.setup.coarse is None:
         return None

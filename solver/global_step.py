@@ -43,14 +43,14 @@ class GlobalStep:
     def __init__(self, rest, pinned):
         n = len(rest.V)
         self._rest = rest
-        has_pin = np.zeros(rest.component_count, dtype=bool)
-        has_pin[rest.component[pinned]] = True
+        has_pin = np.zeros(rest.topology.component_count, dtype=bool)
+        has_pin[rest.topology.component[pinned]] = True
         is_held = np.zeros(n, dtype=bool)
         is_held[pinned] = True
-        _, first_vertex = np.unique(rest.component, return_index=True)
+        _, first_vertex = np.unique(rest.topology.component, return_index=True)
         is_held[first_vertex[~has_pin]] = True
         self._is_held = is_held
-        is_small = rest.largest_component <= FACTORIZED_VERTICES
+        is_small = rest.topology.largest_component <= FACTORIZED_VERTICES
         self.is_factorized = is_small or not has_multigrid()
         if self.is_factorized:
             self.solve = _solver(self._laplacian, is_held)
@@ -84,9 +84,9 @@ class GlobalStep:
         if self.is_anchored.all():
             return None
         rest = self._rest
-        weight = np.where(self.is_anchored[rest.component], 0.0, rest.areas + 1e-300)
-        total = np.bincount(rest.component, weight, rest.component_count)
-        return weight / np.where(total > 0.0, total, 1.0)[rest.component]
+        weight = np.where(self.is_anchored[rest.topology.component], 0.0, rest.areas + 1e-300)
+        total = np.bincount(rest.topology.component, weight, rest.topology.component_count)
+        return weight / np.where(total > 0.0, total, 1.0)[rest.topology.component]
 
     @cached_property
     def no_turning(self):
@@ -121,18 +121,14 @@ class GlobalStep:
 
     def _centre(self, U, weight):
         rest = self._rest
-        if rest.component_count == 1:
+        if rest.topology.component_count == 1:
             shift = weight @ rest.V - weight @ U
             for c in range(3):  # adding rows of three takes NumPy ten times as long
                 U[:, c] += shift[c]
             return
-        offset = weight[:, None] * (rest.V - U)
-        shift = np.stack(
-            [np.bincount(rest.component, offset[:, c], rest.component_count) for c in range(3)],
-            axis=1,
-        )
+        shift = rest.topology.sum_parts(weight[:, None] * (rest.V - U))
         moving = weight > 0.0
-        U[moving] += shift[rest.component[moving]]
+        U[moving] += shift[rest.topology.component[moving]]
 
 
 def _solver(L, is_held):

@@ -53,9 +53,9 @@ class HoldFields:
             x = rest.V - centroid
             stiff = np.column_stack([w, w[:, None] * x])
             self.fields.append((w, centroid, x, self._solve(stiff)))
-        self.components = np.unique(
-            np.concatenate([rest.component[w > 0.0] for w, *_ in self.fields] or [[]]).astype(int)
-        )
+        component = rest.topology.component
+        held = [component[w > 0.0] for w, *_ in self.fields]
+        self.components = np.unique(np.concatenate(held or [[]]).astype(int))
 
     def _solve(self, K):
         """Return L^-1 K (n,4), with nothing where vertices are held."""
@@ -93,7 +93,7 @@ class Holds:
             goals += [goal, np.zeros(3)]
         self._goals = np.concatenate(goals)
         self._free = fields.components[~fields.setup.has_pin[fields.components]]
-        self._component = rest.component
+        self._component = rest.topology.component
         self._inverse = np.linalg.pinv(self._system(), rcond=_SMALLEST)
 
     def _measure(self, U):

@@ -67,9 +67,9 @@ class Motion:
             constraint.impose(U)
         step, point = U - self._U, U - self.point
         displacement = largest(step)
-        if rest.component_count > 1:
+        if rest.topology.component_count > 1:
             momentum, overshoot = (
-                share[rest.component][:, None] for share in (momentum, overshoot)
+                share[rest.topology.component][:, None] for share in (momentum, overshoot)
             )
         step *= momentum
         point *= overshoot

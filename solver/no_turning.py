@@ -42,20 +42,20 @@ class NoTurning:
     """
 
     def __init__(self, rest, is_free, solve, solves=1):
-        self._rest = rest
+        self._topology = topology = rest.topology
         weight = rest.standing
-        share = weight / rest.sum_parts(weight)[rest.component]
-        centre = self._sums(share[:, None] * rest.V)
-        x = (rest.V - centre[rest.component]) * is_free[rest.component][:, None]
+        share = weight / topology.sum_parts(weight)[topology.component]
+        centre = topology.sum_parts(share[:, None] * rest.V)
+        x = (rest.V - centre[topology.component]) * is_free[topology.component][:, None]
         self.pull = share[:, None] * x
         P = np.zeros_like(x)
         for _ in range(solves):
             P = solve(self.pull.copy(), P)
         weight = rest.areas + 1e-300  # so that the centroid stays where it is
-        share = weight / rest.sum_parts(weight)[rest.component]
-        P -= self._sums(share[:, None] * P)[rest.component]
-        self.P = P * is_free[rest.component][:, None]
-        M = self._sums((self.P[:, :, None] * self.pull[:, None, :]).reshape(-1, 9))
+        share = weight / topology.sum_parts(weight)[topology.component]
+        P -= topology.sum_parts(share[:, None] * P)[topology.component]
+        self.P = P * is_free[topology.component][:, None]
+        M = topology.sum_parts((self.P[:, :, None] * self.pull[:, None, :]).reshape(-1, 9))
         M = M.reshape(-1, 3, 3)
         M = 0.5 * (M + M.swapaxes(1, 2))
         stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
@@ -63,22 +63,15 @@ class NoTurning:
 
     def apply(self, U):
         """Return the nearest positions (n,3) in which nothing has turned."""
-        if self._rest.component_count == 1:
+        if self._topology.component_count == 1:
             (mu,) = self.twist(torque(self.pull, U)[None])
             return U + self.P @ np.cross(mu, np.eye(3))
-        mu = self.twist(self._sums(np.cross(self.pull, U)))
-        return U + np.cross(mu[self._rest.component], self.P)
+        mu = self.twist(self._topology.sum_parts(np.cross(self.pull, U)))
+        return U + np.cross(mu[self._topology.component], self.P)
 
     def twist(self, torques):
         """Return mu (component_count,3) for the torques (component_count,3)."""
         return -np.einsum("kij,kj->ki", self._inverse, torques)
-
-    def _sums(self, values):
-        """Sum values (n,k) over each component, to (component_count,k)."""
-        if self._rest.component_count == 1:
-            return values.sum(axis=0)[None]
-        columns = [self._rest.sum_parts(x) for x in values.T]
-        return np.stack(columns, axis=1)
 
 
 def torque(pull, U):

@@ -6,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 
-from .components import components
 from .cotangents import cotangents
 from .decimation import decimate
 from .memory import check_memory
@@ -19,12 +18,11 @@ from .proxy.neighbours import neighbour_links
 from .proxy.thickness import thickness_links
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
+from .topology import Topology, topology
 from .unit_box import UnitBox
 
 COARSENING = 16
 """triangles of a mesh for each triangle of its coarser mesh"""
-
-_CHUNK = 256
 
 
 @dataclass(frozen=True)
@@ -41,16 +39,13 @@ class RestMesh:
     box: UnitBox
     V: np.ndarray
     """(n,3) float64 rest positions in the unit box"""
-    F: np.ndarray
-    """(m,3) int32 triangles"""
+    topology: Topology
     areas: np.ndarray
     """(n,) barycentric areas a_i"""
     normals: np.ndarray
     """(n,3) unit normals n_i, zero where undefined"""
     cubic_shares: np.ndarray
     """(n,) factors of the cubeness: 0 in creases, more than 1 beside them"""
-    part: np.ndarray
-    """(n,) int connected part of each vertex, links left aside"""
     to_neighbours: Links
     to_other_side: Links | None
     """of solidity 1; None where they have not been looked for"""
@@ -60,9 +55,11 @@ class RestMesh:
     """of the triangles alone"""
     matrices: SpokesAndRims
     """with the links"""
-    component_count: int
-    component: np.ndarray
-    """(n,) int component of each vertex: parts that are linked are one"""
+
+    @property
+    def F(self):  # noqa: N802 - as everywhere
+        """(m,3) int32 triangles."""
+        return self.topology.F
 
     @cached_property
     def used(self):
@@ -77,7 +74,7 @@ class RestMesh:
     @cached_property
     def box_frames(self):
         """(n,3,3) frames of parts that are boxes already, see `proxy/boxes.py`, or None."""
-        return box_frames(self.V, self.F, self.part) if self.is_refined else None
+        return box_frames(self.V, self.F, self.topology.part) if self.is_refined else None
 
     @cached_property
     def standing(self):
@@ -102,13 +99,14 @@ class RestMesh:
             return self
         to_other_side = self.to_other_side
         if to_other_side is None:
-            to_other_side = thickness_links(self.V, self.F, self.normals, self.areas, self.part)
+            part = self.topology.part
+            to_other_side = thickness_links(self.V, self.F, self.normals, self.areas, part)
         changed = replace(self, to_other_side=to_other_side, solidity=solidity)
         return replace(changed, matrices=changed.skin.with_links(self.V, changed.links))
 
     @cached_property
     def edge_sums(self):
-        """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component, as `sum_parts`."""
+        """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component."""
         matrices = self.matrices
         rows = np.repeat(np.arange(len(self.V), dtype=np.int32), np.diff(matrices.indptr))
         is_upper = matrices.indices > rows  # each pair is counted once, then twice
@@ -118,7 +116,7 @@ class RestMesh:
             difference = x.take(j) - x.take(i)
             squares += difference * difference
         weighted = -2.0 * matrices.laplacian[is_upper] * squares
-        return np.bincount(self.component[i], weighted, self.component_count)
+        return self.topology.sum_parts_at(i, weighted)
 
     @cached_property
     def coarse(self):
@@ -135,38 +133,12 @@ class RestMesh:
         """Return the mesh with links in place of its own."""
         if not len(links):
             return self
-        count, component = components(self.F, len(self.V), links.pairs())
         return replace(
             self,
+            topology=self.topology.linked(links.pairs()),
             to_neighbours=links,
             matrices=self.matrices.with_links(self.V, links),
-            component_count=count,
-            component=component,
         )
-
-    @cached_property
-    def chunks(self):
-        """Up to 256 vertices each, one after the other and of one component, for sums in parallel.
-
-        (k+1,) int32 where each begins, and (k,) int32 the component of each.
-        """
-        is_start = np.zeros(len(self.V), dtype=bool)
-        is_start[::_CHUNK] = True
-        is_start[1:] |= self.component[1:] != self.component[:-1]
-        start = np.flatnonzero(is_start)
-        bounds = np.append(start, len(self.V)).astype(np.int32)
-        return bounds, self.component[start].astype(np.int32)
-
-    @cached_property
-    def largest_component(self):
-        """Number of vertices of the largest component, which says how hard the problem is."""
-        return int(np.bincount(self.component).max())
-
-    def sum_parts(self, values):
-        """Sum values (n,) over each component, to (component_count,)."""
-        if self.component_count == 1:
-            return values.sum(keepdims=True)
-        return np.bincount(self.component, values, self.component_count)
 
 
 @dataclass(frozen=True)
@@ -198,37 +170,31 @@ def rest_mesh(V, F, proxy=PAPER):
     V, F = surface.V, surface.F
     areas, normals = areas_and_normals(V, F)
     C = cotangents(V, F)
-    part_count, part = components(F, len(V))
+    parts = topology(F, len(V))
     to_neighbours, to_other_side = no_links(), None
     if proxy.together:
-        to_neighbours = neighbour_links(V, F, normals, areas, part, part_count)
+        to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
     if proxy.solidity > 0.0:
-        to_other_side = thickness_links(V, F, normals, areas, part)
+        to_other_side = thickness_links(V, F, normals, areas, parts.part)
     shares = np.ones(len(V))
     if proxy.refine:
         shares = cubic_shares(V, F, C, areas)
-        C = C * stiffness(V, F, part)[:, None]
+        C = C * stiffness(V, F, parts.part)[:, None]
     skin = spokes_and_rims(V, F, C)
-    count, component = part_count, part
-    if len(to_neighbours):
-        count, component = components(F, len(V), to_neighbours.pairs())
     rest = RestMesh(
         input_positions,
         surface.input_map,
         surface.box,
         V,
-        F,
+        parts.linked(to_neighbours.pairs()),
         areas,
         normals,
         shares,
-        part,
         to_neighbours,
         to_other_side,
         proxy.solidity,
         proxy.refine,
         skin,
         skin,
-        count,
-        component,
     )
     return replace(rest, matrices=skin.with_links(V, rest.links))

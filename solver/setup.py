@@ -67,8 +67,8 @@ class Setup:
             self.pinned_input = np.union1d(pinned, _held_by(rest, np.asarray(still)))
             is_pinned[self.pinned_input] = True
         self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
-        self.has_pin = np.zeros(rest.component_count, dtype=bool)
-        self.has_pin[rest.component[self.pinned]] = True
+        self.has_pin = np.zeros(rest.topology.component_count, dtype=bool)
+        self.has_pin[rest.topology.component[self.pinned]] = True
         self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
         self.hold_fields: HoldFields | None = None

@@ -104,7 +104,7 @@ class Stylization:
         if setup.hold_fields is not None:
             constraints.insert(0, Holds(setup.hold_fields, hold_matrices))
         self._motion = self._local.motion(setup, U, constraints)
-        self._acceleration = Momentum(rest.component_count) if is_accelerated else None
+        self._acceleration = Momentum(rest.topology.component_count) if is_accelerated else None
         self.iteration = 0
         self.energy = None
         self.displacement = self.distance = 0.0
@@ -195,7 +195,7 @@ class Stylization:
     def global_step(self):
         """Move the positions toward the rotations of the local step before."""
         if self._acceleration is None:
-            momentum = overshoot = np.zeros(self.rest.component_count)
+            momentum = overshoot = np.zeros(self.rest.topology.component_count)
         else:
             momentum, overshoot = self._acceleration.next()
         self.displacement, self.distance = self._motion.step(

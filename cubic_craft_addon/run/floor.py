@@ -25,10 +25,10 @@ def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) ->
     """
     rest = setup.rest
     used, place = rest.place
-    component = rest.component[place]
+    component = rest.topology.component[place]
     before = rest.input_positions[used] @ up
-    lowest = _lowest(before, component, rest.component_count)
-    drop = lowest - _lowest(positions[used] @ up, component, rest.component_count)
+    lowest = _lowest(before, component, rest.topology.component_count)
+    drop = lowest - _lowest(positions[used] @ up, component, rest.topology.component_count)
     limit = lowest.min() + _STANDING * np.ptp(before)
     drop[setup.is_anchored | (lowest > limit)] = 0.0
     kept = positions.copy()

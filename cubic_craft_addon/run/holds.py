@@ -35,7 +35,7 @@ def holds_of(
     total, found = len(rest.input_positions), []
     component = np.full(total, -1)
     used, place = rest.place
-    component[used] = rest.component[place]
+    component[used] = rest.topology.component[place]
     for member, placement, part in parts_of(members, placements):
         for own, matrix in _groups(member, placement, component[part]):
             weights = np.zeros(total)

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .object_frame import Placement, proper
+from ...solver.styles.cube import proper
+from .object_frame import Placement
 from .whole import Whole
 
 _ALIKE = 1e-5  # a turn by less makes no difference

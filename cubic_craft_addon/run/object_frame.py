@@ -10,6 +10,7 @@ from mathutils import Euler, Matrix
 
 from ... import solver
 from ...solver import CubicCraftError
+from ...solver.styles.cube import proper
 from ..settings.values import Settings
 
 _SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
@@ -224,8 +225,3 @@ def _without_right_angles(orientation):
     """
     is_like = np.allclose(orientation, np.round(orientation), rtol=0.0, atol=_SMALLEST_TURN)
     return np.eye(3) if is_like else orientation
-
-
-def proper(matrix):
-    """Return the rotation that is the same for a cube, which looks alike in a mirror."""
-    return matrix if np.linalg.det(matrix) > 0.0 else -matrix

@@ -15,11 +15,11 @@ import bpy
 import numpy as np
 
 from ... import solver
-from .. import handles, mesh_bridge
+from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
 from .assembly import Prepared
+from .fields import cubeness, orientation, targets
 from .floor import kept_on_floor
-from .mirrored_cubes import orientations
 
 
 @dataclass(frozen=True)
@@ -71,9 +71,9 @@ def start(prepared: Prepared) -> solver.Run:
     try:
         stylization = solver.Stylization(
             prepared.setup,
-            _cubeness(prepared),
-            _orientation(prepared),
-            _targets(prepared),
+            cubeness(prepared),
+            orientation(prepared),
+            targets(prepared),
             device=settings.device.lower(),
             keep_rotation=settings.rotation == "KEEP",
             hold_matrices=[hold.matrix for hold in prepared.holds],
@@ -167,52 +167,6 @@ def write(
         mesh = mesh_bridge.mesh_of(obj)
         mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)
     return obj
-
-
-def _cubeness(prepared):
-    """Return the cubeness, a number or (N,) of them."""
-    factors = [member.map_weights for member in prepared.members]
-    values = [member.settings.cubeness for member in prepared.members]
-    if len(set(values)) == 1 and all(isinstance(factor, float) for factor in factors):
-        return values[0] * factors[0]
-    return np.concatenate(
-        [
-            member.of_whole(value * factor)
-            for member, value, factor in zip(prepared.members, values, factors, strict=True)
-        ]
-    )
-
-
-def _orientation(prepared):
-    """Return the orientation, (3,3), or (N,3,3) where the objects' axes differ.
-
-    Beyond a plane of symmetry the cube is mirrored as well.
-    """
-    found = [orientations(member.whole, placement) for member, placement, _ in prepared.parts()]
-    first = found[0][0]
-    # The rounding of world matrices is no difference.
-    if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in found):
-        return first
-    counts = [len(member.whole.source) for member in prepared.members]
-    return np.concatenate(
-        [np.broadcast_to(Q, (count, 3, 3)) for Q, count in zip(found, counts, strict=True)]
-    )
-
-
-def _targets(prepared):
-    """Return where the handles want the vertices, (N,3)."""
-    return np.concatenate(
-        [
-            placement.place(
-                member.whole.images(
-                    handles.targets(
-                        member.shape.original, member.handle_of, member.settings.handles
-                    )
-                )
-            )
-            for member, placement, _ in prepared.parts()
-        ]
-    )
 
 
 def _read_back(prepared, positions, rotations):

@@ -5,8 +5,6 @@ The switch lies on the window manager, so that turning it leaves no undo step. T
 exists only while the extension is registered.
 """
 
-import itertools
-
 import bpy
 import gpu
 import numpy as np
@@ -15,6 +13,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ...solver import CubicCraftError
+from ...solver.styles.cube import EDGES
 from .. import live
 from ..handles.owner import panel_object
 from ..run.object_frame import world_axes
@@ -53,10 +52,9 @@ def lines_of(obj: bpy.types.Object):
     for axis, color in zip(half.T, _AXIS_COLORS, strict=True):
         points += [centre, centre + axis]
         colors += [color, color]
-    for a, b in itertools.combinations(itertools.product((-1, 1), repeat=3), 2):
-        if sum(x != y for x, y in zip(a, b, strict=True)) == 1:
-            points += [centre + half @ a, centre + half @ b]
-            colors += [_EDGE_COLOR, _EDGE_COLOR]
+    for a, b in EDGES:
+        points += [centre + half @ a, centre + half @ b]
+        colors += [_EDGE_COLOR, _EDGE_COLOR]
     return np.array(points), colors
 
 

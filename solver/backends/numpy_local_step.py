@@ -45,7 +45,7 @@ class NumpyLocalStep:
         self._gather = [matrices.matrix(matrices.gather[:, c]) for c in range(3)]
         self._scatter = [matrices.matrix(matrices.scatter[:, c]) for c in range(3)]
         self._area_scale = area_scale(rest.areas)
-        _, self._first = np.unique(rest.component, return_index=True)
+        _, self._first = np.unique(rest.topology.component, return_index=True)
         self._rest_quadratic = self._quadratic(self._near_origin(rest.V))
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
@@ -86,16 +86,16 @@ class NumpyLocalStep:
         self.R = np.where(is_worse[:, None, None], last, R)
         self._s = np.where(is_worse[:, None], self._s, s)
         fit, l1 = problem.costs(self.R)
-        trace = self._rest.sum_parts(fit * self._area_scale)
+        trace = self._rest.topology.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace
-        return arap, self._rest.sum_parts(self._cubic_weight * l1)
+        return arap, self._rest.topology.sum_parts(self._cubic_weight * l1)
 
     def _near_origin(self, U):
         """Return U with each component moved, so that the energy of a tiny one is no rounding."""
-        return U - U[self._first[self._rest.component]]
+        return U - U[self._first[self._rest.topology.component]]
 
     def _quadratic(self, U):
-        return 1.5 * self._rest.sum_parts((U * (self._laplacian @ U)).sum(axis=1))
+        return 1.5 * self._rest.topology.sum_parts((U * (self._laplacian @ U)).sum(axis=1))
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""

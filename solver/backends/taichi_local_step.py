@@ -115,7 +115,7 @@ class TaichiLocalStep:
         from .taichi_motion import TaichiMotion, motion_kernels
 
         keep = self.arrays.keep
-        bounds, self._chunk_component = setup.rest.chunks
+        bounds, self._chunk_component = setup.rest.topology.chunks
         self._sums = keep(np.zeros((len(self._chunk_component), 3), self.real))
         weight = keep(self._cubic_weight.astype(self.real))
         arguments = (keep(bounds), self._energies, weight, self._certified, self._sums)
@@ -142,8 +142,8 @@ class TaichiLocalStep:
         if len(rows):
             self._solve_by_admm(U, rows)
         quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64, copy=False)
-        arap = self._rest_quadratic + self._rest.sum_parts(0.75 * quadratic - trace)
-        return arap, self._rest.sum_parts(self._cubic_weight * l1)
+        arap = self._rest_quadratic + self._rest.topology.sum_parts(0.75 * quadratic - trace)
+        return arap, self._rest.topology.sum_parts(self._cubic_weight * l1)
 
     def _summed(self, U, sum_on_device):
         """Return the energies where kernels sum them up."""
@@ -154,7 +154,7 @@ class TaichiLocalStep:
             sum_on_device()
             sums = self.arrays.fetch(self._sums)
         arap, cubic, _ = sums.T.astype(np.float64)
-        count = self._rest.component_count
+        count = self._rest.topology.component_count
         arap = self._rest_quadratic + np.bincount(self._chunk_component, arap, count)
         return arap, np.bincount(self._chunk_component, cubic, count)
 

@@ -15,7 +15,7 @@ class TaichiMotion:
     """As `Motion`, where the global step is a V-cycle.
 
     One pass over the vertices finds how each component has moved as a whole, and another one takes
-    that back, extrapolates and measures. Between them only the sums of `RestMesh.chunks` are looked
+    that back, extrapolates and measures. Between them only the sums of `Topology.chunks` are looked
     at in NumPy. The positions lie where the arrays of the local step do.
 
     Parameters
@@ -38,14 +38,12 @@ class TaichiMotion:
         multigrid = setup.global_step.multigrid
         self._cycle = TaichiCycle(multigrid, arrays)
         self._scale = keep(multigrid.scale)
-        bounds, self._component = rest.chunks
+        topology = rest.topology
+        bounds, self._component = topology.chunks
         self._chunks = keep(bounds), keep(self._component)
         weight = rest.areas + 1e-300
-        total = np.bincount(rest.component, weight, rest.component_count)
-        share = weight / total[rest.component]
-        self._centre = np.stack(
-            [np.bincount(rest.component, share * x, rest.component_count) for x in rest.V.T], axis=1
-        )
+        share = weight / topology.sum_parts(weight)[topology.component]
+        self._centre = topology.sum_parts(share[:, None] * rest.V)
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         count = len(self._component)
         # only asked for where a component has to be kept from turning

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotation_fit import fit_rotations
+from .cube import proximal
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ def _iteration(problem, R, z, u, rho, o):
     R = fit_rotations(S + normals[:, :, None] * pull[:, None, :], R)
     x = problem.cube_normals(R)
     threshold = (lam / rho)[:, None]
-    z_new = np.sign(x + u) * np.maximum(np.abs(x + u) - threshold, 0.0)
+    z_new = proximal(x + u, threshold)
     u = u + x - z_new
     primal = np.linalg.norm(z_new - x, axis=1)
     dual = rho * np.linalg.norm(z_new - z, axis=1)

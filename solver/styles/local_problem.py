@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .cube import cost
+
 
 class LocalProblem(NamedTuple):
     """min over R in SO(3) of lam |Q R n|_1 - tr(R S), of n vertices at once."""
@@ -29,9 +31,9 @@ class LocalProblem(NamedTuple):
 
     def costs(self, R):
         """Return tr(R S) and |Q R n|_1, both (n,)."""
-        return np.einsum("nij,nji->n", R, self.S), np.abs(self.cube_normals(R)).sum(axis=1)
+        return np.einsum("nij,nji->n", R, self.S), cost(self.cube_normals(R))
 
     def is_worse(self, R, last):
         """Return where R (n,3,3) costs more than `last`: taking it would raise the energy."""
-        (fit, cost), (last_fit, last_cost) = self.costs(R), self.costs(last)
-        return self.lam * cost - fit > self.lam * last_cost - last_fit
+        (fit, now), (last_fit, before) = self.costs(R), self.costs(last)
+        return self.lam * now - fit > self.lam * before - last_fit

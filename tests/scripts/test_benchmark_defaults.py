@@ -21,8 +21,8 @@ def path(tmp_path):
 )
 def test_parts_that_are_made_hang_together(mesh, parts):
     rest = rest_mesh(*mesh, proxy=ProxyOptions(solidity=0.0))
-    assert rest.part.max() + 1 == parts
-    assert rest.component_count == 1
+    assert rest.topology.part.max() + 1 == parts
+    assert rest.topology.component_count == 1
 
 
 def test_a_made_sphere_is_closed_and_faces_outward():

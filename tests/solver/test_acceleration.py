@@ -26,10 +26,10 @@ def test_the_momentum_of_a_component_is_its_own():
     both, alone = Momentum(2), [Momentum(1), Momentum(1)]
     for step in range(6):
         energies = np.array([-float(step), float(step == 3)])  # the second one rises once
-        both.see(energies)
+        both.observe(energies)
         expected = []
         for momentum, energy in zip(alone, energies, strict=True):
-            momentum.see(np.array([energy]))
+            momentum.observe(np.array([energy]))
             expected.append(np.concatenate(momentum.next()))
         np.testing.assert_array_equal(np.stack(both.next(), axis=1), expected)
     assert (expected[0] > expected[1]).all()
@@ -39,7 +39,7 @@ def test_momentum_grows_until_the_energy_rises():
     momentum = Momentum(1)
 
     def after(energy):
-        momentum.see(np.array([energy]))
+        momentum.observe(np.array([energy]))
         return momentum.next()[0]
 
     first, second, third = (after(energy) for energy in (5.0, 4.0, 3.0))

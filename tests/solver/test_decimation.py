@@ -39,9 +39,9 @@ def test_vertices_go_into_near_ones():
 def test_parts_stay_apart():
     V, F = in_unit_box(*shapes.two_blobs())
     coarse = rest_mesh(V, F).coarse
-    assert coarse.rest.component_count == 2
-    labels = coarse.rest.component[coarse.cluster]
-    assert len(np.unique(np.stack([labels, rest_mesh(V, F).component]), axis=1).T) == 2
+    assert coarse.rest.topology.component_count == 2
+    labels = coarse.rest.topology.component[coarse.cluster]
+    assert len(np.unique(np.stack([labels, rest_mesh(V, F).topology.component]), axis=1).T) == 2
 
 
 def test_a_part_that_collapses_does_no_harm():

@@ -100,7 +100,7 @@ def test_no_array_of_the_size_of_the_mesh_is_fetched_in_an_iteration(monkeypatch
     monkeypatch.setattr(kind, "fetch", lambda self, a: sizes.append(a.shape[0]) or fetch(self, a))
     monkeypatch.setattr(kind, "put", None)
     state.step()
-    assert sizes and max(sizes) == len(state.rest.chunks[1])
+    assert sizes and max(sizes) == len(state.rest.topology.chunks[1])
 
 
 @pytest.mark.parametrize("precision", ["f64", "f32"])

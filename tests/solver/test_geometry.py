@@ -109,10 +109,10 @@ def test_blocks_change_no_bit(monkeypatch):
 def test_edge_sums_of_a_rest_mesh(name):
     rest = rest_mesh(*shapes.ALL[name]())
     L = rest.matrices.matrix(rest.matrices.laplacian).tocoo()
-    expected = np.zeros(rest.component_count)
+    expected = np.zeros(rest.topology.component_count)
     for i, j, value in zip(L.row, L.col, L.data, strict=True):
         edge = rest.V[j] - rest.V[i]
-        expected[rest.component[i]] -= value * edge @ edge
+        expected[rest.topology.component[i]] -= value * edge @ edge
     np.testing.assert_allclose(rest.edge_sums, expected, rtol=1e-12)
 
 

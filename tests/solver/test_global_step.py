@@ -31,8 +31,8 @@ def test_result_solves_the_normal_equations():
 def test_centroids_of_free_components_stay():
     rest = rest_mesh(*shapes.two_blobs())
     U = GlobalStep(rest, NO_PINS).positions(rotated_rhs(rest), rest.V)
-    for label in range(rest.component_count):
-        part = rest.component == label
+    for label in range(rest.topology.component_count):
+        part = rest.topology.component == label
         weights = rest.areas[part]
         before, after = (np.average(X[part], axis=0, weights=weights) for X in (rest.V, U))
         np.testing.assert_allclose(after, before, atol=1e-12)
@@ -53,7 +53,7 @@ def test_pinned_vertices_keep_their_bits_and_their_component_is_not_centred():
 def test_a_component_without_a_free_vertex_is_fine():
     V, F = shapes.two_blobs()
     rest = rest_mesh(V, F)
-    pins = np.flatnonzero(rest.component == rest.component[0])
+    pins = np.flatnonzero(rest.topology.component == rest.topology.component[0])
     U = GlobalStep(rest, pins).positions(rotated_rhs(rest), rest.V)
     np.testing.assert_array_equal(U[pins], rest.V[pins])
     assert np.abs(U - rest.V).max() > 1e-3

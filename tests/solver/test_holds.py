@@ -89,7 +89,7 @@ def test_only_its_component_is_concerned():
     V, F = two_blobs()
     rest = rest_mesh(V, F)
     first = np.zeros(len(V), dtype=bool)
-    first[rest.used[rest.component == 0]] = True
+    first[rest.used[rest.topology.component == 0]] = True
     setup = Setup(rest).with_holds([first.astype(float)])
     alone = run(Stylization(Setup(rest), 0.4, device="numpy"), 20, 1e-9)
     matrix = np.eye(4)

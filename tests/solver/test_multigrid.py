@@ -24,7 +24,7 @@ SHAPES = {
 def laplacian(V, F):
     rest = rest_mesh(V, F)
     L = rest.matrices.matrix(rest.matrices.laplacian)
-    _, first = np.unique(rest.component, return_index=True)
+    _, first = np.unique(rest.topology.component, return_index=True)
     is_held = np.zeros(len(rest.V), bool)
     is_held[first] = True
     return L, is_held

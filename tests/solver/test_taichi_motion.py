@@ -54,7 +54,7 @@ def test_a_step_is_that_of_numpy(name, pins, keep_rotation):
     fast, plain = state._motion, Motion(state.setup, state._local, state.positions)
     for size in (0.0, 0.3, 0.7):
         state._local.update(plain.point)
-        momentum = np.full(state.rest.component_count, size)
+        momentum = np.full(state.rest.topology.component_count, size)
         further = 0.7 - momentum
         measured = fast.step(momentum, further, keep_rotation)
         expected = plain.step(momentum, further, keep_rotation)

@@ -37,7 +37,7 @@ def test_each_vertex_has_its_place_and_neighbours_are_near(name, ordered):
         return np.abs(mesh.F - mesh.F[:, [1, 2, 0]]).mean()
 
     assert distances(rest) < 0.5 * distances(plain)
-    assert len(rest.chunks[1]) <= len(plain.chunks[1])
+    assert len(rest.topology.chunks[1]) <= len(plain.topology.chunks[1])
 
 
 def test_results_are_the_same(ordered, device):
@@ -62,8 +62,8 @@ def test_results_are_the_same(ordered, device):
 def test_chunks_are_of_one_component_each(ordered):
     ordered()
     rest = rest_mesh(*shuffled(*shapes.two_blobs()))
-    bounds, component = rest.chunks
+    bounds, component = rest.topology.chunks
     assert bounds[0] == 0 and bounds[-1] == len(rest.V)
     assert (np.diff(bounds) > 0).all() and np.diff(bounds).max() <= 256
     for label, begin, end in zip(component, bounds, bounds[1:], strict=False):
-        assert (rest.component[begin:end] == label).all()
+        assert (rest.topology.component[begin:end] == label).all()

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the vertices of a mesh hang together, wherever they are."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .components import components
+
+_CHUNK = 256
+
+
+@dataclass(frozen=True)
+class Topology:
+    """Vertices that share triangles or links, by components.
+
+    A mesh that is deformed keeps it, and so do the frames of an animation.
+    """
+
+    F: np.ndarray
+    """(m,3) int32 triangles"""
+    part: np.ndarray
+    """(n,) int connected part of each vertex, links left aside"""
+    component_count: int
+    component: np.ndarray
+    """(n,) int component of each vertex: parts that are linked are one"""
+
+    def linked(self, pairs):
+        """Return the Topology with further pairs (p,2) of vertices connected."""
+        if not len(pairs):
+            return self
+        return Topology(self.F, self.part, *components(self.F, len(self.part), pairs))
+
+    @cached_property
+    def chunks(self):
+        """Up to 256 vertices each, one after the other and of one component, for sums in parallel.
+
+        (k+1,) int32 where each begins, and (k,) int32 the component of each.
+        """
+        count = len(self.component)
+        is_start = np.zeros(count, dtype=bool)
+        is_start[::_CHUNK] = True
+        is_start[1:] |= self.component[1:] != self.component[:-1]
+        start = np.flatnonzero(is_start)
+        bounds = np.append(start, count).astype(np.int32)
+        return bounds, self.component[start].astype(np.int32)
+
+    @cached_property
+    def largest_component(self):
+        """Number of vertices of the largest component, which says how hard the problem is."""
+        return int(np.bincount(self.component).max())
+
+    def sum_parts_at(self, vertices, values):
+        """Sum values (k,) that belong to vertices (k,) over each component."""
+        return np.bincount(self.component[vertices], values, self.component_count)
+
+    def sum_parts(self, values):
+        """Sum values (n,) or (n,k) over each component, to (component_count,) or with k columns."""
+        if self.component_count == 1:
+            return values.sum(axis=0, keepdims=True)
+        if values.ndim == 2:
+            return np.stack([self._sums(column) for column in values.T], axis=1)
+        return self._sums(values)
+
+    def _sums(self, values):
+        return np.bincount(self.component, values, self.component_count)
+
+
+def topology(F, count):
+    """Return the Topology of triangles F (m,3) of `count` vertices, without links."""
+    part_count, part = components(F, count)
+    return Topology(F, part, part_count, part)
