@@ -5,9 +5,9 @@ import bpy
 
 from .. import solver
 from ..cubic_craft_addon import live
+from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.run.member import read_shape
 from ..cubic_craft_addon.run.object_frame import angles_of, placement_alone
-from ..cubic_craft_addon.settings.object_properties import object_properties
 from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
 from ..solver.unit_box import unit_box

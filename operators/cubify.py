@@ -15,10 +15,10 @@ from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
+from ..cubic_craft_addon.mesh_bridge import last_run
+from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.run.failures import UNEXPECTED
-from ..cubic_craft_addon.run.last_run import last_run
 from ..cubic_craft_addon.run.up_to_date import changes_since
-from ..cubic_craft_addon.settings.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
     OF_EACH_OBJECT,

@@ -7,7 +7,7 @@ import numpy as np
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import live_target
-from ..cubic_craft_addon.settings.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 from ._shared.active_handle import active_handle, members, poll_handle
 from ._shared.selection import report_all

@@ -5,7 +5,7 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.settings.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ._shared.active_handle import poll_handle
 
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.settings.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ._shared.active_handle import active_handle, poll_handle
 
 

@@ -8,7 +8,7 @@ from ..cubic_craft_addon.handles.handle import IDENTITY
 from ..cubic_craft_addon.handles.own_pose import set_own_pose
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
-from ..cubic_craft_addon.settings.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ._shared.active_handle import poll_mesh
 
 

@@ -8,7 +8,7 @@ import bpy
 
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.settings.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 from ._shared.selection import poll_usable, report_all, selected_meshes
 

@@ -17,7 +17,7 @@ import numpy as np
 from mathutils import Matrix
 
 from .. import live
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 from .drag import Drag
 from .places import Middles, live_object, place_of, places_of
 

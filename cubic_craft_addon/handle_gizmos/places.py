@@ -13,7 +13,7 @@ from .. import live
 from ..handles.own_pose import SMALLEST_SCALE, Pose
 from ..handles.owner import panel_object
 from ..handles.pose import live_target
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import bpy
 from mathutils import Matrix
 
 from .. import mesh_bridge
-from ..settings.object_properties import has_properties, object_properties
+from ..object_properties import has_properties, object_properties
 from .own_pose import has_pose, pose_since_baked
 from .pose import live_target, relation
 

@@ -16,7 +16,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 from .handle import IDENTITY
 
 if TYPE_CHECKING:

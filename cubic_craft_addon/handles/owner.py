@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from ..settings.object_properties import has_properties, object_properties
+from ..object_properties import has_properties, object_properties
 
 
 def posed_mesh(context: bpy.types.Context, target: bpy.types.Object) -> Any:

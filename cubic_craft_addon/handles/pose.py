@@ -21,7 +21,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
-from ..settings.object_properties import has_properties, object_properties
+from ..object_properties import has_properties, object_properties
 from .handle import IDENTITY, Handle
 from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
 

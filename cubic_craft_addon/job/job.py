@@ -15,9 +15,9 @@ import bpy
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..handles.baked_pose import rebase_edited_handles
-from ..live.live_run import LiveRun
 from ..run.assembly import assemblies
 from ..run.member import Shape
+from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task, plan, write_all
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept, settings_untouched
@@ -109,7 +109,7 @@ class Job:
         preparing = f"Preparing {_name(group)}", "Preparing"
         is_large = sum(len(task.mesh.vertices) for task in group) > _LONG_SETUP
         yield Step(preparing, 0.0, is_long=is_large)
-        run = LiveRun()
+        run = StepwiseRun()
         run.restart(group, {}, [])
         while run.is_working:
             texts, factor = run.status

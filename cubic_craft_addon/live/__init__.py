@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import bpy
 
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 from . import properties, stale_previews

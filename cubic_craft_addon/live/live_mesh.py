@@ -11,8 +11,8 @@ import bpy
 from ... import solver
 from .. import mesh_bridge
 from ..run.member import Member, read_shape
+from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
-from .live_run import LiveRun
 
 
 class LiveMesh:
@@ -24,7 +24,7 @@ class LiveMesh:
     Attributes
     ----------
     object_uid, mesh_uid : int
-    run : LiveRun or None
+    run : StepwiseRun or None
         What it takes part in.
     member : Member or None
         What was read of it last.
@@ -33,7 +33,7 @@ class LiveMesh:
     def __init__(self, task: Task, is_shown: bool):
         self.object_uid = task.uid
         self.mesh_uid = task.mesh.session_uid
-        self.run: LiveRun | None = None
+        self.run: StepwiseRun | None = None
         self.member: Member | None = None
         self._is_shown = is_shown
         self._start: mesh_bridge.Start = task.settings.start
@@ -65,7 +65,7 @@ class LiveMesh:
         """Whether the present run has been shown, as far as it is shown at all."""
         return self._preview is None or self._shown_moment is not None
 
-    def join(self, run: LiveRun | None) -> None:
+    def join(self, run: StepwiseRun | None) -> None:
         """Take part in a run that has just been started, or in none."""
         self.run = run
         self.member = (run and run.member_of(self.object_uid)) or self.member

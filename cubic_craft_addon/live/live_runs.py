@@ -6,9 +6,9 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Mapping, Sequence
 
+from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
 from .live_mesh import LiveMesh
-from .live_run import LiveRun
 
 Groups = Mapping[tuple[int, ...], Sequence[Task]]
 """the tasks of `assemblies`, by the ``session_uid`` of their objects"""
@@ -18,7 +18,7 @@ class LiveRuns:
     """The runs, by the ``session_uid`` of the objects that take part."""
 
     def __init__(self):
-        self._runs: dict[tuple[int, ...], LiveRun] = {}
+        self._runs: dict[tuple[int, ...], StepwiseRun] = {}
         self._turn = 0
 
     @property
@@ -49,7 +49,7 @@ class LiveRuns:
         earlier = [run.prepared for run in self._runs.values() if run.prepared]
         before, self._runs = self._runs, {}
         for uids, tasks in groups.items():
-            run = self._runs[uids] = before.get(uids) or LiveRun()
+            run = self._runs[uids] = before.get(uids) or StepwiseRun()
             if run.is_changed(tasks):
                 run.restart(tasks, known, earlier)
                 _join(uids, run, meshes)

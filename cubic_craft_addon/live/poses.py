@@ -12,7 +12,7 @@ import bpy
 from ..handles.handle import IDENTITY
 from ..handles.own_pose import Pose, identify, own_pose
 from ..handles.properties import CubicCraftHandle
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 from . import wake
 
 Poses = Mapping[tuple[int, int], Pose]

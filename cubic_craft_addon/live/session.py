@@ -13,10 +13,10 @@ import bpy
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..handles.baked_pose import rebase_edited_handles
+from ..object_properties import object_properties
 from ..run.assembly import assemblies
 from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
-from ..settings.object_properties import object_properties
 from ..settings.overrides import SettingsOverrides
 from . import handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack

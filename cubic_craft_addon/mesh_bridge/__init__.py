@@ -10,6 +10,7 @@ from .access.checks import check_editable, check_usable, mesh_of
 from .access.group_names import set_groups_aside
 from .access.triangulation import triangles
 from .access.vertex_groups import group_weights
+from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
     has_original,
@@ -18,7 +19,6 @@ from .memory.original import (
     read_positions,
     starts_here,
 )
-from .memory.run_note import read_run
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.new_object import write_new_object
@@ -28,6 +28,7 @@ from .result.seen import KINDS, make_seen, remove_seen, write_seen
 
 __all__ = (
     "KINDS",
+    "LastRun",
     "Preview",
     "Start",
     "check_editable",
@@ -40,11 +41,11 @@ __all__ = (
     "has_preview",
     "has_traces",
     "is_edited",
+    "last_run",
     "make_seen",
     "mesh_of",
     "original_positions",
     "read_positions",
-    "read_run",
     "remove_seen",
     "restore",
     "set_groups_aside",

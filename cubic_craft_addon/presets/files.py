@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 
 from ...solver import CubicCraftError
-from ..settings.object_properties import PROPERTY
+from ..object_properties import PROPERTY
 
 SUBFOLDER = "cubic_craft"
 OWN_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER

@@ -6,6 +6,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
+from typing import Any
 
 import bpy
 import numpy as np
@@ -15,18 +16,35 @@ from .. import mesh_bridge
 from ..environment.new_taichi_warnings import new_taichi_warnings
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
+from ..mesh_bridge import LastRun
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept
 from . import pipeline
 from .assembly import Prepared, prepare
 from .failures import UNEXPECTED, in_words
-from .last_run import LastRun, run_of
 from .member import Member, read_member
 from .object_frame import placement_alone, placement_in_world
 from .up_to_date import what_matters
 from .whole import modifier_reflections
 
 _log = logging.getLogger(__name__)
+
+
+def run_of(solution: pipeline.Solution, settings: dict[str, Any]) -> LastRun:
+    """Return what there is to say about a solution that is going to be written."""
+    result = solution.result
+    return LastRun(
+        settings=settings,
+        vertices=solution.vertices,
+        objects=solution.objects,
+        iterations=int(result.iterations),
+        energy=max(float(result.energy.total), 0.0),
+        converged=bool(result.converged),
+        seconds=float(solution.total_seconds),
+        device=result.device,
+        matching=None if solution.matching is None else int(solution.matching),
+        own_vertices=int(solution.own_vertices),
+    )
 
 
 class Task:

@@ -9,10 +9,10 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
-from ..settings.object_properties import object_properties
+from ..mesh_bridge import LastRun
+from ..object_properties import object_properties
 from ..settings.properties import settings_of
 from ..settings.values import Settings
-from .last_run import LastRun
 
 # What computes, what is chosen anew for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}

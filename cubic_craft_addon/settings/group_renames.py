@@ -16,7 +16,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import mesh_bridge
-from .object_properties import has_properties, object_properties
+from ..object_properties import has_properties, object_properties
 
 _names: dict[str, tuple[str, ...]] = {}
 """names of the vertex groups when the object was last looked at, by the object's full name"""

@@ -16,7 +16,7 @@ from ..handles import Handle
 from ..handles.own_pose import Pose
 from ..handles.pose import posed_handles
 from ..mesh_bridge import Start
-from .object_properties import object_properties
+from ..object_properties import object_properties
 from .properties import RunProperties, settings_of, value_of
 from .values import Settings
 

@@ -21,10 +21,10 @@ from bpy.props import (
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
+from ..mesh_bridge import last_run
+from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
-from ..run.last_run import last_run
 from ..screen import glimpse
-from .object_properties import PROPERTY, object_properties
 from .values import Settings
 
 _SPACES = (

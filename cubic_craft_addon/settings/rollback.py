@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from .object_properties import PROPERTY, has_properties, object_properties
+from ..object_properties import PROPERTY, has_properties, object_properties
 
 _DERIVED = ("preset",)  # what follows from the others: setting it would set them
 

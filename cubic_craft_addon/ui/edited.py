@@ -10,7 +10,7 @@ from bpy.app.handlers import persistent
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 
 _known: dict[int, bool] = {}
 """whether a mesh is edited, by its ``session_uid``"""

@@ -6,7 +6,7 @@ import bpy
 from .. import live
 from ..handles.owner import panel_object
 from ..handles.pose import live_target
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 
 SECTION = "CUBIC_PT_handles"
 _ROWS, _FEWEST_ROWS = 5, 3  # as high as the buttons beside the list

@@ -9,10 +9,10 @@ from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_requirements
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
-from ..run.last_run import last_run
+from ..mesh_bridge import last_run
+from ..object_properties import object_properties
 from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
-from ..settings.object_properties import object_properties
 from . import edited, overlay, seen, status_panel
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel

@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from .. import job, live, mesh_bridge
-from ..settings.object_properties import object_properties
+from ..object_properties import object_properties
 from . import job_progress as job_panel
 
 # Modifiers of which the mesh below says little, and those of which it does where it is fine.

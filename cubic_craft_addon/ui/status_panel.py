@@ -12,7 +12,7 @@ import bpy
 
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
-from ..run.last_run import LastRun
+from ..mesh_bridge import LastRun
 from ..screen.text_fit import longest_that_fits, room_for_text, wrapped
 from . import edited
 from . import job_progress as job_panel

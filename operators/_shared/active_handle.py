@@ -6,7 +6,7 @@ from typing import Any
 from ...cubic_craft_addon import mesh_bridge
 from ...cubic_craft_addon.handles.own_pose import identify
 from ...cubic_craft_addon.handles.owner import panel_object
-from ...cubic_craft_addon.settings.object_properties import object_properties
+from ...cubic_craft_addon.object_properties import object_properties
 from ...solver import CubicCraftError
 from .selection import poll_idle
 

@@ -107,8 +107,8 @@ def test_texts_fit_the_room_that_there_is(extension):
 
 def test_the_line_below_the_buttons_says_what_matters_most(extension):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.status_panel")
-    last_run = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.last_run")
-    run = last_run.LastRun(
+    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+    run = bridge.LastRun(
         settings={"cubeness": 0.4},
         vertices=12345,
         objects=3,

@@ -13,7 +13,7 @@ from scene import add_monkey, cubify, given, select
 def changes(extension):
     """Return a function that lists what has changed since the run of an object's mesh."""
     addon = f"{extension.__name__}.cubic_craft_addon"
-    last_run = importlib.import_module(f"{addon}.run.last_run").last_run
+    last_run = importlib.import_module(f"{addon}.mesh_bridge").last_run
     changes_since = importlib.import_module(f"{addon}.run.up_to_date").changes_since
 
     def list_changes(obj):
@@ -25,7 +25,7 @@ def changes(extension):
 
 @pytest.fixture
 def last_run(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.last_run").last_run
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge").last_run
 
 
 def copy_of(obj, *, linked):

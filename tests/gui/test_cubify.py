@@ -76,7 +76,7 @@ def check_status():
 def changes():
     """Return what the panel calls out of date."""
     addon = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
-    run = importlib.import_module(f"{addon}.run.last_run").last_run(bpy.data.objects[NAME])
+    run = importlib.import_module(f"{addon}.mesh_bridge").last_run(bpy.data.objects[NAME])
     changes_since = importlib.import_module(f"{addon}.run.up_to_date").changes_since
     return changes_since(bpy.data.objects[NAME], run) if run else None
 

@@ -16,8 +16,8 @@ from ..access.attributes import check_names
 from ..access.checks import check_writable, mesh_of
 from ..access.rotations import matrices_from_quaternions
 from ..access.shapes import write_shapes
+from ..memory.last_run import note_run
 from ..memory.original import Start, drop_stored, original_shapes, store_original
-from ..memory.run_note import note_run
 from ..preview.end import end_preview
 from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .rollback import all_or_nothing

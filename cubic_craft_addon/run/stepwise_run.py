@@ -8,15 +8,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ... import solver
-from ..run import pipeline
-from ..run.assembly import Prepared
-from ..run.member import Member
-from ..run.tasks import Task, key_of, prepare_all
+from . import pipeline
+from .assembly import Prepared
+from .member import Member
+from .tasks import Task, key_of, prepare_all
 
 _FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles
 
 
-class LiveRun:
+class StepwiseRun:
     """The run of an assembly, from its start to its end, again and again.
 
     It keeps no reference to Blender's data, which dies at every undo: the tasks are given anew to

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 if TYPE_CHECKING:
-    from .properties import CubicCraftProperties
+    from .settings.properties import CubicCraftProperties
 
 PROPERTY = "cubic_craft"
 """name of the property of objects"""

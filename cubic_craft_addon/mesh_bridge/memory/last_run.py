@@ -2,20 +2,16 @@
 """The run that a mesh has its cubic shape from, as it is noted on the mesh itself.
 
 All that is shown about a result comes from here, and not from an object: of several that share the
-mesh each has settings of its own, but the shape was made with one set of them.
+mesh each has settings of its own, but the shape was made with one set of them. So it goes with the
+shape into copies, files and undo steps.
 """
 
-from __future__ import annotations  # the solver is loaded when it is needed, not for its names
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 
-from .. import mesh_bridge
-
-if TYPE_CHECKING:
-    from .pipeline import Solution
+from .note import read_note, write_note
 
 
 @dataclass(frozen=True)
@@ -51,24 +47,20 @@ class LastRun:
         )
 
 
-def run_of(solution: Solution, settings: dict[str, Any]) -> LastRun:
-    """Return what there is to say about a solution that is going to be written."""
-    result = solution.result
-    return LastRun(
-        settings=settings,
-        vertices=solution.vertices,
-        objects=solution.objects,
-        iterations=int(result.iterations),
-        energy=max(float(result.energy.total), 0.0),
-        converged=bool(result.converged),
-        seconds=float(solution.total_seconds),
-        device=result.device,
-        matching=None if solution.matching is None else int(solution.matching),
-        own_vertices=int(solution.own_vertices),
-    )
+def note_run(mesh: bpy.types.Mesh, run: dict[str, Any] | None) -> None:
+    """Note the run, a LastRun as a dict, beside the result that has just been written, if any."""
+    if run is not None:
+        write_note(mesh, read_note(mesh) | {"run": run})
 
 
 def last_run(obj: bpy.types.Object) -> LastRun | None:
-    """Return the run that the object's mesh has its shape from, None if it has no result."""
-    note = mesh_bridge.read_run(obj.data)
-    return None if note is None else LastRun(**note)
+    """Return the run that the object's mesh has its shape from, None if it has no result.
+
+    Cheap: it reads no positions, and so does not see that the artist has edited them since.
+    """
+    mesh = obj.data
+    if not isinstance(mesh, bpy.types.Mesh):
+        return None
+    note = read_note(mesh)
+    has_result = "mesh" in note or ("key" in note and mesh.shape_keys is not None)
+    return LastRun(**note["run"]) if has_result and "run" in note else None

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The map of the tree in `docs/development.md` is true: each room is there, and arrows go one way.
+
+The rooms of the map stand in an order in which each imports only those above it.
+"""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PACKAGES = ("solver", "cubic_craft_addon", "operators")
+FILES = [
+    path
+    for name in PACKAGES
+    for path in (ROOT / name).rglob("*.py")
+    if "assets" not in path.parts  # presets, which are no modules
+]
+
+
+def rooms():
+    """Return the rooms of the extension as the map lists them, such as ``solver/styles``."""
+    text = (ROOT / "docs" / "development.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\| `([a-z_/]+)/` \|", text, re.MULTILINE)
+    return [room for room in listed if room.partition("/")[0] in PACKAGES]
+
+
+def room_of(path):
+    """Return the innermost room that a file or folder lies in, None for what registers all."""
+    name = path.relative_to(ROOT).as_posix()
+    found = [room for room in rooms() if name == room or name.startswith(f"{room}/")]
+    return max(found, key=len, default=None)
+
+
+def imported(path):
+    """Give the files and folders of ours that a file imports."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        base = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+        for alias in node.names:
+            inner = base / alias.name
+            yield inner if inner.is_dir() or inner.with_suffix(".py").exists() else base
+
+
+def test_every_folder_is_on_the_map():
+    text = (ROOT / "docs" / "development.md").read_text(encoding="utf-8")
+    listed = {room: room for room in rooms()}
+    for row in re.findall(r"^\| `([a-z_/]+)/` \|(.*)", text, re.MULTILINE):
+        listed |= {f"{row[0]}/{inner}": row[0] for inner in re.findall(r"`([a-z_]+)/`", row[1])}
+    folders = {path.parent.relative_to(ROOT).as_posix() for path in FILES} - {"cubic_craft_addon"}
+    assert folders <= set(listed)
+    assert set(rooms()) <= folders
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_arrows_go_up_the_map(path):
+    own = room_of(path)
+    if own is None:
+        return  # the package itself registers all
+    order = {room: number for number, room in enumerate(rooms())}
+    package = own.partition("/")[0]
+    for other in imported(path):
+        room = room_of(other)
+        if room is None or (package == "solver" and room.startswith("solver")):
+            continue  # the solver is one room to all others
+        assert order[room] <= order[own], f"{own} imports {room}"
