@@ -18,7 +18,7 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gui test-walk test-package test-package-gui lint typecheck build package \
+	test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck build package \
 	repository lock bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
@@ -80,6 +80,12 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 		$(PY) $(PYTEST) tests/blender/test_faults.py tests/blender/test_leaks.py \
 		tests/blender/test_scenes.py tests/blender/test_other_blenders.py \
 		tests/scripts/test_headless_interrupted.py
+
+# Without the comparison of many iterations with more that are plain, which takes as long as the rest.
+test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=own for your own
+	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) -k "(gpu or device_arrays) and not acceleration" \
+		tests/solver/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
+		CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender/test_gpu.py'
 
 test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path for your own
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)

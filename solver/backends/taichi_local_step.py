@@ -117,8 +117,10 @@ class TaichiLocalStep:
         keep = self.arrays.keep
         bounds, self._chunk_component = setup.rest.topology.chunks
         self._sums = keep(np.zeros((len(self._chunk_component), 3), self.real))
-        weight = keep(self._cubic_weight.astype(self.real))
-        arguments = (keep(bounds), self._energies, weight, self._certified, self._sums)
+        of_vertices = (
+            keep(values.astype(self.real)) for values in (_at_rest(setup.rest), self._cubic_weight)
+        )
+        arguments = (keep(bounds), self._energies, *of_vertices, self._certified, self._sums)
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)
@@ -155,8 +157,8 @@ class TaichiLocalStep:
             sums = self.arrays.fetch(self._sums)
         arap, cubic, _ = sums.T.astype(np.float64)
         count = self._rest.topology.component_count
-        arap = self._rest_quadratic + np.bincount(self._chunk_component, arap, count)
-        return arap, np.bincount(self._chunk_component, cubic, count)
+        arap, cubic = (np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
+        return arap, cubic
 
     def _uncertified(self):
         return np.flatnonzero(self.arrays.fetch(self._certified) == 0)
@@ -193,6 +195,19 @@ class TaichiLocalStep:
         """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
         indptr, indices, _, weights = self._arguments[:4]
         return indptr, indices, self._scatter, weights, self._R, point, scale, B
+
+
+def _at_rest(rest):
+    """Return 0.75 sum w |d|^2 - tr S (n,) of the rest shape, where the ARAP energy is 0.
+
+    It is taken from each vertex. Taken from their sum, which is as large as that of all squared
+    edges, the rounding of 32 bit would hide how the energy falls: momentum and end depend on it.
+    """
+    m, V = rest.matrices, rest.V
+    L = m.matrix(m.laplacian)
+    quadratic = 2.0 * (V * (L @ V)).sum(axis=1) - L @ (V * V).sum(axis=1)
+    trace = sum(m.matrix(m.gather[:, c]) @ V[:, c] for c in range(3))
+    return 0.75 * quadratic - trace
 
 
 @cache

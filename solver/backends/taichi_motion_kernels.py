@@ -107,17 +107,18 @@ def make_motion_kernels(real):
     def sum_energies(
         bounds: integers,
         energies: vectors,
+        at_rest: scalars,
         cubic_weight: scalars,
         certified: integers,
         sums: vectors,
     ):
-        """Sum the ARAP energy less that at rest, the cubic energy, and what is not certified."""
+        """Sum the ARAP energy, the cubic energy, and what is not certified."""
         for c in range(sums.shape[0]):
             total = vec3(0.0)
             for i in range(bounds[c], bounds[c + 1]):
                 e = energies[i]
                 total += vec3(
-                    real(0.75) * e[0] - e[1],
+                    real(0.75) * e[0] - e[1] - at_rest[i],
                     cubic_weight[i] * e[2],
                     ti.cast(certified[i] == 0, real),
                 )

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import pytest
+from devices import DEVICES
 from taichi_marks import needs_taichi
 
 
-@pytest.fixture(params=["numpy", pytest.param("cpu", marks=needs_taichi)])
+@pytest.fixture(
+    params=[pytest.param(name, marks=() if name == "numpy" else needs_taichi) for name in DEVICES]
+)
 def device(request):
-    """Run a test with either backend."""
+    """Run a test on each device; on a GPU only by `make test-gpu`."""
     return request.param

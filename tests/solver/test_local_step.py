@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from devices import by_device
 from plain_energy import plain_energy
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
@@ -33,7 +34,7 @@ def test_energy_matches_its_definition(device):
     U = deformed(rest.V)
     arap, cubic = (float(part.sum()) for part in step.update(U))
     expected = plain_energy(rest.V, rest.F, U, step.R, 0.3, Q)
-    np.testing.assert_allclose((arap, cubic), expected, rtol=1e-10)
+    np.testing.assert_allclose((arap, cubic), expected, rtol=by_device(device, 1e-10, 1e-5))
 
 
 @pytest.mark.parametrize("name", shapes.ALL)
@@ -42,9 +43,10 @@ def test_rotations_are_rotations(name, device):
     step = local_step(rest, 0.5, device)
     for U in (rest.V, deformed(rest.V), rest.V * [1, 1, -1], 0 * rest.V, rest.V * [1, 0, 0]):
         step.update(U)  # mirrored, collapsed to a point, flattened to a line
+        tolerance = by_device(device, 1e-12, 1e-6)
         product = step.R @ step.R.swapaxes(1, 2)
-        np.testing.assert_allclose(product, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=1e-12)
-        np.testing.assert_allclose(np.linalg.det(step.R), 1.0, atol=1e-12)
+        np.testing.assert_allclose(product, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=tolerance)
+        np.testing.assert_allclose(np.linalg.det(step.R), 1.0, atol=tolerance)
 
 
 def test_rotations_minimise_the_local_energy(device):
@@ -104,7 +106,9 @@ def test_per_vertex_cubeness_and_orientation_equal_their_scalars(device):
     for _ in range(4):
         one.step()
         many.step()
-    np.testing.assert_allclose(one.placed()[0], many.placed()[0], atol=1e-12)
+    np.testing.assert_allclose(
+        one.placed()[0], many.placed()[0], atol=by_device(device, 1e-12, 1e-6)
+    )
 
 
 def test_an_update_never_worsens_the_rotations(device):
@@ -112,4 +116,4 @@ def test_an_update_never_worsens_the_rotations(device):
     step = local_step(rest, 0.7, device, max_iterations=1)
     U = deformed(rest.V)
     energies = [np.sum(step.update(U)) for _ in range(30)]
-    assert (np.diff(energies) <= 1e-12).all()
+    assert np.diff(energies).max() <= by_device(device, 1e-12, 1e-5)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from devices import by_device
 from optional_marks import needs
 
 from solver import Setup, rest_mesh, stylize
@@ -77,7 +78,7 @@ def test_the_plain_iteration_still_descends(monkeypatch, device):
         max_iterations=40,
         on_iteration=lambda s: energies.append(s.energy.total),
     )
-    assert (np.diff(energies) <= 1e-9).all()
+    assert np.diff(energies).max() <= by_device(device, 1e-9, 1e-6)
 
 
 def test_without_the_package_all_is_factorised(monkeypatch):

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from devices import by_device
 from procrustes import best_rotation
 
 from solver import CubicCraftError, Setup, Stylization, rest_mesh, run, stylize
@@ -22,7 +23,7 @@ def face_alignment(V, F):
 def test_cubeness_0_leaves_the_mesh_where_it_is(name, device):
     V, F = shapes.ALL[name]()
     result = stylize(V, F, 0.0, device=device, max_iterations=30, tolerance=1e-15)
-    assert np.abs(result.positions - V).max() < 1e-9 * shapes.extent(V)
+    assert np.abs(result.positions - V).max() < by_device(device, 1e-9, 1e-5) * shapes.extent(V)
 
 
 @pytest.mark.parametrize("name", shapes.ALL)
@@ -39,8 +40,10 @@ def test_the_energy_of_the_plain_iteration_never_rises(name, cubeness, device):
         on_iteration=lambda s: energies.append(s.energy.total),
         **FIXED,
     )
-    assert len(energies) == FIXED["max_iterations"] or energies[-1] < 1e-12
-    assert np.diff(energies).max() < 1e-11
+    # in 32 bit it comes to rest before
+    least = by_device(device, FIXED["max_iterations"], 3)
+    assert len(energies) >= least or energies[-1] < 1e-12
+    assert np.diff(energies).max() < by_device(device, 1e-11, 1e-6)
 
 
 def test_a_sphere_becomes_a_cube(device):
@@ -62,7 +65,7 @@ def test_turning_the_mesh_equals_turning_the_cube(device):
     V, F = shapes.blob()
     a = stylize(V @ Q.T, F, 0.4, device=device, **FIXED).positions @ Q
     b = stylize(V, F, 0.4, orientation=Q, device=device, **FIXED).positions
-    assert np.abs(a - b).max() < 1e-6 * shapes.extent(V)
+    assert np.abs(a - b).max() < by_device(device, 1e-6, 1e-4) * shapes.extent(V)
 
 
 @pytest.mark.parametrize("scale", [1e-4, 1e4])
@@ -71,7 +74,7 @@ def test_scale_and_place_do_not_matter(scale, device):
     offset = 1e3 * shapes.extent(V) * np.array([1.0, -1.0, 0.5])
     a = stylize(V, F, 0.4, device=device, **FIXED).positions
     b = stylize(scale * (V + offset), F, 0.4, device=device, **FIXED).positions / scale - offset
-    assert np.abs(a - b).max() < 1e-7 * shapes.extent(V)
+    assert np.abs(a - b).max() < by_device(device, 1e-7, 1e-5) * shapes.extent(V)
 
 
 def test_components_behave_as_each_alone(device):
@@ -82,7 +85,8 @@ def test_components_behave_as_each_alone(device):
         numbers = np.arange(len(V))[part]
         G = F[np.isin(F[:, 0], numbers)] - numbers[0]
         alone = stylize(V[part], G, 0.4, device=device, **FIXED).positions
-        assert np.abs(together[part] - alone).max() < 1e-7 * shapes.extent(V)
+        apart = np.abs(together[part] - alone).max() / shapes.extent(V)
+        assert apart < by_device(device, 1e-7, 1e-4)
     np.testing.assert_array_equal(together[first], V[first])  # the loose vertex
 
 
@@ -92,7 +96,9 @@ def test_a_tiny_part_is_solved_like_a_large_one(scale, device):
     both = np.concatenate([V, scale * V + [3.0, 0.0, 0.0]])
     result = stylize(both, np.concatenate([F, F + len(V)]), 0.4, device=device, **FIXED)
     large, tiny = result.positions[: len(V)], result.positions[len(V) :]
-    assert np.abs((tiny - [3.0, 0.0, 0.0]) / scale - large).max() < 1e-6
+    # the places of both in the same 32 bit: the smaller the part, the fewer are left for its shape
+    tolerance = by_device(device, 1e-6, 2e-5 / scale)
+    assert np.abs((tiny - [3.0, 0.0, 0.0]) / scale - large).max() < tolerance
 
 
 def test_the_same_input_gives_the_same_bits(device):
@@ -150,7 +156,7 @@ def test_keep_rotation_holds_the_shape_and_the_cube(device):
     turns = np.array([best_rotation(X.positions, V, rest.areas) for X in (free, kept)])
     angles = np.degrees(np.linalg.norm(turns - np.eye(3), axis=(1, 2)) / 2**0.5)
     assert angles[0] > 1.0
-    assert angles[1] < 1e-5
+    assert angles[1] < by_device(device, 1e-5, 1e-3)
     assert kept.converged
     # Not the free shape turned back, whose sides are no longer those of the cube.
     energy = Stylization(Setup(rest), 0.5, device=device).energy_of(free.positions @ turns[0])

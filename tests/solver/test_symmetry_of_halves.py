@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from devices import by_device
 from shapes import sphere
 
 from solver import (
@@ -88,7 +89,6 @@ def test_pairs_that_spoil_another_plane_are_dropped():
 
 
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions()], ids=["paper", "default"])
-@pytest.mark.parametrize("device", ["numpy", "auto"])
 def test_halves_stay_images_and_the_energy_falls(proxy, device):
     V, F, mirror = lump()
     setup = Setup(rest_mesh(V, F, proxy), mirrors=[mirror])
@@ -97,10 +97,11 @@ def test_halves_stay_images_and_the_energy_falls(proxy, device):
     for _ in range(30):
         state.step()
         energies.append(state.energy.total)
-    assert (np.diff(energies) <= 1e-12).all()
+    assert np.diff(energies).max() <= by_device(device, 1e-12, 1e-6)
     positions, _ = state.placed()
     assert np.abs(positions - V).max() > 0.05
-    assert positions[mirror.partner] == pytest.approx(positions @ FLIP, abs=1e-12)
+    near = by_device(device, 1e-12, 1e-6)
+    assert positions[mirror.partner] == pytest.approx(positions @ FLIP, abs=near)
 
 
 def test_midpoints_of_a_refined_mesh_have_partners():

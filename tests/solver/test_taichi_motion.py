@@ -91,6 +91,13 @@ def test_runs_end_where_those_of_numpy_do(precision):
     np.testing.assert_array_equal(fast.positions, again.positions)
 
 
+def test_a_run_in_single_precision_is_not_held_up_by_the_rounding_of_its_energy():
+    V, F = shapes.blob(2)
+    V, F = np.concatenate([V, 0.01 * V + [3.0, 0.0, 0.0]]), np.concatenate([F, F + len(V)])
+    result = stylize(V, F, 0.4, device="cpu", precision="f32", tolerance=1e-5)
+    assert result.converged and result.iterations < 150
+
+
 def test_rotations_that_the_kernel_does_not_certify_are_found_too(monkeypatch):
     state = stylization()
     state.step()
