@@ -41,6 +41,16 @@ REFUSALS = {
     "jobs for one": (["a.obj", "--jobs", "2"], ["--jobs", "--output-folder"]),
     "force for one": (["a.obj", "--force"], ["--force", "--output-folder"]),
     "recursive for one": (["a.obj", "--recursive"], ["--recursive", "--output-folder"]),
+    "jobs of a cluster": (
+        ["meshes", *TO, "--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"],
+        ["--jobs", "cluster"],
+    ),
+    "no cluster": (
+        ["meshes", *TO, "--scheduler", "tcp://127.0.0.1:9"],
+        ["--scheduler tcp://127.0.0.1:9", "no scheduler answers", "dask scheduler"],
+    ),
+    "no address": (["meshes", *TO, "--scheduler", "no way"], ["--scheduler no way"]),
+    "cluster for one": (["a.obj", "--scheduler", "x"], ["--scheduler", "--output-folder"]),
     "no handles": (["meshes", *TO, "--handles", "none.json"], ["--handles", "none.json"]),
 }
 

@@ -67,7 +67,11 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if code:
             return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
         if not (report := _report(job, key)):
-            return {"status": FAILED, "error": "its results are gone at once", "words": words}
+            return {
+                "status": FAILED,
+                "error": "its results are not those that its process has written",
+                "words": words,
+            }
         seconds = report["seconds"]["total"]
         return {"status": DONE, "seconds": seconds, "report": report, "words": words}
     except OSError as error:
