@@ -72,16 +72,12 @@ def results_of(
             say_begun(job)
             yield job, do(job, batch)
         return
-    import cloudpickle
     from distributed import as_completed
 
-    # The scheduler of a cluster need not have these modules, so nothing that it reads names them.
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])
-    name = uuid.uuid4().hex
-    waiting = {}
+    work, name, waiting = _work_of_a_worker(), uuid.uuid4().hex, {}
     for job in jobs:
         order, key = pickle.dumps((job, batch)), f"{job.source.name}-{name}"
-        waiting[client.submit(_work, SCRIPTS, order, key=key)] = job
+        waiting[client.submit(work, SCRIPTS, order, key=key)] = job
     for future, result in as_completed(waiting, with_results=True, raise_errors=False):
         if future.status != "finished":  # its workers died one after the other, or all is lost
             error = result[1] if isinstance(result, tuple) else result
@@ -89,26 +85,34 @@ def results_of(
         yield waiting[future], result
 
 
-def _work(scripts: str, order: bytes) -> dict[str, Any]:
-    """Do what was ordered, on a worker, where this module is not known by its name."""
-    import pickle
-    import sys
+def _work_of_a_worker() -> Callable[[str, bytes], dict[str, Any]]:
+    """Return what a worker calls.
 
-    from distributed import get_worker
+    A function in a function is sent as its code. The scheduler of a cluster looks into what it is
+    sent, and need not have these modules.
+    """
 
-    if scripts not in sys.path:
-        sys.path.insert(0, scripts)
-    from headless.batch.task import do
+    def work(scripts: str, order: bytes) -> dict[str, Any]:
+        import pickle
+        import sys
 
-    worker = get_worker()
-    key = worker.get_current_task()
+        from distributed import get_worker
 
-    def is_wanted() -> bool:
-        task = worker.state.tasks.get(key)
-        return task is not None and task.state != "cancelled"  # as when the batch is gone
+        if scripts not in sys.path:
+            sys.path.insert(0, scripts)
+        from headless.batch.task import do
 
-    job, batch = pickle.loads(order)
-    return do(job, batch, is_wanted)
+        worker = get_worker()
+        key = worker.get_current_task()
+
+        def is_wanted() -> bool:
+            task = worker.state.tasks.get(key)
+            return task is not None and task.state != "cancelled"  # as when the batch is gone
+
+        job, batch = pickle.loads(order)
+        return do(job, batch, is_wanted)
+
+    return work
 
 
 @contextlib.contextmanager
