@@ -8,7 +8,7 @@ from batch_kit import CUBE
 
 from scripts.headless.arguments import as_arguments, parse
 from scripts.headless.batch.plan import FORWARDED, Job, decisive, plan
-from scripts.headless.batch.sources import Source, find_sources
+from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.task import Batch, do, key_of
 from scripts.headless.errors import InputError
 
@@ -148,8 +148,7 @@ def test_the_key_changes_with_all_that_decides_about_the_result(folder):
 
 def batch_of(folder, code):
     """Return a job, and a batch that does it by this code in a Python instead of the script."""
-    source = Source(folder / "a.obj", "a", "a.obj")
-    job = Job(source, (folder / "a.png",), folder / "record.json", ())
+    job = Job(folder / "a.obj", "a.obj", (folder / "a.png",), folder / "record.json", ())
     return job, Batch(["", "-c", code], 3, "options", False)
 
 

@@ -6,7 +6,7 @@ process for its file: a crash of Blender says something about the file, and ends
 """
 
 import contextlib
-import pickle
+import multiprocessing
 import signal
 import sys
 import uuid
@@ -75,9 +75,9 @@ def results_of(
     from distributed import as_completed
 
     work, name, waiting = _work_of_a_worker(), uuid.uuid4().hex, {}
-    for job in jobs:
-        order, key = pickle.dumps((job, batch)), f"{job.source.name}-{name}"
-        waiting[client.submit(work, SCRIPTS, order, key=key)] = job
+    for number, job in enumerate(jobs):
+        order, key = (SCRIPTS, tuple(job), tuple(batch)), f"{job.label}-{number}-{name}"
+        waiting[client.submit(work, *order, key=key)] = job
     for future, result in as_completed(waiting, with_results=True, raise_errors=False):
         if future.status != "finished":  # its workers died one after the other, or all is lost
             error = result[1] if isinstance(result, tuple) else result
@@ -85,22 +85,22 @@ def results_of(
         yield waiting[future], result
 
 
-def _work_of_a_worker() -> Callable[[str, bytes], dict[str, Any]]:
+def _work_of_a_worker() -> Callable[[str, tuple, tuple], dict[str, Any]]:
     """Return what a worker calls.
 
     A function in a function is sent as its code. The scheduler of a cluster looks into what it is
     sent, and need not have these modules.
     """
 
-    def work(scripts: str, order: bytes) -> dict[str, Any]:
-        import pickle
+    def work(scripts: str, job: tuple, batch: tuple) -> dict[str, Any]:
         import sys
 
         from distributed import get_worker
 
         if scripts not in sys.path:
             sys.path.insert(0, scripts)
-        from headless.batch.task import do
+        from headless.batch.plan import Job
+        from headless.batch.task import Batch, do
 
         worker = get_worker()
         key = worker.get_current_task()
@@ -109,8 +109,7 @@ def _work_of_a_worker() -> Callable[[str, bytes], dict[str, Any]]:
             task = worker.state.tasks.get(key)
             return task is not None and task.state != "cancelled"  # as when the batch is gone
 
-        job, batch = pickle.loads(order)
-        return do(job, batch, is_wanted)
+        return do(Job(*job), Batch(*batch), is_wanted)
 
     return work
 
@@ -160,8 +159,10 @@ def _end_workers(clusters: list[Any]) -> None:
     for cluster in clusters:
         for nanny in cluster.workers.values():
             nanny.close_gracefully()  # or it would start its worker again
-    family = psutil.Process().children(recursive=True)
-    for worker in psutil.Process().children():
+    files = []
+    for worker in multiprocessing.active_children():
+        with contextlib.suppress(psutil.NoSuchProcess):
+            files += psutil.Process(worker.pid).children()
         worker.kill()
-    for process in psutil.wait_procs(family, PATIENCE)[1]:
+    for process in psutil.wait_procs(files, PATIENCE)[1]:
         process.kill()

@@ -3,8 +3,8 @@
 
 import json
 from argparse import Namespace
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from ..arguments import as_arguments
 from ..errors import InputError
@@ -24,11 +24,13 @@ FORWARDED = (
 NOT_DECISIVE = {"handles_file", "verbose"}
 
 
-@dataclass(frozen=True)
-class Job:
-    """One file of a batch."""
+class Job(NamedTuple):
+    """One file of a batch; of plain values, as a scheduler need not have these modules."""
 
-    source: Source
+    path: Path
+    """absolute"""
+    label: str
+    """what it is called in what is printed"""
     outputs: tuple[Path, ...]
     """all that is written: pictures, then meshes"""
     record: Path
@@ -79,4 +81,5 @@ def _job(options: Namespace, source: Source) -> Job:
         arguments.append(f"--save-mesh={mesh}")
     outputs = written(picture, options.turntable, mesh, options.cubeness)
     record = folder / ".cubic_craft" / f"{source.name}.json"
-    return Job(source, tuple(outputs), record, (*arguments, f"--report={record}"))
+    arguments.append(f"--report={record}")
+    return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))

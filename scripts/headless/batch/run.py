@@ -83,13 +83,13 @@ def _do_all(
     with bar.task(f"{len(jobs)} files") as task:
 
         def say_begun(job: Job) -> None:
-            label = one_line(job.source.label)
+            label = one_line(job.label)
             task.describe(textwrap.shorten(label, WIDEST, placeholder=" ..."))
 
         for job, result in results_of(jobs, batch, client, say_begun):
             words = result.pop("words", "")
-            files[job] = about = {"input": str(job.source.path), **result}
-            label = one_line(job.source.label)
+            files[job] = about = {"input": str(job.path), **result}
+            label = one_line(job.label)
             bar.say(f"{len(files)} of {len(jobs)}, {label}: {summary(about)}")
             if options.verbose or about["status"] != FAILED:
                 for line in words.splitlines():

@@ -19,7 +19,7 @@ MOST_OUTPUTS = 3
 
 def table(files: dict[Job, dict[str, Any]]) -> list[str]:
     """Return the lines: one per file and cubeness; of a file that failed, why."""
-    rows = [HEAD, *(row for job, about in files.items() for row in _rows(job.source.label, about))]
+    rows = [HEAD, *(row for job, about in files.items() for row in _rows(job.label, about))]
     widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:

@@ -34,7 +34,7 @@ _running: set[subprocess.Popen] = set()
 
 
 class Batch(NamedTuple):
-    """What the files of a batch share."""
+    """What the files of a batch share; of plain values, as `Job`."""
 
     command: list[str]
     """what starts the script; an empty word is the Python of the worker"""
@@ -60,7 +60,7 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         and if it was begun ``words``, what its process wrote to standard error.
     """
     try:
-        key = key_of(job.source.path, batch.decides)
+        key = key_of(job.path, batch.decides)
         if not batch.is_forced and (report := _report(job, key)):
             return {"status": KEPT, "seconds": report["seconds"]["total"], "report": report}
         code, words = _run(job, batch, key, is_wanted)
@@ -150,5 +150,5 @@ def _why_failed(job: Job, code: int, words: str) -> str:
         name = signal.strsignal(-code) or f"signal {-code}"
         return f"{'was ended from outside' if -code in FROM_OUTSIDE else 'crashed'} ({name})"
     if said := re.search(r"^headless_render\.py: error: (.*)$", words, re.MULTILINE):
-        return said[1].removeprefix(f"{job.source.path}: ")
+        return said[1].removeprefix(f"{job.path}: ")
     return f"ended with exit code {code}: {(words.strip() or 'without a word').splitlines()[-1]}"
