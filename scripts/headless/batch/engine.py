@@ -143,7 +143,7 @@ def _workers_here(count: int) -> Iterator[Any]:
         threads_per_worker=1,
         memory_limit=0,
         security=True,
-        dashboard_address="127.0.0.1:8787" if find_spec("bokeh") else None,
+        dashboard_address="127.0.0.1:0",
     )
     if is_posix:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)

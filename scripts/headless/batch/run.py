@@ -9,6 +9,7 @@ import time
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +58,8 @@ def run_batch(
     bar = ProgressBar(memory=math.inf)
     with workers_for(options, len(jobs)) as client:
         _make_folders(options.output_folder, jobs)
+        if client is not None and find_spec("bokeh"):
+            bar.say(f"dashboard: {client.dashboard_link}")
         files = _do_all(jobs, batch, client, options, bar)
     for line in table(files):
         bar.say(line)
