@@ -6,6 +6,7 @@ process for its file: a crash of Blender says something about the file, and ends
 """
 
 import contextlib
+import logging
 import multiprocessing
 import signal
 import sys
@@ -143,6 +144,7 @@ def _workers_here(count: int) -> Iterator[Any]:
         threads_per_worker=1,
         memory_limit=0,
         security=True,
+        silence_logs=logging.CRITICAL,  # in the workers
         dashboard_address="127.0.0.1:0",
     )
     if is_posix:
