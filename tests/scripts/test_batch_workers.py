@@ -73,7 +73,7 @@ def watch(process, out):
                 worker.kill()
         except (psutil.NoSuchProcess, IndexError):
             pass  # it has just ended
-        for path in out.glob("*.obj"):
+        for path in out.glob("good_*.obj"):
             written.setdefault(path.name, path.stat().st_mtime_ns)
         time.sleep(0.05)
     assert not any(map(is_there, files))
@@ -83,8 +83,11 @@ def watch(process, out):
 def test_lost_workers_cost_no_file(folder):
     begin = time.monotonic()
     process = start("meshes", "--jobs", str(WORKERS), "--report", "report.json", cwd=folder)
-    killed, written = watch(process, folder / "out")
-    _, errors = process.communicate()
+    try:
+        killed, written = watch(process, folder / "out")
+        _, errors = process.communicate()
+    finally:
+        process.kill()
     seconds = time.monotonic() - begin
     assert process.returncode == 3, errors
     assert "Traceback" not in errors
