@@ -41,7 +41,7 @@ def arguments_of_script() -> list[str]:
 def command_of_worker(threads: int | None) -> list[str]:
     """Return what starts this script once more, by Python or the same Blender."""
     if not IS_INSIDE_BLENDER:
-        return [sys.executable, str(Path(__file__).resolve())]
+        return ["", str(Path(__file__).resolve())]  # by the Python of whoever starts it
     import bpy
 
     # As this Blender was started; of two numbers of threads it takes the later.

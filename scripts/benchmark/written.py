@@ -19,5 +19,5 @@ def write_page(results, folder):
         plot_scaling(results["scaling"], power, factor, FIT_FROM, images / SCALING_IMAGE)
     path = folder / "benchmarks.md"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("\n\n".join(page(results, power)) + "\n", encoding="utf-8")
+    path.write_text(page(results, power), encoding="utf-8")
     return path

@@ -149,7 +149,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         help="of the processor (default: all of them, in a batch shared by its jobs)",
     )
-    parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--worker", default="", metavar="KEY", help=argparse.SUPPRESS)
     parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
     return parser
 
@@ -294,6 +294,11 @@ def _add_batch(parser: argparse.ArgumentParser) -> None:
         type=_integer(1, 1024),
         metavar="N",
         help="files worked on at the same time, each in a Blender of its own (default: 1)",
+    )
+    group.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of a Dask cluster whose workers do the files, such as tcp://host:8786",
     )
     group.add_argument("--force", action="store_true", help="do also what is done already")
 

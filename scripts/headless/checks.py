@@ -25,7 +25,7 @@ def check_single(options: Namespace) -> None:
     InputError
         The input, an output path, or how options go together.
     """
-    for option in ("jobs", "force", "recursive"):
+    for option in ("jobs", "scheduler", "force", "recursive"):
         if getattr(options, option):
             raise InputError(f"--{option}: is for several files; add --output-folder DIR")
     check_is_something_to_do(options)

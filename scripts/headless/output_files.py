@@ -19,6 +19,7 @@ __all__ = (
     "remove_left_behind",
     "remove_temporaries",
     "replacing",
+    "written",
 )
 
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
@@ -38,6 +39,14 @@ def numbered(path: Path, count: int) -> list[Path]:
     if not count:
         return [path]
     return [path.with_name(f"{path.stem}_{n:04d}{path.suffix}") for n in range(1, count + 1)]
+
+
+def written(
+    picture: Path | None, frames: int, mesh: Path | None, cubeness: list[float]
+) -> list[Path]:
+    """All paths that a run writes: pictures, then meshes."""
+    pictures = numbered(picture, frames) if picture else []
+    return pictures + (per_cubeness(mesh, cubeness) if mesh else [])
 
 
 def check_writable(option: str, paths: list[Path]) -> None:

@@ -44,7 +44,7 @@ def run(options: Namespace, root: Path, begin: float) -> None:
 
 
 def _run(options: Namespace, extension: Extension, begin: float) -> None:
-    bar = ProgressBar(is_silent=options.worker)
+    bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         take = seen_objects(extension) if options.with_modifiers else None

@@ -12,7 +12,7 @@ import numpy as np
 
 from .cubify_all import Sculpture
 from .extension import Extension
-from .output_files import replacing
+from .output_files import replacing, written
 
 __all__ = ("write_report",)
 
@@ -44,6 +44,10 @@ def write_report(
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }
+    if options.worker:  # so that the batch can tell whether the outputs are still those of this run
+        outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
+        sizes = {path.name: path.stat().st_size for path in outputs}
+        report["made"] = {"key": options.worker, "sizes": sizes}
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 

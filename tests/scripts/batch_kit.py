@@ -1,11 +1,13 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests of batches share."""
 
+import contextlib
 import json
 import os
-import subprocess
 import time
 from pathlib import Path
 
+import psutil
 from headless import PATIENCE, headless, start_headless
 
 CUBE = """o part
@@ -13,6 +15,11 @@ v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8
 """
 QUICK = ("--device", "numpy", "--max-iterations", "2")
+ENDLESS = (
+    *("--device", "numpy", "--no-render", "--save-mesh", ".obj"),
+    *("--tolerance", "1e-12", "--max-iterations", "1000000", "--cubeness", "1"),
+)
+"""for meshes of some size, such as `waves`"""
 MESHES = (*QUICK, "--no-render", "--save-mesh", ".obj")
 
 
@@ -26,21 +33,24 @@ def start(*arguments, cwd, options=MESHES):
     return start_headless(*arguments, "--output-folder", "out", *options, cwd=cwd)
 
 
-def children(process):
-    """Return the numbers of the processes that a process has started."""
-    listing = subprocess.run(
-        ["ps", "-A", "-o", "pid=,ppid="], check=True, capture_output=True, text=True
-    )
-    pairs = [line.split() for line in listing.stdout.splitlines()]
-    return [int(child) for child, parent in pairs if int(parent) == process.pid]
+def files_of(process):
+    """Return the numbers of the processes that do a file each, for a batch or for its workers."""
+    found = []
+    with contextlib.suppress(psutil.NoSuchProcess):
+        for each in psutil.Process(process.pid).children(recursive=True):
+            with contextlib.suppress(psutil.NoSuchProcess):
+                if any(word.startswith("--worker=") for word in each.cmdline()):
+                    found.append(each.pid)
+    return found
 
 
-def wait_for_children(process, count=1):
-    """Wait until there are so many, and return their numbers."""
+def wait_for_files(process, count=1):
+    """Wait until so many are being done, and return the numbers of their processes."""
     end = time.monotonic() + PATIENCE
-    while len(found := children(process)) < count:
+    while len(found := files_of(process)) < count:
         assert process.poll() is None, process.stderr.read()
-        assert time.monotonic() < end, "no worker is started"
+        assert time.monotonic() < end, "no file is begun"
+        time.sleep(0.02)
     return found
 
 
@@ -63,3 +73,11 @@ def statuses(folder):
     """Return {name of the input: status} from the report of a batch."""
     report = json.loads((folder / "report.json").read_text())
     return {Path(each["input"]).name: each["status"] for each in report["files"]}
+
+
+def waves(size):
+    """Return an .obj with a wavy sheet, on which the solver is busy for long."""
+    points = [f"v {x} {y} {(x * 7 + y * 13) % 10}" for y in range(size) for x in range(size)]
+    corners = [y * size + x + 1 for y in range(size - 1) for x in range(size - 1)]
+    faces = [f"f {c} {c + 1} {c + size + 1} {c + size}" for c in corners]
+    return "\n".join([*points, *faces]) + "\n"

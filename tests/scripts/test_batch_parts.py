@@ -1,26 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of batches, without Blender."""
 
-import json
-import subprocess
-import sys
-import threading
 from pathlib import Path
 
 import pytest
 from batch_kit import CUBE
-from headless import PATIENCE
 
 from scripts.headless.arguments import as_arguments, parse
-from scripts.headless.batch.plan import FORWARDED, plan
-from scripts.headless.batch.records import key_of, read_record, write_record
+from scripts.headless.batch.plan import FORWARDED, Job, decisive, plan
 from scripts.headless.batch.sources import find_sources
-from scripts.headless.batch.workers import Workers, why_failed
+from scripts.headless.batch.task import Batch, do, key_of
 from scripts.headless.errors import InputError
 
 NOT_FORWARDED = {
     *("inputs", "input", "handles", "output", "save_mesh", "report", "error_file"),
-    *("output_folder", "recursive", "jobs", "force", "threads", "worker"),
+    *("output_folder", "recursive", "jobs", "scheduler", "force", "threads", "worker"),
     "paper",  # what it stands for is forwarded
 }
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
@@ -56,7 +50,7 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder):
     there = parse(job.arguments)
     for name in FORWARDED:
         assert getattr(there, name) == getattr(options, name)
-    assert there.worker and there.input == folder / "a.obj"
+    assert there.input == folder / "a.obj"
     assert there.output == folder / "out" / "a.png"
     assert as_arguments(batch_options("--no-render", "--report", "r.json"), ["no_render"]) == [
         "--no-render"
@@ -65,7 +59,7 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder):
 
 def test_the_paper_is_its_options_in_full(folder):
     def key(*words):
-        return key_of(folder / "a.obj", batch_options(*words), FORWARDED, "1")
+        return key_of(folder / "a.obj", decisive(batch_options(*words), "1"))
 
     in_full = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
     in_full += ["--hold-rest", "off"]
@@ -139,7 +133,7 @@ def test_results_are_not_taken_for_inputs(folder):
 
 def test_the_key_changes_with_all_that_decides_about_the_result(folder):
     def key(*words, version="1"):
-        return key_of(folder / "a.obj", batch_options(*words), FORWARDED, version)
+        return key_of(folder / "a.obj", decisive(batch_options(*words), version))
 
     keys = [key(), key(version="2"), key("--cubeness", "0.5"), key("--save-mesh", ".obj")]
     keys += [key("--save-mesh", ".ply"), key("--handles", "h.json")]
@@ -152,60 +146,61 @@ def test_the_key_changes_with_all_that_decides_about_the_result(folder):
     assert len(set(keys)) == len(keys)
 
 
-def test_a_record_counts_with_its_key_and_outputs_only(folder):
-    record, output = folder / "record.json", folder / "a.png"
-    assert read_record(record, "key", [output]) is None
-    record.write_text(json.dumps({"objects": []}))  # a report, before its run has ended
-    assert read_record(record, "key", [output]) is None
-    with pytest.raises(OSError, match=r"a\.png"):
-        write_record(record, "key", [output], 1.5)
-    output.write_bytes(b"picture")
-    written = write_record(record, "key", [output], 1.5)
-    assert read_record(record, "key", [output]) == written
-    assert written["report"] == {"objects": []} and written["seconds"] == 1.5
-    assert read_record(record, "other", [output]) is None
-    output.write_bytes(b"pict")
-    assert read_record(record, "key", [output]) is None
+def batch_of(folder, code):
+    """Return a job, and a batch that does it by this code in a Python instead of the script."""
+    job = Job(folder / "a.obj", "a.obj", (folder / "a.png",), folder / "record.json", ())
+    return job, Batch(["", "-c", code], 3, "options", False)
 
 
-def python_workers(threads=None):
-    return Workers([sys.executable, "-c"], threads)
+WRITES = """
+import json, os, pathlib, sys
+pathlib.Path("a.png").write_bytes(b"picture")
+made = {"key": sys.argv[-1].removeprefix("--worker="), "sizes": {"a.png": 7}}
+about = {"threads": os.environ["OMP_NUM_THREADS"], "seconds": {"total": 1.5}, "made": made}
+pathlib.Path("record.json").write_text(json.dumps(about))
+print("a warning", file=sys.stderr)
+"""
 
 
-def test_workers_share_the_processor():
-    code = "import os, sys; sys.stderr.write(os.environ['OMP_NUM_THREADS'])"
-    assert python_workers(3).run([code]) == (0, "3")
+def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
+    job, batch = batch_of(folder, WRITES)
+    job.record.write_text("[]")  # of something else
+    report = {"threads": "3", "seconds": {"total": 1.5}}
+    done = {"status": "done", "seconds": 1.5, "report": report, "words": "a warning\n"}
+    assert do(job, batch) == done
+    kept = {"status": "kept", "seconds": 1.5, "report": report}
+    assert do(job, batch) == kept
+    assert do(job, batch._replace(is_forced=True)) == done
+    assert do(job, batch._replace(decides="others")) == done
+    assert do(job, batch) == done
+    (folder / "a.png").write_bytes(b"pict")
+    assert do(job, batch) == done
+    (folder / "a.png").unlink()
+    assert do(job, batch) == done
+    assert do(job, batch) == kept
 
 
-def test_a_worker_that_is_just_being_started_ends_with_the_others(monkeypatch):
-    is_started, may_go_on = threading.Event(), threading.Event()
-    started = []
-
-    class SlowlyStarted(subprocess.Popen):
-        def __init__(self, *arguments, **options):
-            super().__init__(*arguments, **options)
-            started.append(self)
-            is_started.set()
-            may_go_on.wait(PATIENCE)
-
-    monkeypatch.setattr(subprocess, "Popen", SlowlyStarted)
-    workers = python_workers()
-    code = "import sys; sys.stdin.read()"  # ends when it is told to
-    threading.Thread(target=workers.run, args=([code],), daemon=True).start()
-    assert is_started.wait(PATIENCE)
-    ending = threading.Thread(target=workers.end, daemon=True)
-    ending.start()
-    ending.join(0.5)  # as long as it is not known of
-    may_go_on.set()
-    ending.join(PATIENCE)
-    assert not ending.is_alive()
-    assert started[0].returncode is not None, "it is left behind"
+@pytest.mark.parametrize(
+    ("code", "error"),
+    [
+        ("print('x\\nheadless_render.py: error: of it', file=sys.stderr); 1/0", "of it"),
+        ("1/0", "ended with exit code 1: ZeroDivisionError: division by zero"),
+        ("sys.exit(7)", "ended with exit code 7: without a word"),
+        ("pass", "its results are not those that its process has written"),
+    ],
+)
+def test_why_a_file_failed(folder, code, error):
+    job, batch = batch_of(folder, f"import sys; {code}")
+    result = do(job, batch)
+    assert (result["status"], result["error"]) == ("failed", error)
 
 
-def test_why_a_worker_failed():
-    ending = python_workers().run(
-        ["import sys; print('x\\nx.py: error: of it', file=sys.stderr)\n1/0"]
-    )
-    assert why_failed(*ending, "x.py: error: ") == "of it"
-    assert why_failed(*ending, "y") == "ended with exit code 1: ZeroDivisionError: division by zero"
-    assert why_failed(7, "", "y") == "ended with exit code 7: without a word"
+def test_a_file_that_nobody_waits_for_is_given_up(folder):
+    job, batch = batch_of(folder, "import sys; sys.stdin.read(); sys.exit(9)")
+    assert "9" in do(job, batch, is_wanted=lambda: False)["error"]
+
+
+def test_a_file_that_is_gone_has_failed(folder):
+    job, batch = batch_of(folder, WRITES)
+    (folder / "a.obj").unlink()
+    assert "No such file" in do(job, batch)["error"]

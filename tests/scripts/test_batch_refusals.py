@@ -3,7 +3,7 @@
 
 import pytest
 from batch_kit import CUBE
-from headless import headless_refused
+from headless import PATIENCE, SCRIPT, headless_refused, start_headless
 
 TO = ("--output-folder", "out")
 
@@ -41,6 +41,16 @@ REFUSALS = {
     "jobs for one": (["a.obj", "--jobs", "2"], ["--jobs", "--output-folder"]),
     "force for one": (["a.obj", "--force"], ["--force", "--output-folder"]),
     "recursive for one": (["a.obj", "--recursive"], ["--recursive", "--output-folder"]),
+    "jobs of a cluster": (
+        ["meshes", *TO, "--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"],
+        ["--jobs", "cluster"],
+    ),
+    "no cluster": (
+        ["meshes", *TO, "--scheduler", "tcp://127.0.0.1:9"],
+        ["--scheduler tcp://127.0.0.1:9", "no scheduler answers", "dask scheduler"],
+    ),
+    "no address": (["meshes", *TO, "--scheduler", "no way"], ["--scheduler no way"]),
+    "cluster for one": (["a.obj", "--scheduler", "x"], ["--scheduler", "--output-folder"]),
     "no handles": (["meshes", *TO, "--handles", "none.json"], ["--handles", "none.json"]),
 }
 
@@ -59,3 +69,39 @@ def folder(tmp_path):
 def test_refusal(folder, case):
     arguments, words = REFUSALS[case]
     headless_refused(*arguments, words=words, cwd=folder)
+
+
+WITHOUT = """
+import runpy, sys
+sys.modules[{package!r}] = None
+sys.argv[0] = {script!r}
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+@pytest.mark.parametrize(
+    ("package", "option"),
+    [
+        ("distributed", ("--jobs", "2")),
+        ("cryptography", ("--jobs", "2")),
+        ("distributed", ("--scheduler", "tcp://127.0.0.1:9")),
+    ],
+)
+def test_a_package_is_missing(folder, package, option):
+    code = WITHOUT.format(package=package, script=str(SCRIPT))
+    before = sorted(folder.rglob("*"))
+    process = start_headless("a.obj", "b.obj", *TO, *option, cwd=folder, script=("-c", code))
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 2, errors
+    (line,) = errors.splitlines()
+    assert option[0] in line and line.endswith(f"-m pip install {package}")
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_one_after_the_other_needs_no_package(folder):
+    code = WITHOUT.format(package="distributed", script=str(SCRIPT))
+    quick = ("--device", "numpy", "--max-iterations", "1", "--no-render", "--save-mesh", ".obj")
+    for arguments in (["a.obj", "b.obj"], ["meshes", "--jobs", "2"]):  # with one file in it
+        process = start_headless(*arguments, *TO, *quick, cwd=folder, script=("-c", code))
+        _, errors = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0, errors

@@ -9,13 +9,15 @@ import time
 import pytest
 from batch_kit import (
     CUBE,
+    ENDLESS,
     batch,
-    children,
     files_in,
+    files_of,
     is_there,
     start,
     statuses,
-    wait_for_children,
+    wait_for_files,
+    waves,
 )
 from headless import PATIENCE
 
@@ -64,7 +66,7 @@ def test_other_options_or_force_do_all_again(folder):
 def test_stopped_in_the_middle(folder, number):
     process = start("meshes", cwd=folder)
     assert process.stderr.readline().startswith("1 of 3, a.obj: ")
-    (worker,) = wait_for_children(process)
+    (worker,) = wait_for_files(process)
     process.send_signal(number)
     _, errors = process.communicate(timeout=PATIENCE)
     if number == signal.SIGKILL:
@@ -90,27 +92,17 @@ def wait_until_gone(number):
 
 @on_posix
 def test_all_workers_end_with_the_batch(folder):
-    endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--cubeness", "1")
-    options = ("--device", "numpy", "--no-render", "--save-mesh", ".obj", *endless)
     for name in NAMES:
         (folder / "meshes" / name).write_text(waves(60))
-    process = start("meshes", "--jobs", "3", cwd=folder, options=options)
-    workers = wait_for_children(process, 3)
+    process = start("meshes", "--jobs", "3", cwd=folder, options=ENDLESS)
+    workers = wait_for_files(process, 3)
     time.sleep(4)  # they now solve
-    assert children(process) == workers
+    assert files_of(process) == workers
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors) == (130, "headless_render.py: interrupted\n")
     assert not any(map(is_there, workers))
     assert files_in(folder / "out") == []
-
-
-def waves(size):
-    """Return an .obj with a wavy sheet, on which the solver is busy for long."""
-    points = [f"v {x} {y} {(x * 7 + y * 13) % 10}" for y in range(size) for x in range(size)]
-    corners = [y * size + x + 1 for y in range(size - 1) for x in range(size - 1)]
-    faces = [f"f {c} {c + 1} {c + size + 1} {c + size}" for c in corners]
-    return "\n".join([*points, *faces]) + "\n"
 
 
 @on_posix
@@ -119,7 +111,7 @@ def waves(size):
 )
 def test_a_worker_that_dies_is_a_file_that_failed(folder, number, word):
     process = start("meshes", cwd=folder)
-    (worker,) = wait_for_children(process)
+    (worker,) = wait_for_files(process)
     os.kill(worker, number)
     _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 3, errors

@@ -191,7 +191,7 @@ def test_targets_of_the_defaults(with_defaults, vertices, ticks, names):
 def test_the_page_says_which_settings_its_rows_have(case, with_defaults):
     case |= {"peak": 1, "above": 1}
     results = NOTHING | {"machine": "", "runs": 1, "race": [case], "scaling": [case]}
-    sections = "\n".join(page.page(results | {"defaults": [with_defaults]}, None)).split("\n#")
+    sections = page.page(results | {"defaults": [with_defaults]}, None).split("\n#")
     rows = [
         section for section in sections if "\n| mesh |" in section or "\n| vertices |" in section
     ]

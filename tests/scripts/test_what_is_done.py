@@ -36,7 +36,7 @@ ALLOWED = {
     ("scripts/headless/extension.py", "exec_module"),
     ("scripts/build_extension.py", "subprocess"),  # Blender's own tool
     ("scripts/benchmark_live.py", "subprocess"),
-    ("scripts/headless/batch/workers.py", "subprocess"),  # the script itself, once per file
+    ("scripts/headless/batch/task.py", "subprocess"),  # the script itself, once per file
     ("scripts/package/pip.py", "subprocess"),
     ("scripts/package/lock.py", "urllib"),  # takes an address apart
 }

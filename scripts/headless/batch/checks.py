@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What can be refused of a command line before any work is done, for several files."""
 
 from argparse import Namespace
@@ -31,7 +32,11 @@ def check_batch(options: Namespace) -> None:
         raise InputError("--error-file: is for one file; here --report has all that failed")
     if not options.inputs:
         raise InputError("--output-folder: give the files, or a folder that holds them, first")
+    if options.jobs and options.scheduler:
+        raise InputError("--jobs: a cluster does as many at a time as it has workers; drop it")
     check_is_something_to_do(options)
+    if options.handles_file:
+        options.handles_file = options.handles_file.absolute()  # workers may be started elsewhere
     for path in options.inputs:
         _check_input(path)
     if options.save_mesh is not None:

@@ -1,16 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is to be written for each file of a batch, and by which command line."""
 
+import json
 from argparse import Namespace
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from ..arguments import as_arguments
 from ..errors import InputError
-from ..output_files import numbered, per_cubeness
-from .records import record_path
+from ..output_files import written
 from .sources import Source
 
-__all__ = ("FORWARDED", "Job", "plan")
+__all__ = ("FORWARDED", "Job", "decisive", "plan")
 
 FORWARDED = (
     *("object", "cubeness", "orientation", "space", "pin", "handles_file", "map"),
@@ -20,18 +21,21 @@ FORWARDED = (
     *("engine", "samples", "resolution", "turn", "turntable", "no_render", "verbose"),
 )
 """the options that are the same for each file"""
+NOT_DECISIVE = {"handles_file", "verbose"}
 
 
-@dataclass(frozen=True)
-class Job:
-    """One file of a batch."""
+class Job(NamedTuple):
+    """One file of a batch; of plain values, as a scheduler need not have these modules."""
 
-    source: Source
-    outputs: list[Path]
+    path: Path
+    """absolute"""
+    label: str
+    """what it is called in what is printed"""
+    outputs: tuple[Path, ...]
     """all that is written: pictures, then meshes"""
     record: Path
-    """where the numbers of the run and the key of its making are kept"""
-    arguments: list[str]
+    """the report of the run that has made them"""
+    arguments: tuple[str, ...]
     """of the process that does it"""
 
 
@@ -44,13 +48,10 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
         A result would take the place of an input, or be taken for one the next time.
     """
     jobs = [_job(options, source) for source in sources]
-    inputs = {job.source.path.resolve() for job in jobs}
-    if options.handles_file:
-        inputs.add(options.handles_file.resolve())
-    for job in jobs:
-        for path in job.outputs:
-            if path.resolve() in inputs:
-                raise InputError(f"{path}: is an input; choose another --output-folder")
+    inputs = {path.resolve() for path in (*(s.path for s in sources), options.handles_file) if path}
+    for path in (path for job in jobs for path in job.outputs):
+        if path.resolve() in inputs:
+            raise InputError(f"{path}: is an input; choose another --output-folder")
     folders = {path.resolve() for path in options.inputs if path.is_dir()}
     if options.save_mesh and options.output_folder.resolve() in folders:
         raise InputError(
@@ -60,18 +61,25 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
     return jobs
 
 
+def decisive(options: Namespace, version: str) -> str:
+    """Return all but the content of an input that decides about its results, as a text."""
+    names = [*(name for name in FORWARDED if name not in NOT_DECISIVE), "save_mesh"]
+    handles = options.handles_file and options.handles_file.read_text(encoding="utf-8")
+    values = {name: getattr(options, name) for name in names}
+    return json.dumps([version, values, handles], sort_keys=True)
+
+
 def _job(options: Namespace, source: Source) -> Job:
-    begin = options.output_folder.resolve() / source.name
-    pictures, meshes = [], []
+    folder = options.output_folder.resolve()
     arguments = [str(source.path), *as_arguments(options, FORWARDED)]
+    picture = mesh = None
     if not options.no_render:
-        picture = begin.with_name(f"{begin.name}.png")
+        picture = folder / f"{source.name}.png"
         arguments.append(f"--output={picture}")
-        pictures = numbered(picture, options.turntable)
     if options.save_mesh:
-        mesh = begin.with_name(f"{begin.name}{options.save_mesh}")
+        mesh = folder / f"{source.name}{options.save_mesh}"
         arguments.append(f"--save-mesh={mesh}")
-        meshes = per_cubeness(mesh, options.cubeness)
-    record = record_path(options.output_folder.resolve(), source.name)
-    arguments += [f"--report={record}", "--worker"]
-    return Job(source, pictures + meshes, record, arguments)
+    outputs = written(picture, options.turntable, mesh, options.cubeness)
+    record = folder / ".cubic_craft" / f"{source.name}.json"
+    arguments.append(f"--report={record}")
+    return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))

@@ -1,11 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The files of a batch, and a name for the results of each that no other has."""
 
 import hashlib
 import os
 import unicodedata
-from collections import defaultdict
-from dataclasses import dataclass
+from collections import Counter
 from pathlib import Path, PurePath
+from typing import NamedTuple
 
 from ..errors import InputError
 from ..formats import READABLE, listing
@@ -13,8 +14,7 @@ from ..formats import READABLE, listing
 __all__ = ("Source", "find_sources")
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """A file to work on."""
 
     path: Path
@@ -23,36 +23,6 @@ class Source:
     """of its results, in the output folder: without suffix, with / between folders"""
     label: str
     """what it is called in what is printed"""
-
-
-@dataclass
-class _Found:
-    path: Path
-    """absolute"""
-    place: PurePath
-    """in the folder that was given; the file's name if it was given itself"""
-    distinction: int = 0
-    """how much of what tells it from others its name has"""
-
-    @property
-    def name(self) -> str:
-        name = self.place.with_suffix("").as_posix()
-        if self.distinction >= 1:
-            name += f"_{self.path.suffix[1:]}"
-        if self.distinction >= 2:
-            name = f"{self._root}/{name}"
-        if self.distinction >= 3:
-            name += f"_{hashlib.sha256(os.fsencode(self.path)).hexdigest()[:8]}"
-        return name
-
-    @property
-    def label(self) -> str:
-        place = self.place.as_posix()
-        return f"{self._root}/{place}" if self.distinction >= 2 else place
-
-    @property
-    def _root(self) -> str:
-        return self.path.parents[len(self.place.parts) - 1].name or "root"
 
 
 def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) -> list[Source]:
@@ -65,12 +35,11 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
     InputError
         A folder cannot be read, or holds nothing that can.
     """
-    found: dict[Path, _Found] = {}
+    places: dict[Path, PurePath] = {}  # in the folder that was given
     for given in inputs:
-        if not given.is_dir():
-            found.setdefault(_absolute(given), _Found(_absolute(given), PurePath(given.name)))
-            continue
-        paths = _meshes_in(given, is_recursive, output_folder.resolve())
+        paths, folder = [given], given.parent
+        if given.is_dir():
+            paths, folder = _meshes_in(given, is_recursive, output_folder.resolve()), given
         if not paths:
             cure = "give another folder" if is_recursive else "give another, or add --recursive"
             raise InputError(
@@ -78,8 +47,10 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
                 f" (meshes are {listing(READABLE)})"
             )
         for path in paths:
-            found.setdefault(_absolute(path), _Found(_absolute(path), path.relative_to(given)))
-    return _named(list(found.values()))
+            # As it can be given to another process; links stay what they are called.
+            absolute = Path(os.path.abspath(path))  # noqa: PTH100  # Path.absolute() keeps ".."
+            places.setdefault(absolute, path.relative_to(folder))
+    return _named(places)
 
 
 def _meshes_in(folder: Path, is_recursive: bool, left_out: Path) -> list[Path]:
@@ -90,12 +61,9 @@ def _meshes_in(folder: Path, is_recursive: bool, left_out: Path) -> list[Path]:
             for name in folders
             if is_recursive and not name.startswith(".") and Path(place, name).resolve() != left_out
         )
-        found += [Path(place, name) for name in sorted(names) if _is_mesh(name)]
+        is_mesh = {name: Path(name).suffix.lower() in READABLE for name in sorted(names)}
+        found += [Path(place, n) for n, is_one in is_mesh.items() if is_one and n[0] != "."]
     return found
-
-
-def _is_mesh(name: str) -> bool:
-    return not name.startswith(".") and Path(name).suffix.lower() in READABLE
 
 
 def _refuse(error: OSError) -> None:
@@ -103,27 +71,35 @@ def _refuse(error: OSError) -> None:
     raise InputError(message) from error
 
 
-def _absolute(path: Path) -> Path:
-    """Return the path as it can be given to another process; links stay what they are called."""
-    return Path(os.path.abspath(path))  # noqa: PTH100  # Path.absolute() keeps ".."
-
-
-def _named(found: list[_Found]) -> list[Source]:
+def _named(places: dict[Path, PurePath]) -> list[Source]:
     """Give those that share a name their suffix, then the folder, until none do.
 
     A name depends on nothing but the file and those it is mistaken for, so that it is the same
     when a batch is started again.
     """
-    while clashes := _clashes(found):
-        for members in clashes:
-            for member in members:
-                member.distinction += 1
-    return [Source(each.path, each.name, each.label) for each in found]
+    sources = {path: _names(path, place) for path, place in places.items()}
+    while True:
+        count = Counter(_folded(names[0].name) for names in sources.values())
+        clashes = [path for path, names in sources.items() if count[_folded(names[0].name)] > 1]
+        if not clashes:
+            return [names[0] for names in sources.values()]
+        for path in clashes:
+            del sources[path][0]
 
 
-def _clashes(found: list[_Found]) -> list[list[_Found]]:
-    """Group files whose names are the same on some file system, where case does not count."""
-    groups: dict[str, list[_Found]] = defaultdict(list)
-    for each in found:
-        groups[unicodedata.normalize("NFC", each.name).casefold()].append(each)
-    return [members for members in groups.values() if len(members) > 1]
+def _names(path: Path, place: PurePath) -> list[Source]:
+    """Return a file with its names, each with more of what tells it from others."""
+    short, label = place.with_suffix("").as_posix(), place.as_posix()
+    folder = path.parents[len(place.parts) - 1].name or "root"
+    digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
+    long = f"{short}_{path.suffix[1:]}"
+    in_folder = (f"{folder}/{long}", f"{folder}/{long}_{digest}")
+    return [
+        *(Source(path, name, label) for name in (short, long)),
+        *(Source(path, name, f"{folder}/{label}") for name in in_folder),
+    ]
+
+
+def _folded(name: str) -> str:
+    """Return what is the same for names that are the same file somewhere."""
+    return unicodedata.normalize("NFC", name).casefold()

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Do one file of a batch in a process of its own, unless it is done already.
+
+The standard input of the process is a pipe that is never written to. It ends when the process at
+the other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..output_files import remove_left_behind
+from ..threads import thread_variables
+from .plan import Job
+
+__all__ = ("DONE", "FAILED", "KEPT", "PATIENCE", "Batch", "do", "end_processes", "key_of")
+
+DONE, KEPT, FAILED = "done", "kept", "failed"
+PATIENCE = 10.0
+"""seconds in which a process tidies up before it is killed"""
+FROM_OUTSIDE = [getattr(signal, n, None) for n in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")]
+_ending = threading.Lock()
+_running: set[subprocess.Popen] = set()
+
+
+class Batch(NamedTuple):
+    """What the files of a batch share; of plain values, as `Job`."""
+
+    command: list[str]
+    """what starts the script; an empty word is the Python of the worker"""
+    threads: int | None
+    """of the processor for each file; None for all"""
+    decides: str
+    """from `plan.decisive`"""
+    is_forced: bool
+    """to do also what is done already"""
+
+
+def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> dict[str, Any]:
+    """Do a file.
+
+    Parameters
+    ----------
+    is_wanted : asked now and then; when it is not, the process is ended
+
+    Returns
+    -------
+    dict
+        ``status``; of a file that failed ``error``, one line; else ``seconds`` and ``report``;
+        and if it was begun ``words``, what its process wrote to standard error.
+    """
+    try:
+        key = key_of(job.path, batch.decides)
+        if not batch.is_forced and (report := _report(job, key)):
+            return {"status": KEPT, "seconds": report["seconds"]["total"], "report": report}
+        code, words = _run(job, batch, key, is_wanted)
+        if code:
+            return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
+        if not (report := _report(job, key)):
+            return {
+                "status": FAILED,
+                "error": "its results are not those that its process has written",
+                "words": words,
+            }
+        seconds = report["seconds"]["total"]
+        return {"status": DONE, "seconds": seconds, "report": report, "words": words}
+    except OSError as error:
+        return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
+
+
+def key_of(source: Path, decides: str) -> str:
+    """Return a digest of all that decides about the results: content, options and version.
+
+    Of files that the source refers to (materials, textures, buffers) nothing is in it.
+    """
+    with source.open("rb") as file:
+        content = hashlib.file_digest(file, "sha256").hexdigest()
+    return hashlib.sha256(f"{content} {decides}".encode()).hexdigest()
+
+
+def _report(job: Job, key: str) -> dict[str, Any] | None:
+    """Return the report of a run with this key, if the outputs are as it has written them."""
+    try:
+        report = json.loads(job.record.read_text(encoding="utf-8"))
+        made = report.pop("made")
+        sizes = {path.name: path.stat().st_size for path in job.outputs}
+        return report if made == {"key": key, "sizes": sizes} else None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None  # there is none, or one of another version
+
+
+def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tuple[int, str]:
+    """Run the process to its end; return its exit code and what it wrote to standard error."""
+    job.record.unlink(missing_ok=True)  # from now on the outputs may be others than it says
+    command = [*(word or sys.executable for word in batch.command), *job.arguments]
+    limit = [f"--threads={batch.threads}"] if batch.threads else []
+    with tempfile.TemporaryFile() as words:
+        with _ending:  # or one that is being started would be left behind
+            process = subprocess.Popen(
+                [*command, *limit, f"--worker={key}"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=words,
+                env=os.environ | (thread_variables(batch.threads) if batch.threads else {}),
+                start_new_session=True,  # Ctrl-C is for the batch, which then ends it
+                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+            )
+            _running.add(process)
+        while process.returncode is None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(1)
+            if not is_wanted():
+                _end(process)
+        with _ending:
+            _running.discard(process)
+        for path in (*job.outputs, job.record):
+            remove_left_behind(path)
+        words.seek(0)
+        return process.returncode, words.read().decode(errors="replace")
+
+
+def end_processes() -> None:
+    """End all that run, and wait until they are gone; nothing more is said of them."""
+    _ending.acquire()
+    for process in list(_running):
+        _end(process)
+
+
+def _end(process: subprocess.Popen) -> None:
+    assert process.stdin is not None
+    process.stdin.close()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(PATIENCE)
+    process.kill()
+
+
+def _why_failed(job: Job, code: int, words: str) -> str:
+    """Say in one line why a process has failed."""
+    if code < 0:
+        name = signal.strsignal(-code) or f"signal {-code}"
+        return f"{'was ended from outside' if -code in FROM_OUTSIDE else 'crashed'} ({name})"
+    if said := re.search(r"^headless_render\.py: error: (.*)$", words, re.MULTILINE):
+        return said[1].removeprefix(f"{job.path}: ")
+    return f"ended with exit code {code}: {(words.strip() or 'without a word').splitlines()[-1]}"

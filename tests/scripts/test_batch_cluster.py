@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Batches on a Dask cluster: a scheduler and workers that were started by themselves, elsewhere."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from batch_kit import (
+    CUBE,
+    ENDLESS,
+    batch,
+    files_in,
+    files_of,
+    start,
+    statuses,
+    wait_for_files,
+    waves,
+)
+from headless import PATIENCE
+
+NAMES = ["a.obj", "b.obj", "c.obj"]
+
+
+def dask(command, *arguments, folder):
+    """Start a program of Dask in a folder of its own."""
+    (folder / command).mkdir()
+    return subprocess.Popen(
+        [sys.executable, "-m", f"distributed.cli.dask_{command}", "--no-dashboard", *arguments],
+        cwd=folder / command,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    """Return the address of a cluster, and the process of its worker."""
+    folder = tmp_path_factory.mktemp("cluster")
+    place = folder / "place.json"
+    where = ("--host", "127.0.0.1", "--port", "0", f"--scheduler-file={place}")
+    scheduler = dask("scheduler", *where, folder=folder)
+    end = time.monotonic() + PATIENCE
+    while not place.exists():
+        assert scheduler.poll() is None and time.monotonic() < end
+        time.sleep(0.1)
+    time.sleep(0.5)  # until it is whole
+    address = json.loads(place.read_text())["address"]
+    worker = dask("worker", address, "--nworkers", "2", "--nthreads", "1", folder=folder)
+    yield address, worker
+    for program in (worker, scheduler):
+        program.terminate()
+        program.wait(PATIENCE)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "meshes").mkdir()
+    for name in NAMES:
+        (tmp_path / "meshes" / name).write_text(CUBE)
+    return tmp_path
+
+
+def test_a_batch_on_a_cluster(folder, cluster):
+    (folder / "meshes" / "broken.ply").write_text("nothing")
+    (folder / "h.json").write_text('[{"vertices": [0, 1, 2, 3]}]')
+    arguments = ("--scheduler", cluster[0], "--handles", "h.json", "--report", "report.json")
+    done = dict.fromkeys(NAMES, "done") | {"broken.ply": "failed"}
+    for expected in (done, {name: done[name].replace("done", "kept") for name in done}):
+        process = batch("meshes", *arguments, cwd=folder)
+        assert process.returncode == 3, process.stderr
+        assert "Traceback" not in process.stderr
+        assert statuses(folder) == expected
+        assert files_in(folder / "out") == NAMES
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_files_of_a_batch_that_is_stopped_are_given_up(folder, cluster, number):
+    address, worker = cluster
+    for name in NAMES:
+        (folder / "meshes" / name).write_text(waves(60))
+    process = start("meshes", "--scheduler", address, cwd=folder, options=ENDLESS)
+    wait_for_files(worker, 2)
+    time.sleep(2)  # they now solve
+    assert process.poll() is None
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=PATIENCE)
+    if number == signal.SIGINT:
+        assert (process.returncode, errors) == (130, "headless_render.py: interrupted\n")
+    end = time.monotonic() + PATIENCE
+    while files_of(worker):
+        assert time.monotonic() < end, "they go on without their batch"
+        time.sleep(0.1)
+    assert files_in(folder / "out") == []
+    again = batch("meshes", "--scheduler", address, "--report", "report.json", cwd=folder)
+    assert again.returncode == 0, again.stderr
+    assert statuses(folder) == dict.fromkeys(NAMES, "done")
