@@ -149,7 +149,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         help="of the processor (default: all of them, in a batch shared by its jobs)",
     )
-    parser.add_argument("--worker", default="", metavar="KEY", help=argparse.SUPPRESS)
+    parser.add_argument("--worker", default="", metavar="KEY:BATCH", help=argparse.SUPPRESS)
     parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
     return parser
 

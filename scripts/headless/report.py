@@ -47,7 +47,7 @@ def write_report(
     if options.worker:  # so that the batch can tell whether the outputs are still those of this run
         outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
         sizes = {path.name: path.stat().st_size for path in outputs}
-        report["made"] = {"key": options.worker, "sizes": sizes}
+        report["made"] = {"for": options.worker, "sizes": sizes}
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 

@@ -149,13 +149,13 @@ def test_the_key_changes_with_all_that_decides_about_the_result(folder):
 def batch_of(folder, code):
     """Return a job, and a batch that does it by this code in a Python instead of the script."""
     job = Job(folder / "a.obj", "a.obj", (folder / "a.png",), folder / "record.json", ())
-    return job, Batch(["", "-c", code], 3, "options", False)
+    return job, Batch("first", ["", "-c", code], 3, "options", False)
 
 
 WRITES = """
 import json, os, pathlib, sys
 pathlib.Path("a.png").write_bytes(b"picture")
-made = {"key": sys.argv[-1].removeprefix("--worker="), "sizes": {"a.png": 7}}
+made = {"for": sys.argv[-1].removeprefix("--worker="), "sizes": {"a.png": 7}}
 about = {"threads": os.environ["OMP_NUM_THREADS"], "seconds": {"total": 1.5}, "made": made}
 pathlib.Path("record.json").write_text(json.dumps(about))
 print("a warning", file=sys.stderr)
@@ -168,16 +168,22 @@ def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
     report = {"threads": "3", "seconds": {"total": 1.5}}
     done = {"status": "done", "seconds": 1.5, "report": report, "words": "a warning\n"}
     assert do(job, batch) == done
-    kept = {"status": "kept", "seconds": 1.5, "report": report}
+    as_before = {"seconds": 1.5, "report": report}
+    for is_forced in (False, True):  # as its worker was lost before it could tell
+        of_this_batch = do(job, batch._replace(is_forced=is_forced))
+        assert of_this_batch == {"status": "done", **as_before}
+    batch, kept = batch._replace(name="second"), {"status": "kept", **as_before}
     assert do(job, batch) == kept
     assert do(job, batch._replace(is_forced=True)) == done
+    batch = batch._replace(name="third")
+    assert do(job, batch) == kept
     assert do(job, batch._replace(decides="others")) == done
     assert do(job, batch) == done
     (folder / "a.png").write_bytes(b"pict")
     assert do(job, batch) == done
     (folder / "a.png").unlink()
     assert do(job, batch) == done
-    assert do(job, batch) == kept
+    assert do(job, batch._replace(name="fourth")) == kept
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,6 @@ import logging
 import multiprocessing
 import signal
 import sys
-import uuid
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
@@ -75,9 +74,9 @@ def results_of(
         return
     from distributed import as_completed
 
-    work, name, waiting = _work_of_a_worker(), uuid.uuid4().hex, {}
+    work, waiting = _work_of_a_worker(), {}
     for number, job in enumerate(jobs):
-        order, key = (SCRIPTS, tuple(job), tuple(batch)), f"{job.label}-{number}-{name}"
+        order, key = (SCRIPTS, tuple(job), tuple(batch)), f"{job.label}-{number}-{batch.name}"
         waiting[client.submit(work, *order, key=key)] = job
     for future, result in as_completed(waiting, with_results=True, raise_errors=False):
         if future.status != "finished":  # its workers died one after the other, or all is lost

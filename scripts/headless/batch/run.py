@@ -6,6 +6,7 @@ import math
 import os
 import textwrap
 import time
+import uuid
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable
@@ -54,7 +55,8 @@ def run_batch(
     """
     jobs = plan(options, find_sources(options.inputs, options.recursive, options.output_folder))
     threads = options.threads or _share(min(options.jobs or 1, len(jobs)))
-    batch = Batch(command(threads), threads, decisive(options, version), options.force)
+    decides = decisive(options, version)
+    batch = Batch(uuid.uuid4().hex, command(threads), threads, decides, options.force)
     bar = ProgressBar(memory=math.inf)
     with workers_for(options, len(jobs)) as client:
         _make_folders(options.output_folder, jobs)

@@ -36,6 +36,8 @@ _running: set[subprocess.Popen] = set()
 class Batch(NamedTuple):
     """What the files of a batch share; of plain values, as `Job`."""
 
+    name: str
+    """that no other batch has"""
     command: list[str]
     """what starts the script; an empty word is the Python of the worker"""
     threads: int | None
@@ -61,19 +63,18 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
     """
     try:
         key = key_of(job.path, batch.decides)
-        if not batch.is_forced and (report := _report(job, key)):
-            return {"status": KEPT, "seconds": report["seconds"]["total"], "report": report}
+        report, made_by = _report(job, key)
+        # One of this batch is of a worker that was lost just before it could tell.
+        if report and (made_by == batch.name or not batch.is_forced):
+            return _success(DONE if made_by == batch.name else KEPT, report)
         code, words = _run(job, batch, key, is_wanted)
         if code:
             return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
-        if not (report := _report(job, key)):
-            return {
-                "status": FAILED,
-                "error": "its results are not those that its process has written",
-                "words": words,
-            }
-        seconds = report["seconds"]["total"]
-        return {"status": DONE, "seconds": seconds, "report": report, "words": words}
+        report, _ = _report(job, key)
+        if not report:
+            error = "its results are not those that its process has written"
+            return {"status": FAILED, "error": error, "words": words}
+        return _success(DONE, report) | {"words": words}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
@@ -88,15 +89,20 @@ def key_of(source: Path, decides: str) -> str:
     return hashlib.sha256(f"{content} {decides}".encode()).hexdigest()
 
 
-def _report(job: Job, key: str) -> dict[str, Any] | None:
-    """Return the report of a run with this key, if the outputs are as it has written them."""
+def _success(status: str, report: dict[str, Any]) -> dict[str, Any]:
+    return {"status": status, "seconds": report["seconds"]["total"], "report": report}
+
+
+def _report(job: Job, key: str) -> tuple[dict[str, Any], str]:
+    """Return the report of a run with this key, and its batch; nothing if outputs have changed."""
     try:
         report = json.loads(job.record.read_text(encoding="utf-8"))
         made = report.pop("made")
+        of, _, by = made["for"].partition(":")
         sizes = {path.name: path.stat().st_size for path in job.outputs}
-        return report if made == {"key": key, "sizes": sizes} else None
+        return (report, by) if (of, made["sizes"]) == (key, sizes) else ({}, "")
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return None  # there is none, or one of another version
+        return {}, ""  # there is none, or one of another version
 
 
 def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tuple[int, str]:
@@ -107,7 +113,7 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
     with tempfile.TemporaryFile() as words:
         with _ending:  # or one that is being started would be left behind
             process = subprocess.Popen(
-                [*command, *limit, f"--worker={key}"],
+                [*command, *limit, f"--worker={key}:{batch.name}"],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=words,
