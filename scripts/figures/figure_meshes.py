@@ -142,7 +142,7 @@ class FigureMeshes:
             try:
                 member = self.extension.member.read_member(model.object, settings)
                 prepared = self.extension.assembly.prepare([member])
-                (solution,) = self.extension.cubify.solve(prepared)
+                (solution,) = self.extension.pipeline.solve(prepared)
             except self.extension.solver.CubicCraftError as error:
                 raise InputError(f"{model.path or model.name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")

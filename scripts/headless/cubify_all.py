@@ -79,7 +79,7 @@ def _solve(prepared: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, 
     progress = extension.solver.Progress(settings.max_iterations, settings.tolerance)
     name = members[0].name if len(members) == 1 else f"{len(members)} objects together"
     with bar.task(f"{name}, cubeness {settings.cubeness!r}") as task:
-        solutions = extension.cubify.solve(
+        solutions = extension.pipeline.solve(
             prepared, lambda state: task.advance_to(progress.update(state))
         )
         task.finish(_summary(solutions[0]))

@@ -34,7 +34,7 @@ def detached_copy(
             copy.modifiers.remove(modifier)
     if mesh.shape_keys is not None:
         copy.shape_key_clear()
-    extension.mesh_bridge.forget(mesh)
+    extension.mesh_bridge.discard_original(mesh)
     write_positions(mesh, positions)
     return copy
 

@@ -21,21 +21,19 @@ class Extension:
 
     def __init__(self, root: Path) -> None:
         self.assembly = _room("cubic_craft_addon.run.assembly")
-        self.cubify = _room("cubic_craft_addon.run.pipeline")
+        self.pipeline = _room("cubic_craft_addon.run.pipeline")
         self.handles = _room("cubic_craft_addon.handles")
         self.member = _room("cubic_craft_addon.run.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.presets = _room("cubic_craft_addon.presets.files")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
-        self._taichi_news = _room(
-            "cubic_craft_addon.environment.new_taichi_warnings"
-        ).new_taichi_warnings
+        self._warnings = _room("cubic_craft_addon.environment.new_taichi_warnings")
         self.version = read_version(root)
 
     def notices(self) -> list[str]:
         """Return what there is to say about this machine after a run, one line each."""
-        return self._taichi_news()
+        return self._warnings.new_taichi_warnings()
 
 
 @contextlib.contextmanager

@@ -66,7 +66,7 @@ def _save_blend(
     path: Path, sculptures: list[Sculpture], number: int, extension: Extension, verbose: bool
 ) -> None:
     for sculpture in sculptures:
-        extension.cubify.write(sculpture.object, sculpture.solutions[number], "MESH")
+        extension.pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
     with captured(verbose), replacing(path) as temporary:
         try:
             bpy.ops.wm.save_as_mainfile(filepath=str(temporary.resolve()), copy=True)

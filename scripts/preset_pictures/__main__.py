@@ -65,7 +65,7 @@ def _render_presets(
         if preset.is_own and (not only or preset.identifier in only):
             settings = extension.settings.Settings(symmetry=(True, False, False), **preset.values)
             member = extension.member.read_member(bear, settings)
-            (solution,) = extension.cubify.solve(extension.assembly.prepare([member]))
+            (solution,) = extension.pipeline.solve(extension.assembly.prepare([member]))
             _move(bear, solution.positions)
             _render(scene, preset.picture)
             _move(bear, original)
