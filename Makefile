@@ -53,8 +53,10 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) CUBIC_CRAFT_ZIP=$(ZIP) \
 		$(PY) $(PYTEST) tests/blender/hostile
 
+# Of the scripts, those that use Blender's data, importers and exporters; batch, benchmark and
+# figures only start these.
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
-	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts tests/art
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) tests/blender tests/scripts/test_headless_*.py
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest

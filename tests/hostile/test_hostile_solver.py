@@ -128,7 +128,7 @@ def check_result(mesh, options, result):
     assert result.positions[options.pinned].tobytes() == held[options.pinned].tobytes()
 
 
-@examples(950)
+@examples(475)
 @given(case=cases())
 def test_a_result_keeps_what_was_promised(case):
     mesh, options, device = case
@@ -147,7 +147,7 @@ def test_a_result_keeps_what_was_promised(case):
     assert again.rotations.tobytes() == result.rotations[used].tobytes()
 
 
-@examples(800)
+@examples(400)
 @given(case=cases())
 def test_the_energy_of_the_plain_iteration_never_rises(case):
     mesh, options, device = case
@@ -156,7 +156,7 @@ def test_the_energy_of_the_plain_iteration_never_rises(case):
     assert np.diff(energies).max() <= ROUNDING * abs(energies[0]) + NOTHING
 
 
-@examples(100)
+@examples(50)
 @given(mesh=broken_meshes(), data=st.data())
 def test_what_cannot_be_used_is_refused(mesh, data):
     spoil = data.draw(st.sampled_from(sorted(SPOILT)), label="spoilt")

@@ -43,10 +43,10 @@ def test_a_broken_taichi_means_numpy_for_good(tmp_path, how):
             sys.modules["taichi"] = None
         sys.path.insert(0, {str(tmp_path)!r})
         from solver import CubicCraftError, problem_with_taichi
-        from solver.backends import choice
+        from solver.backends import devices
         tries = []
-        real = choice.import_taichi
-        choice.import_taichi = lambda: tries.append(1) or real()
+        real = devices.import_taichi
+        devices.import_taichi = lambda: tries.append(1) or real()
         assert problem_with_taichi() == ""
         for _ in range(3):
             assert stylize(V, F, max_iterations=2).device == "numpy"
