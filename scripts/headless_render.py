@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify meshes without a window: pictures, meshes and a report.
 
 Runs under the ``bpy`` module and in Blender alike::

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line: options, their ranges, and what does not go together."""
 
 import argparse

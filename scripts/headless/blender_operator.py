@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's importers and exporters, which a Blender may have been built without."""
 
 from collections.abc import Callable

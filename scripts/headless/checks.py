@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What can be refused of a command line before Blender starts, for one file."""
 
 from argparse import Namespace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify every mesh at every cubeness; nothing is written to any mesh here."""
 
 import math

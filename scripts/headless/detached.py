@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Copies that carry a result, independent of everything else in the file."""
 
 import bpy

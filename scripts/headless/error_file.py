@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Write why an input cannot be used to a file, for those who look at results only."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The one error that ends a run with exit code 2."""
 
 __all__ = ("InputError",)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Load the extension from its source tree, under the name that Blender gives it."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Find what Blender's importers of .ply and .stl files do not survive, or hide.
 
 Coordinates that are not there or not finite become zeros without a word, which would look like a

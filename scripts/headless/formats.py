@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which formats can be read, and which can be written with vertex order and count kept."""
 
 __all__ = ("KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "RENUMBER_VERTICES", "listing")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Place the original and its cubic versions side by side in a scene of their own.
 
 The meshes are not touched: whatever their size and place, each group (all objects of the input at

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Read what ``--handles`` names: a JSON list of handles, checked without Blender."""
 
 import json

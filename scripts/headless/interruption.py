@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ctrl-C, or being told to end: one line, the exit code that shells expect, and nothing half-done.
 
 Python runs signal handlers in the main thread, which cannot be told anything while Blender renders

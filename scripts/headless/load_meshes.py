@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
 import functools

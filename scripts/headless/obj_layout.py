@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which vertex of an .obj file is which vertex in Blender.
 
 Blender's importer drops vertices that no face or edge uses and deals the others out to the objects

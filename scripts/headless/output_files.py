@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Output files: checked before any work is done, and never left half-written."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The whole run: load, cubify, save, picture, report."""
 
 import contextlib

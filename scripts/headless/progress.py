@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tell the terminal how far the run is: a bar where there is one, else a plain line per step.
 
 Everything goes to standard error; standard output stays empty.

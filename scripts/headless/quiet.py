@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Keep Blender's own chatter away from the terminal.
 
 Blender prints from C to the file descriptors 1 and 2, past ``sys.stdout`` and ``sys.stderr``, so

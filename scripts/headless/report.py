@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The report: versions, and the numbers of every run."""
 
 import importlib.metadata

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Save results as mesh files that have the vertices of the input, in the same order."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Put what is seen of the objects of the scene in their place, as meshes without modifiers."""
 
 from collections.abc import Callable

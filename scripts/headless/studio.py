@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Light, floor, camera and materials of the picture."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Join the vertices that glTF had to split.
 
 glTF keeps one normal and one UV per vertex, so every sharp edge and every seam is cut open in the

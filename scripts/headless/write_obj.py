@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Write .obj files with every vertex, in a given order, at full float32 precision.
 
 Blender's own exporter prints six decimals, which ruins meshes that are small.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Inputs of our own making, written once per session."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Run the script as a user does, in a process of its own."""
 
 import json

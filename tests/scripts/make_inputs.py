@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Run by a fixture: write the awkward mesh in every format, with Blender alone.
 
 The vertices of the mesh are numbered so that any reordering shows, and it has quads, triangles, an

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Run by tests: read files with Blender's plain importers and pickle what is in them."""
 
 import pickle

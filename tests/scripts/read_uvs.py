@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Run by tests: pickle positions and UVs of the meshes in a scene that the figures have saved."""
 
 import pickle

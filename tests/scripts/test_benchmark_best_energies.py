@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The file of the lowest energies: only lower ones are taken in."""
 
 import json

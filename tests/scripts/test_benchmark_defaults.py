@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmark makes, and runs with the artist's defaults."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Gaps, the times at which they are reached, and the power that is fitted to times."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How the benchmark takes measurements: processes of its own, memory, clocks on functions."""
 
 import sys

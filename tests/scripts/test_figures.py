@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The figures of the paper, of Blender's own shapes, tiny and rough."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: one line on standard error, exit code 2, and nothing written."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Posing by ``--handles``: what is held is where the file says, whatever selects it."""
 
 import json

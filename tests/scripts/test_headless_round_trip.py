@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A saved mesh has the vertices of the input: as many, in the same order, in the same space."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is seen is taken with ``--with-modifiers``: modifiers applied, texts as meshes."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """All meshes of a file are solved as one, unless they are told apart."""
 
 import numpy as np
