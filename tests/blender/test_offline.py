@@ -21,7 +21,9 @@ CODE = """
         assert bpy.ops.cubic_craft.cubify(max_iterations=3, device=device) == {"FINISHED"}
     assert bpy.ops.cubic_craft.auto_orient() == {"FINISHED"}
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    print("done without")
+    print("done without", flush=True)
+    import os
+    os._exit(0)  # the module of Blender 4.2 crashes on its way out, see the README
 """
 
 

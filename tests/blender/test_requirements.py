@@ -17,6 +17,9 @@ CODE = """
     bpy.ops.preferences.addon_enable(module="bl_ext.user_default.cubic_craft")
     bpy.ops.mesh.primitive_monkey_add()
     {then}
+    import os
+    sys.stdout.flush()
+    os._exit(0)  # the module of Blender 4.2 crashes on its way out, see the README
 """
 
 
