@@ -4,8 +4,7 @@
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
 from .settings import group_renames, properties
-from .ui import edited, overlay, panel, preferences
-from .ui import handles_panel as handles_panel
+from .ui import edited, handles_panel, overlay, panel, preferences
 
 _modules = (
     handles_properties,

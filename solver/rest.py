@@ -119,6 +119,15 @@ class RestMesh:
         return self.topology.sum_parts_at(i, weighted)
 
     @cached_property
+    def energy_terms(self):
+        """(n,) 0.75 sum w |d|^2 - tr S of each vertex at rest, where the ARAP energy is 0."""
+        m, V = self.matrices, self.V
+        L = m.matrix(m.laplacian)
+        quadratic = 2.0 * (V * (L @ V)).sum(axis=1) - L @ (V * V).sum(axis=1)
+        trace = sum(m.matrix(m.gather[:, c]) @ V[:, c] for c in range(3))
+        return 0.75 * quadratic - trace
+
+    @cached_property
     def coarse(self):
         """The Coarsening, or None where it cannot be had."""
         decimated = decimate(self.V, self.F, COARSENING)

@@ -8,13 +8,7 @@
 # Exit codes: that of the command, or 2.
 set -uo pipefail
 
-usage() { sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; }
-IF_POSSIBLE=''
-[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
-case ${1:-} in
-    -h | --help) usage; exit 0 ;;
-    '' | -*) usage >&2; exit 2 ;;
-esac
+. "$(dirname "$(realpath "$0")")/options.sh"
 
 PACKAGE=mesa-vulkan-drivers
 driver() { find /usr/share/vulkan/icd.d /usr/local/share/vulkan/icd.d -name 'lvp_icd*.json' 2>/dev/null | head -n 1; }
@@ -35,11 +29,7 @@ install() {
 if [ "${GPU:-}" != own ] && [ -z "${VK_DRIVER_FILES:=${VK_ICD_FILENAMES:-}}" ]; then
     REASON=''
     [ -n "$(driver)" ] || REASON=$(install)
-    if [ -n "$REASON" ]; then
-        echo "tests on a GPU skipped: $REASON"
-        [ -n "$IF_POSSIBLE" ]
-        exit $((2 * $?))
-    fi
+    [ -z "$REASON" ] || skip "tests on a GPU skipped: $REASON"
     VK_DRIVER_FILES=$(driver)
 fi
 if [ -n "${VK_DRIVER_FILES:-}" ]; then

@@ -2,5 +2,5 @@
 """From objects and settings to results: read, prepare, solve, write.
 
 ``tasks`` says what there is to solve, ``member`` reads one object, ``assembly`` factorises what is
-solved at once, and ``pipeline`` solves and writes it. ``last_run`` is what is told about it.
+solved at once, ``fields`` says what each vertex is asked for, and ``pipeline`` solves and writes.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a Live session solves at once: the run of one of the `assemblies`."""
+"""The run of what is solved at once, phase by phase: as Live goes through it, and a Cubify."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -35,8 +35,8 @@ class StepwiseRun:
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
         self._key = None
-        self._glance_moment = None
-        self._glance = {}
+        self._intermediate_moment = None
+        self._intermediate = {}
 
     # -- settings ----------------------------------------------------------------------------------
 
@@ -95,7 +95,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
-        self._glance_moment, self._glance = None, {}
+        self._intermediate_moment, self._intermediate = None, {}
 
     def forget(self) -> None:
         """Let go of all arrays."""
@@ -176,12 +176,12 @@ class StepwiseRun:
             solution = self._solutions.get(uid)
             return solution and (solution.positions, solution.rotations)
         moment = (self.moment, with_rotations)
-        if moment != self._glance_moment:
+        if moment != self._intermediate_moment:
             found = pipeline.intermediate_result(self.prepared, self._run, with_rotations)
             members = self.prepared.members
-            self._glance = {m.uid: pair for m, pair in zip(members, found, strict=True)}
-            self._glance_moment = moment
-        return self._glance.get(uid)
+            self._intermediate = {m.uid: pair for m, pair in zip(members, found, strict=True)}
+            self._intermediate_moment = moment
+        return self._intermediate.get(uid)
 
 
 def _looks_at_weights(task):

@@ -67,7 +67,6 @@ class TaichiLocalStep:
         self._options = options
         scale = area_scale(rest.areas)
         self._cubic_weight = lam * rest.areas
-        self._rest_quadratic = 0.75 * rest.edge_sums
         identity = np.tile(np.eye(3), (n, 1, 1))
         self._R = array(identity)
         all_Q = np.broadcast_to(Q, (n, 3, 3))
@@ -117,10 +116,11 @@ class TaichiLocalStep:
         keep = self.arrays.keep
         bounds, self._chunk_component = setup.rest.topology.chunks
         self._sums = keep(np.zeros((len(self._chunk_component), 3), self.real))
-        of_vertices = (
-            keep(values.astype(self.real)) for values in (_at_rest(setup.rest), self._cubic_weight)
-        )
-        arguments = (keep(bounds), self._energies, *of_vertices, self._certified, self._sums)
+        # Taken from each vertex. Taken from their sum, which is as large as that of all squared
+        # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
+        at_rest = keep(setup.rest.energy_terms.astype(self.real))
+        weight = keep(self._cubic_weight.astype(self.real))
+        arguments = keep(bounds), self._energies, at_rest, weight, self._certified, self._sums
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)
@@ -144,8 +144,9 @@ class TaichiLocalStep:
         if len(rows):
             self._solve_by_admm(U, rows)
         quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64, copy=False)
-        arap = self._rest_quadratic + self._rest.topology.sum_parts(0.75 * quadratic - trace)
-        return arap, self._rest.topology.sum_parts(self._cubic_weight * l1)
+        sum_parts = self._rest.topology.sum_parts
+        arap = 0.75 * self._rest.edge_sums + sum_parts(0.75 * quadratic - trace)
+        return arap, sum_parts(self._cubic_weight * l1)
 
     def _summed(self, U, sum_on_device):
         """Return the energies where kernels sum them up."""
@@ -157,8 +158,7 @@ class TaichiLocalStep:
             sums = self.arrays.fetch(self._sums)
         arap, cubic, _ = sums.T.astype(np.float64)
         count = self._rest.topology.component_count
-        arap, cubic = (np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
-        return arap, cubic
+        return tuple(np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
 
     def _uncertified(self):
         return np.flatnonzero(self.arrays.fetch(self._certified) == 0)
@@ -195,19 +195,6 @@ class TaichiLocalStep:
         """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
         indptr, indices, _, weights = self._arguments[:4]
         return indptr, indices, self._scatter, weights, self._R, point, scale, B
-
-
-def _at_rest(rest):
-    """Return 0.75 sum w |d|^2 - tr S (n,) of the rest shape, where the ARAP energy is 0.
-
-    It is taken from each vertex. Taken from their sum, which is as large as that of all squared
-    edges, the rounding of 32 bit would hide how the energy falls: momentum and end depend on it.
-    """
-    m, V = rest.matrices, rest.V
-    L = m.matrix(m.laplacian)
-    quadratic = 2.0 * (V * (L @ V)).sum(axis=1) - L @ (V * V).sum(axis=1)
-    trace = sum(m.matrix(m.gather[:, c]) @ V[:, c] for c in range(3))
-    return 0.75 * quadratic - trace
 
 
 @cache

@@ -46,6 +46,6 @@ def proper(matrix):
 @cache
 def _symmetries():
     """Return the rotations (24,3,3) after which a cube looks as before."""
-    from scipy.spatial.transform import Rotation  # takes as long to load as all else of this file
+    from scipy.spatial.transform import Rotation  # here, as drawing the cube needs none of it
 
     return Rotation.create_group("O").as_matrix()

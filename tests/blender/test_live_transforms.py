@@ -25,15 +25,8 @@ def apply_transform(obj):
 WAYS = pytest.mark.parametrize("transform", [set_origin, apply_transform])
 
 
-def moved(V, matrix):
-    matrix = np.array(matrix)
-    return V @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-@WAYS
-@pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
-@pytest.mark.parametrize("was_cubic", [False, True])
-def test_the_original_goes_along(begin, live, transform, ending, was_cubic):
+def begin_on_monkey(begin, transform, was_cubic):
+    """Return a monkey that can be transformed, its positions, and Live at rest on it."""
     obj = add_monkey()
     before = position_of(obj.data)
     if transform is apply_transform:
@@ -43,6 +36,19 @@ def test_the_original_goes_along(begin, live, transform, ending, was_cubic):
         cubify()
     session = begin(obj, cubeness=0.8)
     tick_to_rest(session)
+    return obj, before, session
+
+
+def moved(V, matrix):
+    matrix = np.array(matrix)
+    return V @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+@WAYS
+@pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
+@pytest.mark.parametrize("was_cubic", [False, True])
+def test_the_original_goes_along(begin, live, transform, ending, was_cubic):
+    obj, before, session = begin_on_monkey(begin, transform, was_cubic)
     way = transform(obj)
     if ending != "cancel at once":
         bpy.context.view_layer.update()
@@ -113,15 +119,8 @@ def test_it_does_so_after_an_undo_to_the_moment_of_the_transform(
     begin, live, transform, was_cubic, is_live
 ):
     """Blender keeps the undo step of an operator before anybody can see what it has done."""
-    obj = add_monkey()
-    name, before = obj.name, position_of(obj.data)
-    if transform is apply_transform:
-        obj.matrix_basis = Matrix.LocRotScale(None, Euler((0.3, 0.2, 0.1)), (1.0, 1.5, 0.5))
-        bpy.context.view_layer.update()
-    if was_cubic:
-        cubify()
-    session = begin(obj, cubeness=0.8)
-    tick_to_rest(session)
+    obj, before, session = begin_on_monkey(begin, transform, was_cubic)
+    name = obj.name
     bpy.ops.ed.undo_push(message="Live")
     way = transform(obj)
     bpy.ops.ed.undo_push(message="Transform")

@@ -23,7 +23,7 @@ CODE = """
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
     print("done without", flush=True)
     import os
-    os._exit(0)  # the module of Blender 4.2 crashes on its way out, see the README
+    os._exit(0)  # Blender 4.2 crashes while it is freed
 """
 
 

@@ -19,7 +19,7 @@ CODE = """
     {then}
     import os
     sys.stdout.flush()
-    os._exit(0)  # the module of Blender 4.2 crashes on its way out, see the README
+    os._exit(0)  # Blender 4.2 crashes while it is freed
 """
 
 

@@ -13,16 +13,10 @@ set -uo pipefail
 
 HERE=$(dirname "$(realpath "$0")")
 PROJECT=$(realpath "$HERE/../..")
-IF_POSSIBLE=''
-[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
-if [ $# -lt 2 ]; then
-    sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0" >&2
-    exit 2
-fi
+. "$HERE/../options.sh"
+[ $# -ge 2 ] || { usage >&2; exit 2; }
 if [ "$(id -u)" != 0 ] || ! grep -qsx 'ID=debian' /etc/os-release; then
-    echo "window tests of the packages skipped: they need root on Debian"
-    [ -n "$IF_POSSIBLE" ]
-    exit $((2 * $?))
+    skip "window tests of the packages skipped: they need root on Debian"
 fi
 PACKAGES=$(realpath -e "$1") || exit 2
 PLAIN=$(realpath -e "$2") || exit 2

@@ -9,14 +9,8 @@
 # Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
 set -uo pipefail
 
-usage() { sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; }
 HERE=$(dirname "$(realpath "$0")")
-IF_POSSIBLE=''
-[ "${1:-}" != --if-possible ] || { IF_POSSIBLE=1; shift; }
-case ${1:-} in
-    -h | --help) usage; exit 0 ;;
-    '' | -*) usage >&2; exit 2 ;;
-esac
+. "$HERE/../options.sh"
 ZIP=$(realpath -e "$1") || exit 2
 OUTPUT=${2:-$HERE/../../build/gui}
 shift $(($# < 2 ? $# : 2))
@@ -61,11 +55,7 @@ run_test() {
 }
 
 REASON=$(obstacle)
-if [ -n "$REASON" ]; then
-    echo "window tests skipped: $REASON"
-    [ -n "$IF_POSSIBLE" ]
-    exit $((2 * $?))
-fi
+[ -z "$REASON" ] || skip "window tests skipped: $REASON"
 
 # Runs all tests of a suite; fails if one did.
 run_suite() {

@@ -5,9 +5,9 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from ..memory.note import check_note
 from .arrays import check_fits, read_key, read_position
 from .attributes import check_names
+from .note import check_note
 
 
 def check_editable(obj: bpy.types.Object) -> None:

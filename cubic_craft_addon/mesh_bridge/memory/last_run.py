@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from .note import read_note, write_note
+from ..access.note import read_note, write_note
 
 
 @dataclass(frozen=True)

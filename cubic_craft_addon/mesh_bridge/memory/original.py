@@ -22,12 +22,12 @@ from ..access.attributes import (
     read_attribute,
     remove_attribute,
 )
+from ..access.fingerprint import fingerprint
+from ..access.note import read_note, write_note
 from ..access.shapes import Shapes, read_shapes
-from ..result.carried_back import carry_back
-from ..result.cubic_key import find_cubic_key
-from .fingerprint import fingerprint
+from .carried_back import carry_back
+from .cubic_key import find_cubic_key
 from .marks import make_marks
-from .note import read_note, write_note
 from .recognition import UNCHANGED, Recognised, recognise
 
 Start = Literal["HERE", "ORIGINAL"]

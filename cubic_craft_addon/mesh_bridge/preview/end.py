@@ -9,9 +9,9 @@ import bpy
 from ....solver.errors import CubicCraftError
 from ..access.attributes import LIVE, our_attributes, read_attribute
 from ..access.checks import is_linked
+from ..access.fingerprint import fingerprint_of_values
+from ..access.note import read_note
 from ..access.shapes import Shapes, read_shapes, write_shapes
-from ..memory.fingerprint import fingerprint_of_values
-from ..memory.note import read_note
 from .edit_mode import EditedMesh
 from .moved import take_along
 from .store import drop_live_part, marked, remove_live_attributes, shapes_before, write_live_part
@@ -51,13 +51,14 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     part = read_note(mesh).get("live") or _part_of_undone(present)
     if not part:
         return False
-    if edited:
-        if part["fingerprint"]:
-            _ended_in_edit_mode[part["fingerprint"]] = part
-    elif present is not None and not _is_as_shown(part, present):
-        part = take_along(mesh, part, present) or part
+    if edited and part["fingerprint"]:
+        _ended_in_edit_mode[part["fingerprint"]] = part
     read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
     before = shapes_before(present, part, read) if present is not None else None
+    if before is None and present is not None and not edited:
+        moved = take_along(mesh, part, present)
+        if moved is not None:
+            part, before = moved, shapes_before(present, moved, read)
     if before is not None:
         write_live_part(mesh, marked(part, None))
         if edited:
@@ -79,10 +80,6 @@ def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str
     """
     meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
     return [mesh.name for mesh in meshes if end_preview(mesh)]
-
-
-def _is_as_shown(part: dict[str, Any], present: Shapes) -> bool:
-    return part["fingerprint"] in ("", fingerprint_of_values(present.base))
 
 
 def _may_be_undone(mesh: bpy.types.Mesh) -> bool:

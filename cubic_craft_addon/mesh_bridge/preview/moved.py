@@ -12,9 +12,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..access.fingerprint import fingerprint_of_values
 from ..access.shapes import Shapes
 from ..memory.affine import fit
-from ..memory.fingerprint import fingerprint_of_values
 from .store import marked, move_live, write_live_part
 
 _MOST = 64  # remembered at once; Blender keeps 32 undo steps unless it is told otherwise

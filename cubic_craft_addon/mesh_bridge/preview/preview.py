@@ -14,12 +14,12 @@ from ....solver.errors import CubicCraftError
 from ..access.arrays import loose_vertices
 from ..access.attributes import LIVE, check_names
 from ..access.checks import check_writable
+from ..access.note import check_note, read_note
 from ..access.rotations import matrices_from_quaternions
+from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from ..access.shapes import Shapes, read_shapes, write_shapes
-from ..memory.note import check_note, read_note
+from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
-from ..result.cubic_key import find_cubic_key
-from ..result.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from .end import end_preview
 from .moved import take_along
 from .store import marked, store_live, write_live_part

@@ -20,9 +20,9 @@ from ..access.attributes import (
     read_attribute,
     remove_attribute,
 )
+from ..access.fingerprint import fingerprint_of_values
+from ..access.note import read_note, write_note
 from ..access.shapes import Shapes, carry
-from ..memory.fingerprint import fingerprint_of_values
-from ..memory.note import read_note, write_note
 
 POSITION = f"{LIVE}.position"  # only where it is not equal to the base
 

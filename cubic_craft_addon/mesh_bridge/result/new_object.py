@@ -9,7 +9,7 @@ import numpy as np
 
 from ..access.attributes import check_names
 from ..access.checks import check_writable, mesh_of
-from ..memory.note import check_note
+from ..access.note import check_note
 from ..memory.original import Start
 from .results import write_mesh
 

@@ -6,11 +6,11 @@ import bpy
 from ....solver.errors import CubicCraftError
 from ..access.attributes import our_attributes
 from ..access.checks import check_writable, mesh_of
+from ..access.note import read_note, write_note
 from ..access.shapes import write_shapes
-from ..memory.note import read_note, write_note
+from ..memory.cubic_key import find_cubic_key, remove_cubic_key
 from ..memory.original import drop_stored, has_original, has_stored, original_shapes
 from ..preview.end import end_preview
-from .cubic_key import find_cubic_key, remove_cubic_key
 from .rollback import all_or_nothing
 
 

@@ -15,13 +15,13 @@ from ..access.arrays import loose_vertices, mark_moved
 from ..access.attributes import check_names
 from ..access.checks import check_writable, mesh_of
 from ..access.rotations import matrices_from_quaternions
+from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from ..access.shapes import write_shapes
+from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.last_run import note_run
 from ..memory.original import Start, drop_stored, original_shapes, store_original
 from ..preview.end import end_preview
-from .cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from .rollback import all_or_nothing
-from .rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 
 
 def write_mesh(

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 import bpy
 
 from ..access.attributes import add_attribute, our_attributes, read_attribute, remove_attribute
+from ..access.note import read_note, write_note
 from ..access.shapes import read_shapes, write_shapes
-from ..memory.note import read_note, write_note
-from .cubic_key import remove_keys
+from ..memory.cubic_key import remove_keys
 
 
 @contextmanager

@@ -13,7 +13,7 @@ import numpy as np
 from ....solver.errors import CubicCraftError
 from ..access.attributes import our_attributes, remove_attribute
 from ..access.checks import mesh_of
-from ..memory.note import NOTE, read_note
+from ..access.note import NOTE, read_note
 from .new_object import link_beside, select_instead
 from .results import write_mesh
 

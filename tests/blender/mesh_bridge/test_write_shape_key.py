@@ -279,7 +279,7 @@ def test_refused_results_change_nothing(bridge, error, monkey, broken):
 
 
 @pytest.mark.parametrize("first", [None, "mesh", "key"])
-@pytest.mark.parametrize("failing", ["result.cubic_key.write_key", "result.cubic_key.write_note"])
+@pytest.mark.parametrize("failing", ["memory.cubic_key.write_key", "memory.cubic_key.write_note"])
 def test_failure_half_way_changes_nothing(bridge, monkey, failing, first, fail_once):
     mesh = monkey.data
     if first == "mesh":

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..access.rotations import matrices_from_quaternions
 from ..access.shapes import Shapes, carried
-from ..memory.recognition import Recognised
+from .recognition import Recognised
 
 _ROUNDING = 2.0**-24  # of float32, relative
 _MARGIN = 32.0

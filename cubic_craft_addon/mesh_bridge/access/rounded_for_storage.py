@@ -5,8 +5,8 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from ..access.rotations import quaternions_from_matrices
-from ..access.shapes import Shapes, carry
+from .rotations import quaternions_from_matrices
+from .shapes import Shapes, carry
 
 
 def rounded_for_storage(

@@ -16,10 +16,10 @@ import numpy as np
 from ..access.arrays import read_key, write_key
 from ..access.attributes import KEY, add_attribute, our_attributes, read_attribute, remove_attribute
 from ..access.checks import mesh_of
-from ..memory.affine import fit
-from ..memory.fingerprint import fingerprint_of_values
-from ..memory.note import read_note, write_note
-from ..memory.offsets import offset_sums, same_offsets
+from ..access.fingerprint import fingerprint_of_values
+from ..access.note import read_note, write_note
+from .affine import fit
+from .offsets import offset_sums, same_offsets
 
 _NAME = "Cubic"
 _BASE = f"{KEY}.base"
