@@ -3,6 +3,7 @@
 
 import bpy
 
+from . import places
 from .gestures import move_mouse, turn_wheel
 from .screen import Button, area, in_region, region
 from .waiting import wait_redraw, wait_until
@@ -49,20 +50,29 @@ def button_under_mouse(region_type="UI", area_type="VIEW_3D"):
 def find_button(target, region_type="UI", area_type="VIEW_3D"):
     """Find a button by operator id ("my_extension.run") or end of its data path ("obj.strength").
 
-    The mouse walks over the region, which is scrolled if need be. Returns a Button; raises
-    LookupError with the buttons that were met. Closed panels and pop-ups are not searched.
+    The mouse looks where it was found before, then walks over the region, which is scrolled if
+    need be. Returns a Button; raises LookupError with the buttons that were met. Closed panels and
+    pop-ups are not searched.
     """
     met = {}
+    where = region(region_type, area_type)
+    key = f"{area_type} {region_type} {where.width}x{where.height} {target}"
 
     def matches(text):
         return text.startswith(f"bpy.ops.{target}(") or f".{text}".endswith(f".{target}")
 
+    for place in places.known(key):
+        button = yield from _look_at(place, matches, region_type, area_type)
+        if button:
+            return button
     for thorough in (False, True):
         button = yield from _scan(matches, met, region_type, area_type, thorough)
         for wheel in ("WHEELUPMOUSE", "WHEELDOWNMOUSE"):
             while not button and (yield from _scroll(wheel, region_type, area_type)):
                 button = yield from _scan(matches, met, region_type, area_type, thorough)
         if button:
+            edges = button.left, button.bottom, button.right, button.top
+            places.remember(key, [*edges, _scrolled(region_type, area_type)])
             return button
     raise LookupError(f"no button {target!r}; met: {list(met)}")
 
@@ -71,6 +81,23 @@ def _hover(x, y, region_type, area_type):
     """Move the mouse and return the text of the button there."""
     yield from move_mouse((x, y))
     return button_under_mouse(region_type, area_type)
+
+
+def _look_at(place, matches, region_type, area_type):
+    """Return the Button at a place where it was before; None if it is not there, or narrower."""
+    *edges, height = place
+    button = Button("", *edges)
+    upwards = height > _scrolled(region_type, area_type)
+    wheel, sign = ("WHEELUPMOUSE", 1) if upwards else ("WHEELDOWNMOUSE", -1)
+    while sign * (height - _scrolled(region_type, area_type)) > 0:
+        if not (yield from _scroll(wheel, region_type, area_type, steps=1)):
+            return None
+    texts = []
+    for across in (0.5, 0.02, 0.98):
+        texts.append((yield from _hover(*button.at(across), region_type, area_type)))
+        if not matches(texts[-1]):
+            return None
+    return Button(texts[0], *edges)
 
 
 def _scan(matches, met, region_type, area_type, thorough):
@@ -126,11 +153,16 @@ def _measure(text, x, y, region_type, area_type):
     return Button(text, left, bottom, right, top)
 
 
-def _scroll(wheel, region_type, area_type):
+def _scrolled(region_type, area_type):
+    """Return how high up the region has been scrolled."""
+    return region(region_type, area_type).view2d.region_to_view(0, 0)[1]
+
+
+def _scroll(wheel, region_type, area_type, steps=8):
     """Turn the mouse wheel some steps; tell whether the region has scrolled."""
     place = region(region_type, area_type)
-    before = place.view2d.region_to_view(0, 0)[1]
+    before = _scrolled(region_type, area_type)
     yield from move_mouse((place.x + place.width // 2, place.y + place.height // 2))
-    yield from turn_wheel(wheel, 8)
+    yield from turn_wheel(wheel, steps)
     yield from wait_redraw()
-    return place.view2d.region_to_view(0, 0)[1] != before
+    return _scrolled(region_type, area_type) != before

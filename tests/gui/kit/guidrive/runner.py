@@ -16,6 +16,8 @@ from .waiting import counts, start_counting, wait_until
 
 python_errors = []  # tracebacks of errors that Blender caught (in draw, modal, handlers, timers)
 
+_SLEEP = 0.002  # seconds: with simulated events Blender never sleeps, and would take a whole core
+
 _start = time.monotonic()
 
 
@@ -36,8 +38,13 @@ def run(test, timeout=1740.0):
     _keep_python_errors()
     steps = _after_first_draw(test)
     deadline = time.monotonic() + timeout
+    end_of_pause = 0.0
 
     def turn():
+        nonlocal end_of_pause
+        if bpy.app.use_event_simulate and time.monotonic() < end_of_pause:
+            time.sleep(_SLEEP)
+            return 0.0
         try:
             pause = next(steps)
             if time.monotonic() > deadline:
@@ -48,7 +55,8 @@ def run(test, timeout=1740.0):
             traceback.print_exc()
             _fail(repr(error))
         else:
-            return pause or 0.0  # again in the next turn of the main loop
+            end_of_pause = time.monotonic() + (pause or 0.0)
+            return 0.0 if bpy.app.use_event_simulate else pause or 0.0  # 0: in the next turn
         return None
 
     bpy.app.timers.register(turn, persistent=True)

@@ -9,6 +9,8 @@ import bpy
 
 from .screen import area
 
+_LOOK_STEP = 0.002  # seconds between two looks; what is waited for runs in the meantime
+
 counts = collections.Counter()  # draws of the viewport's regions, and undo steps taken back
 
 
@@ -18,7 +20,7 @@ def wait_until(condition, timeout=300.0, what=None):
     while not (value := condition()):
         if time.monotonic() > deadline:
             raise TimeoutError(f"waited {timeout:g} s for {what or condition}")
-        yield
+        yield _LOOK_STEP
     return value
 
 
