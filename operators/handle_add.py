@@ -5,7 +5,9 @@ import bpy
 from bpy.props import StringProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.mesh_bridge import vertex_group
 from ..cubic_craft_addon.object_properties import object_properties
+from ..solver.errors import CubicCraftError
 from ._shared.active_handle import add_handle, poll_mesh
 from ._shared.selection import report_all
 
@@ -40,14 +42,15 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
         """Add the handle, pinned."""
         obj = panel_object(context)
         held = {handle.group for handle in object_properties(obj).handles}
-        groups = [group.name for group in obj.vertex_groups]
         if not self.group:
-            candidates = [obj.vertex_groups.active.name, *groups]
+            candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
             self.group = next((name for name in candidates if name not in held), "")
             if not self.group:
                 return report_all(self, "", ["Every vertex group has a handle already"])
-        if self.group not in groups:
-            return report_all(self, "", [f'"{obj.name}" has no vertex group "{self.group}"'])
+        try:
+            vertex_group(obj, self.group)
+        except CubicCraftError as error:
+            return report_all(self, "", [str(error)])
         if self.group in held:
             return report_all(self, "", [f'"{self.group}" has a handle already'])
         add_handle(obj, self.group)

@@ -21,6 +21,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
+from ..mesh_bridge import vertex_group
 from ..object_properties import has_properties, object_properties
 from .handle import IDENTITY, Handle
 from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
@@ -137,11 +138,7 @@ def _group(obj, number, handle):
         raise CubicCraftError(
             f'handle {number} of "{obj.name}" has no vertex group; pick one or remove the handle'
         )
-    if handle.group not in obj.vertex_groups:
-        raise CubicCraftError(
-            f'"{obj.name}" has no vertex group "{handle.group}"; pick another one'
-        )
-    return handle.group
+    return vertex_group(obj, handle.group).name
 
 
 def _matrix(obj, handle, pose):

@@ -160,12 +160,11 @@ def _problem(context, obj):
         check_requirements()
         mesh_bridge.check_usable(obj)
         object_handles(obj)
+        properties = object_properties(obj)
+        if properties.map_group:
+            mesh_bridge.vertex_group(obj, properties.map_group)
     except CubicCraftError as error:
         return str(error)
-    properties = object_properties(obj)
-    group = properties.map_group
-    if group and group not in obj.vertex_groups:
-        return f'"{obj.name}" has no vertex group "{group}"; pick another one'
     if properties.space == "FRAME" and properties.frame is None:
         return "No frame object is set; pick one or choose another space"
     return ""

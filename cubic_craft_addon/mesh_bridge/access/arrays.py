@@ -24,7 +24,7 @@ def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
         The mesh is in Edit Mode, where the attribute does not exist.
     """
     if mesh.is_editmode:
-        raise CubicCraftError(f"Mesh '{mesh.name}' is in Edit Mode: go back to Object Mode first")
+        raise CubicCraftError(f'Mesh "{mesh.name}" is in Edit Mode: go back to Object Mode first')
     flat = np.empty(3 * len(mesh.vertices), np.float32)
     if len(flat):  # a mesh without vertices may have no such attribute
         _position_of(mesh).data.foreach_get("vector", flat)
@@ -65,7 +65,7 @@ def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     """
     if len(key.points) != len(mesh.vertices):
         raise CubicCraftError(
-            f"Shape key '{key.name}' of mesh '{mesh.name}' has {len(key.points)} points for "
+            f'Shape key "{key.name}" of mesh "{mesh.name}" has {len(key.points)} points for '
             f"{len(mesh.vertices)} vertices: delete the shape key first"
         )
 

@@ -58,7 +58,7 @@ def check_names(mesh: bpy.types.Mesh) -> None:
     for attribute in mesh.attributes:
         if is_our_name(attribute.name) and not _is_ours(attribute):
             raise CubicCraftError(
-                f"Mesh '{mesh.name}' has an attribute '{attribute.name}' that is not CubicCraft's "
+                f'Mesh "{mesh.name}" has an attribute "{attribute.name}" that is not CubicCraft\'s '
                 "own: rename or remove it first (Object Data > UV Maps, Color Attributes or "
                 "Attributes)"
             )

@@ -36,15 +36,15 @@ def check_usable(obj: bpy.types.Object) -> None:
     check_writable(mesh, obj.name)
     if obj.mode == "SCULPT":
         # Sculpt Mode keeps its own copy of what it edits.
-        raise CubicCraftError(f"'{obj.name}' is in Sculpt Mode: go back to Object Mode first")
+        raise CubicCraftError(f'"{obj.name}" is in Sculpt Mode: go back to Object Mode first')
     if obj.users_scene and not obj.visible_get():  # one in no scene is ours, see `make_seen`
-        raise CubicCraftError(f"'{obj.name}' is hidden: show it and its collection first")
+        raise CubicCraftError(f'"{obj.name}" is hidden: show it and its collection first')
     if len(mesh.vertices) < 3:
         raise CubicCraftError(
-            f"'{obj.name}' has fewer than 3 vertices: add geometry with faces first"
+            f'"{obj.name}" has fewer than 3 vertices: add geometry with faces first'
         )
     if not mesh.polygons:
-        raise CubicCraftError(f"'{obj.name}' has no faces: fill some in Edit Mode first")
+        raise CubicCraftError(f'"{obj.name}" has no faces: fill some in Edit Mode first')
     for key in mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ():
         check_fits(mesh, key)
     check_note(mesh)
@@ -61,7 +61,7 @@ def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
     """
     if not isinstance(obj.data, bpy.types.Mesh):
         raise CubicCraftError(
-            f"'{obj.name}' is not a mesh: select a mesh or convert it (Object > Convert > Mesh)"
+            f'"{obj.name}" is not a mesh: select a mesh or convert it (Object > Convert > Mesh)'
         )
     return obj.data
 
@@ -78,11 +78,11 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     """
     if is_linked(mesh):
         raise CubicCraftError(
-            f"'{name}' has mesh data linked from another file: make it local first "
+            f'"{name}" has mesh data linked from another file: make it local first '
             "(Object > Relations > Make Local)"
         )
     if mesh.is_editmode:
-        raise CubicCraftError(f"'{name}' is in Edit Mode: go back to Object Mode first")
+        raise CubicCraftError(f'"{name}" is in Edit Mode: go back to Object Mode first')
 
 
 def is_linked(mesh: bpy.types.Mesh) -> bool:
@@ -101,12 +101,12 @@ def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
     shapes = {"": read_position(mesh)}
     if mesh.shape_keys is not None:
         shapes |= {
-            f" in shape key '{key.name}'": read_key(mesh, key) for key in mesh.shape_keys.key_blocks
+            f' in shape key "{key.name}"': read_key(mesh, key) for key in mesh.shape_keys.key_blocks
         }
     for where, positions in shapes.items():
         broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
         if len(broken):
             raise CubicCraftError(
-                f"'{name}' has coordinates that are not finite{where} (vertex {broken[0]}, "
+                f'"{name}" has coordinates that are not finite{where} (vertex {broken[0]}, '
                 f"the first of {len(broken)}): delete those vertices in Edit Mode first"
             )

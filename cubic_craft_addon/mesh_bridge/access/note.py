@@ -87,7 +87,7 @@ def check_note(mesh: bpy.types.Mesh) -> None:
     """
     if NOTE in mesh and not read_note(mesh):
         raise CubicCraftError(
-            f"Mesh '{mesh.name}' has a custom property '{NOTE}' that is not CubicCraft's own: "
+            f'Mesh "{mesh.name}" has a custom property "{NOTE}" that is not CubicCraft\'s own: '
             "rename or remove it first (Object Data > Custom Properties)"
         )
 

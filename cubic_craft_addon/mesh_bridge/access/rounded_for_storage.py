@@ -79,7 +79,7 @@ def carry_finite(
     """
     carried = carry(original, base, rotations)
     for name, points in carried.keys.items():
-        check_shape(mesh, points, base.shape, f"shape key '{name}'")
+        check_shape(mesh, points, base.shape, f'shape key "{name}"')
     return carried
 
 
@@ -93,11 +93,11 @@ def check_shape(mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...],
     """
     if np.shape(array) != shape:
         raise CubicCraftError(
-            f"The result does not fit mesh '{mesh.name}': its {what} have the shape "
+            f'The result does not fit mesh "{mesh.name}": its {what} have the shape '
             f"{np.shape(array)} instead of {shape}; cubify it again"
         )
     if not np.isfinite(array).all():
         raise CubicCraftError(
-            f"The result for mesh '{mesh.name}' is not finite in its {what}: nothing was written; "
+            f'The result for mesh "{mesh.name}" is not finite in its {what}: nothing was written; '
             "try a smaller cubeness, or clean up degenerate faces (Mesh > Clean Up)"
         )

@@ -244,7 +244,7 @@ def _finite(positions: np.ndarray, mesh: bpy.types.Mesh) -> np.ndarray:
     """Pass positions on that are finite."""
     if not np.isfinite(positions).all():
         raise CubicCraftError(
-            f"Mesh '{mesh.name}' has coordinates that are not finite: "
+            f'Mesh "{mesh.name}" has coordinates that are not finite: '
             "delete those vertices in Edit Mode first"
         )
     return positions

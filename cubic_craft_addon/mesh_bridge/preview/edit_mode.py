@@ -38,7 +38,7 @@ class EditedMesh:
         if not self._names:
             return assembled(self._mesh, self._co, {})
         if len(self._layers) != len(self._names):
-            raise CubicCraftError(f"Mesh '{self._mesh.name}' has shape keys without layers")
+            raise CubicCraftError(f'Mesh "{self._mesh.name}" has shape keys without layers')
         keys = dict(zip(self._names, self._points, strict=True))
         keys[self._names[self._active]] = self._co
         return assembled(self._mesh, keys[self._mesh.shape_keys.reference_key.name], keys)

@@ -151,7 +151,7 @@ class Preview:
             or _key_names(mesh) != self._keys
         ):
             raise CubicCraftError(
-                f"Mesh '{mesh.name}' has changed while a preview was on it: start again"
+                f'Mesh "{mesh.name}" has changed while a preview was on it: start again'
             )
         return part
 

@@ -32,10 +32,10 @@ def restore(obj: bpy.types.Object) -> None:
         if has_traces(mesh):
             how = " so that its original cannot be told any more" if has_stored(mesh) else ""
             raise CubicCraftError(
-                f"'{obj.name}' has been edited since it was cubified{how}, and its present shape "
+                f'"{obj.name}" has been edited since it was cubified{how}, and its present shape '
                 "is the original now: Apply removes what is left of the former one"
             )
-        raise CubicCraftError(f"'{obj.name}' has no original to restore: cubify it first")
+        raise CubicCraftError(f'"{obj.name}" has no original to restore: cubify it first')
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, "ORIGINAL")
     with all_or_nothing(mesh):
