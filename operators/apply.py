@@ -15,7 +15,7 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
 
     bl_idname = "cubic_craft.apply"
     bl_label = "Apply"
-    bl_description = "Keep the cubic shape for good and forget the original one"
+    bl_description = "Keep the cubic shape permanently and discard the original"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

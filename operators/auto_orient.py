@@ -21,8 +21,8 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
     bl_idname = "cubic_craft.auto_orient"
     bl_label = "Auto Orient"
     bl_description = (
-        "Turn the cube of each selected mesh so that as much of its original surface as possible"
-        " faces a side of the cube"
+        "Rotate the cube of each selected mesh so that as much of its original surface as possible"
+        " faces a side"
     )
     bl_options = {"REGISTER", "UNDO"}
 

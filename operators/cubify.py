@@ -40,25 +40,26 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     bl_idname = "cubic_craft.cubify"
     bl_label = "Cubify"
     bl_description = (
-        "Turn the selected meshes into cubic sculptures, with the settings of the active one."
-        " Each starts from its original shape"
+        "Turn the selected meshes into cubic sculptures, with the settings of the active one. Each"
+        " mesh starts from its original shape"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     frame: StringProperty(
         name="Frame",
-        description="Name of the object whose axes are those of the cube",
+        description="Name of the object whose axes the cube uses",
         options={"SKIP_SAVE"},
     )
     handles: CollectionProperty(
         name="Handles",
-        description="Handles in place of those of the objects",
+        description="Handles to use instead of those of the objects",
         type=CubicCraftGivenHandle,
         options={"SKIP_SAVE"},
     )
 
     is_edited: BoolProperty(
-        description="The mesh was edited before this run: the redo panel offers what to start from",
+        description="The mesh was edited before this run, so Adjust Last Operation offers what to"
+        " start from",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -71,7 +72,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         if not changes:
             return cls.bl_description
         return (
-            "Make the selected meshes cubic once more, with the settings as they are now."
+            "Update the selected meshes with the current settings."
             f" Changed since the last run: {', '.join(changes)}"
         )
 

@@ -11,7 +11,7 @@ class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
 
     bl_idname = "cubic_craft.cubify_cancel"
     bl_label = "Cancel Cubify"
-    bl_description = "End Cubify, which has changed nothing yet (Esc)"
+    bl_description = "Cancel Cubify, which has not changed anything yet (Esc)"
     bl_options = {"INTERNAL"}
 
     @classmethod

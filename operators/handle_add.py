@@ -18,13 +18,13 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_add"
     bl_label = "Add Handle"
     bl_description = (
-        "Hold the vertices of a vertex group: of the active one, or the first that is not held yet"
+        "Hold the vertices of the active vertex group, or of the first group that is not held yet"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     group: StringProperty(
         name="Vertex Group",
-        description="Vertex group that is to be held; empty for the active one",
+        description="Vertex group to hold; empty for the active one",
         options={"SKIP_SAVE"},
     )
 
@@ -46,12 +46,12 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
             candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
             self.group = next((name for name in candidates if name not in held), "")
             if not self.group:
-                return report_all(self, "", ["Every vertex group has a handle already"])
+                return report_all(self, "", ["Every vertex group already has a handle"])
         try:
             vertex_group(obj, self.group)
         except CubicCraftError as error:
             return report_all(self, "", [str(error)])
         if self.group in held:
-            return report_all(self, "", [f'"{self.group}" has a handle already'])
+            return report_all(self, "", [f'"{self.group}" already has a handle'])
         add_handle(obj, self.group)
         return report_all(self, f'Added a handle for "{self.group}"', [])

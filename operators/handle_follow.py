@@ -22,8 +22,8 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_follow"
     bl_label = "Follow an Empty"
     bl_description = (
-        "Make an empty at the centre of the handle's vertices, and select it. Move, turn or scale"
-        " it, and the next Cubify takes the vertices along and bends the rest"
+        "Add an empty at the center of the handle's vertices and select it. When you move, rotate"
+        " or scale it, the next Cubify moves the vertices along and bends the rest"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -34,7 +34,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
             return False
         target = live_target(active_handle(panel_object(context)))
         if target is not None:
-            cls.poll_message_set(f'The handle follows "{target.name}" already')
+            cls.poll_message_set(f'The handle already follows "{target.name}"')
             return False
         return True
 

@@ -21,7 +21,8 @@ class CUBIC_CRAFT_OT_handle_pin_selection(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_pin_selection"
     bl_label = "Pin Selection"
     bl_description = (
-        "Hold the vertices that are selected in Edit Mode: they become a vertex group with a handle"
+        "Hold the vertices that are selected in Edit Mode by making them a vertex group with a"
+        " handle"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -18,8 +18,8 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_reset_pose"
     bl_label = "Reset Pose"
     bl_description = (
-        "Put the handles, and the objects that they follow, back to where they were at the"
-        " beginning; the next Cubify then leaves the vertices of the handles in place"
+        "Return the handles, and the objects they follow, to their initial positions; the next"
+        " Cubify then leaves the vertices of the handles in place"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -21,8 +21,8 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
     bl_idname = "cubic_craft.live"
     bl_label = "Live"
     bl_description = (
-        "Watch the selected meshes become cubic while you change the settings. Enter, or this"
-        " button again, confirms; Esc or right click cancels"
+        "Watch the selected meshes become cubic while you change the settings. Enter or this"
+        " button confirms; Esc or right click cancels"
     )
     bl_options = {"UNDO"}
 
@@ -35,7 +35,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
 
     def execute(self, context):
         """Refuse: without a window nothing can be watched."""
-        self.report({"ERROR"}, "Live needs a window to be watched in; use Cubify")
+        self.report({"ERROR"}, "Live needs a window; use Cubify instead")
         return {"CANCELLED"}
 
     def invoke(self, context, event):
@@ -105,7 +105,7 @@ class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
 
     bl_idname = "cubic_craft.live_cancel"
     bl_label = "Cancel Live"
-    bl_description = "End Live and give the meshes the shape back that they had before"
+    bl_description = "End Live and restore the previous shape of the meshes"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -126,7 +126,7 @@ def _poll_without_modifiers(operator_class, context):
     if properties.result != "NEW_OBJECT" or not properties.with_modifiers:
         return True
     operator_class.poll_message_set(
-        "Live shows the mesh without its modifiers: switch With Modifiers off first"
+        "Live shows the mesh without its modifiers; disable With Modifiers first"
     )
     return False
 

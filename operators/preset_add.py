@@ -16,14 +16,14 @@ class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
     bl_idname = "cubic_craft.preset_add"
     bl_label = "Save Preset"
     bl_description = (
-        "Keep the present look under a name, for all files: cubeness, solidity, and what holds"
-        " together. A preset of yours that has the name already is replaced"
+        "Save the current look under a name, for all files: cubeness, solidity, and what holds"
+        " together. This replaces a preset of yours with the same name"
     )
     bl_options = {"INTERNAL"}
 
     name: StringProperty(
         name="Name",
-        description="What to call it",
+        description="Name of the preset",
         default="My Look",
         maxlen=64,
         options={"SKIP_SAVE"},

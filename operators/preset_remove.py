@@ -15,7 +15,7 @@ class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
 
     bl_idname = "cubic_craft.preset_remove"
     bl_label = "Remove Preset"
-    bl_description = "Delete the preset that is shown, for all files; the settings stay"
+    bl_description = "Delete the current preset, for all files; the settings do not change"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -25,7 +25,9 @@ class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
             return False
         preset = preset_of(live.shared_properties(panel_mesh(context)))
         if preset is None or preset.is_own:
-            cls.poll_message_set("Choose a preset of your own first; ours stay")
+            cls.poll_message_set(
+                "Choose one of your own presets first; included presets cannot be removed"
+            )
             return False
         return True
 

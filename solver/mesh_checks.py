@@ -40,7 +40,7 @@ def check_mesh(V, F):
         raise CubicCraftError(f"triangles must be integers, not {F.dtype}")
     if F.min() < 0 or F.max() >= len(V):
         raise CubicCraftError(
-            f"triangles name the vertices {F.min()} to {F.max()}, but there are only {len(V)}"
+            f"triangles refer to vertices {F.min()} to {F.max()}, but there are only {len(V)}"
         )
     bad = np.flatnonzero(~np.isfinite(V).all(axis=1))
     if len(bad):

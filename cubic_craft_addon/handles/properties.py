@@ -20,7 +20,7 @@ from .handle import THRESHOLD
 
 _MODES = (
     ("PINNED", "Pinned", "The vertices stay exactly in place", "PINNED", 0),
-    ("FOLLOW", "Follow", "The vertices go along with an object", "EMPTY_AXIS", 1),
+    ("FOLLOW", "Follow", "The vertices follow an object", "EMPTY_AXIS", 1),
 )
 _IDENTITY = tuple(tuple(row) for row in np.eye(4).tolist())
 _MATRIX: Any = {"size": (4, 4), "subtype": "MATRIX", "default": _IDENTITY}
@@ -38,7 +38,7 @@ class _MemberProperties:
 
     threshold: FloatProperty(
         name="Threshold",
-        description="Least weight in the vertex group that makes a vertex part of the handle",
+        description="Minimum weight in the vertex group that makes a vertex part of the handle",
         default=THRESHOLD,
         min=0.0,
         max=1.0,
@@ -50,36 +50,37 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
 
     group: StringProperty(
         name="Vertex Group",
-        description="Vertex group that is held",
+        description="Vertex group to hold",
     )
     mode: EnumProperty(
         name="Mode",
-        description="Whether the vertices stay in place or go along with an object",
+        description="Whether the vertices stay in place or follow an object",
         items=_MODES,
         default="PINNED",
     )
     is_cubic: BoolProperty(
         name="Becomes Cubic",
-        description="The part keeps its place and rotation as a whole, or goes where it is moved,"
-        " while its surface becomes cubic. Off: its vertices are held exactly",
+        description="Hold or move only the position and rotation of the part as a whole, while its"
+        " surface becomes cubic. When off, its vertices are held exactly",
     )
     target: PointerProperty(
         name="Target",
-        description="Object that the vertices go along with when it is moved, turned or scaled"
-        " from where it is when it is picked",
+        description="Object that the vertices follow when you move, rotate or scale it, starting"
+        " from its transform when you pick it",
         type=bpy.types.Object,
         poll=lambda handle, obj: obj != handle.id_data,
         update=_bind_target,
     )
     rest: FloatVectorProperty(
         name="Rest",
-        description="Matrix of the target, relative to the object, at which nothing moves",
+        description="Matrix of the target, relative to the object, at which the vertices do not"
+        " move",
         **_MATRIX,
     )
     pose: FloatVectorProperty(
         name="Pose",
-        description="Matrix in object space by which the vertices are moved, before what they"
-        " follow moves them on (a mathutils.Matrix)",
+        description="Matrix in object space that moves the vertices, before the target moves them"
+        " further (a mathutils.Matrix)",
         **_MATRIX,
     )
     baked: FloatVectorProperty(
@@ -102,7 +103,7 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
     )
     uid: IntProperty(
         name="Number",
-        description="What tells the handle from the others of its object, 0 as long as none asked",
+        description="Unique number of the handle on its object, or 0 if not assigned yet",
     )
 
 

@@ -19,4 +19,4 @@ def unregister():
     """End what runs."""
     running = current()
     if running is not None:
-        running.cancel("CubicCraft was switched off")
+        running.cancel("CubicCraft was disabled")

@@ -131,7 +131,7 @@ class Job:
                 if task.is_seen:
                     task.obj.name  # noqa: B018 - raises where Blender has removed it
                 elif task.obj.data != task.mesh or not task.obj.users_scene:
-                    return "an object was deleted, or has got another mesh"
+                    return "an object was deleted or assigned another mesh"
                 if task.obj.mode not in _MODES:
                     return f'"{task.obj.name}" is being edited'
             except ReferenceError:

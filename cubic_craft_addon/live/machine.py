@@ -92,8 +92,8 @@ _ENDINGS = {
 }
 
 _FAREWELLS = {
-    Event.NOTHING_LEFT: "Live has ended: there was no change left to take back, and the shape is as"
-    " before Live",
+    Event.NOTHING_LEFT: "Live has ended because there was nothing left to undo, and the shape is"
+    " as before Live",
     Event.MODE_LEFT: "Live has ended because the mode was changed, and the shape is as before Live",
     Event.LOST: "Live has ended because its object is gone from the scene",
 }

@@ -41,7 +41,7 @@ class CubicCraftLiveProperties(bpy.types.PropertyGroup):
         # By name: a pointer on the window manager would outlive the objects at an undo.
         _FRAME: StringProperty(
             name="Frame",
-            description="Name of the object whose axes are those of the cube",
+            description="Name of the object whose axes the cube uses",
             update=wake.on_property,
         ),
         "preset": preset_property(),

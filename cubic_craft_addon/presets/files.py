@@ -107,7 +107,7 @@ def save(name: str, properties: Any) -> Path:
         raise CubicCraftError("a preset needs a name")
     taken = {preset.identifier.lower() for preset in presets() if preset.is_own}
     if stem.lower() in taken:
-        raise CubicCraftError(f'"{name}" comes with CubicCraft; choose another name')
+        raise CubicCraftError(f'"{name}" is included with CubicCraft; choose another name')
     lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
     folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"
@@ -128,7 +128,7 @@ def remove(preset: Preset) -> None:
         It is one of ours, or cannot be deleted.
     """
     if preset.is_own:
-        raise CubicCraftError(f'"{preset.name}" comes with CubicCraft and stays')
+        raise CubicCraftError(f'"{preset.name}" is included with CubicCraft and cannot be removed')
     try:
         preset.path.unlink()
         preset.picture.unlink(missing_ok=True)

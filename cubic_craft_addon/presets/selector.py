@@ -21,7 +21,7 @@ def preset_property() -> Any:
     """Return the declaration of the property, for a group that has the settings."""
     return EnumProperty(
         name="Preset",
-        description="A look: how cubic, how solid, and what holds together",
+        description="Look of the result: how cubic, how solid, and what holds together",
         items=_items_of,
         get=_get,
         set=_set,
@@ -68,7 +68,7 @@ def _items_of(properties, _context) -> Any:
         for number, preset in enumerate(presets())
     ]
     if properties is None or preset_of(properties) is None:
-        about = "Settings that are no preset"
+        about = "Settings that match no preset"
         shown.append(_item(CUSTOM, CUSTOM_NAME, about, icon_of(None), len(shown)))
     return shown
 

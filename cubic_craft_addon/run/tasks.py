@@ -119,11 +119,11 @@ def plan(
 
 def _in_one_mesh(twin, names):
     """Say that objects have the shape of another: in one sentence, for there may be hundreds."""
-    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and has taken its shape;'
+    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and now has its shape;'
     if len(names) == 1:
-        return f"{shares} make it single-user for a shape of its own"
+        return f"{shares} make it single-user to give it its own shape"
     others = "another object" if len(names) == 2 else f"{len(names) - 1} others"
-    return f"{shares} so have {others}; make them single-user for shapes of their own"
+    return f"{shares} so do {others}; make them single-user to give them their own shapes"
 
 
 def key_of(tasks: Sequence[Task]) -> tuple:
@@ -194,7 +194,7 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     except UNEXPECTED as error:
         _log.exception("Writing a result failed")  # this object has been put back
         reason = in_words(error)
-        problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
+        problems.append(f"Writing failed ({reason}); meshes that were not written are unchanged")
     if written == 1:
         return f"Cubified: {runs[0].status}", problems
     if written:

@@ -76,7 +76,7 @@ def draw(layout, obj):
     if properties.active_handle < len(handles):
         _draw_active(layout, obj, handles[properties.active_handle])
     if len(handles) > 1:
-        layout.label(text="Where they overlap, the first counts", icon="INFO")
+        layout.label(text="Where they overlap, the first wins", icon="INFO")
     layout.prop(live.shared_properties(obj), "hold_rest")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 

@@ -89,8 +89,8 @@ def register():
     global _handle
     switch = BoolProperty(
         name="Show Cube",
-        description="Draw the cube that the active mesh is turned toward in the viewport, also"
-        " while it is not being turned",
+        description="Draw the cube of the active mesh in the viewport, even while it is not being"
+        " rotated",
         update=_redraw,
     )
     setattr(bpy.types.WindowManager, PROPERTY, switch)

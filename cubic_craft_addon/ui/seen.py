@@ -31,7 +31,7 @@ def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     if is_asked_for or live.current() or job.current() or not _that_matter(obj):
         return
     box = layout.box()
-    box.label(text="Modifiers are not seen", icon="INFO")
+    box.label(text="Modifiers are ignored", icon="INFO")
     _draw_button(box, "Cubify What You See")
 
 

@@ -19,7 +19,7 @@ def poll_originals(operator_class, context):
     """
     objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_traces(obj.data)]
     if not objects:
-        operator_class.poll_message_set("The mesh has its original shape; Cubify it first")
+        operator_class.poll_message_set("The mesh has its original shape; cubify it first")
         return False
     return poll_any_usable(operator_class, objects)
 

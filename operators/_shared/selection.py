@@ -31,7 +31,7 @@ def poll_idle(operator_class):
     """Return whether no Cubify runs, which what is done to its meshes would make worthless."""
     if job.current() is None:
         return True
-    operator_class.poll_message_set("Cubify is running; cancel it by Esc")
+    operator_class.poll_message_set("Cubify is running; press Esc to cancel it")
     return False
 
 

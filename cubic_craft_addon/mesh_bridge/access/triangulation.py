@@ -33,7 +33,7 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     wrong = corners[(corners < 0) | (corners >= len(positions))]
     if len(wrong):
         raise CubicCraftError(
-            f'A face of mesh "{mesh.name}" names vertex {wrong[0]}, but there are only'
+            f'A face of mesh "{mesh.name}" refers to vertex {wrong[0]}, but there are only'
             f" {len(positions)}: repair it (mesh.validate() in the Python console) or import it"
             " again"
         )

@@ -30,10 +30,10 @@ def restore(obj: bpy.types.Object) -> None:
     end_preview(mesh)
     if not has_original(mesh):
         if has_traces(mesh):
-            how = " so that its original cannot be told any more" if has_stored(mesh) else ""
+            how = " so that its original can no longer be determined" if has_stored(mesh) else ""
             raise CubicCraftError(
-                f'"{obj.name}" has been edited since it was cubified{how}, and its present shape '
-                "is the original now: Apply removes what is left of the former one"
+                f'"{obj.name}" has been edited since it was cubified{how}, and its current shape '
+                "is now the original: Apply removes the remains of the previous one"
             )
         raise CubicCraftError(f'"{obj.name}" has no original to restore: cubify it first')
     cubic_key = find_cubic_key(mesh)

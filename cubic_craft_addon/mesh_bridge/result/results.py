@@ -89,7 +89,7 @@ def write_shape_key(
     check_writable(mesh, obj.name)
     if mesh.shape_keys is not None and not mesh.shape_keys.use_relative:
         raise CubicCraftError(
-            f'"{obj.name}" has absolute shape keys, among which a key cannot be dialled: switch on '
+            f'"{obj.name}" has absolute shape keys, which have no value to adjust: enable '
             "Relative (Object Data > Shape Keys) or choose another result"
         )
     end_preview(mesh)

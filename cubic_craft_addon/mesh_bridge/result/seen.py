@@ -40,7 +40,7 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
             obj.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
         )
     except RuntimeError as error:
-        raise CubicCraftError(f'"{obj.name}" is not seen as a mesh') from error
+        raise CubicCraftError(f'"{obj.name}" cannot be evaluated as a mesh') from error
     if not mesh.polygons:
         bpy.data.meshes.remove(mesh)
         raise CubicCraftError(

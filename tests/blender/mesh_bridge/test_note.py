@@ -132,7 +132,7 @@ def test_stale(bridge, error, plain_monkey, edit):
     shape = position_of(mesh).tobytes()
     assert bridge.has_traces(mesh) and not bridge.has_original(mesh)
     assert bridge.original_positions(mesh).tobytes() == shape
-    with pytest.raises(error, match=r'"Suzanne" has been edited since .* original now: Apply'):
+    with pytest.raises(error, match=r'"Suzanne" has been edited since .* now the original: Apply'):
         bridge.restore(plain_monkey)
     assert differences(before, snapshot_object(plain_monkey)) == []
     bridge.discard_original(mesh)
