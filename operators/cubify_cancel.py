@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel Cubify, for those who look for a button."""
+"""Cancel Cubify with a button."""
 
 import bpy
 
@@ -7,7 +7,7 @@ from ..cubic_craft_addon import job
 
 
 class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
-    """End the Cubify that runs, as Esc does."""
+    """Cancel the running Cubify, like Esc."""
 
     bl_idname = "cubic_craft.cubify_cancel"
     bl_label = "Cancel Cubify"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add a handle: a vertex group of the mesh is held."""
+"""Add a handle that holds a vertex group of the mesh."""
 
 import bpy
 from bpy.props import StringProperty

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Move a handle up or down the list: where handles overlap, the first counts."""
+"""Move a handle in the list: where handles overlap, the first takes precedence."""
 
 import bpy
 from bpy.props import EnumProperty

@@ -9,7 +9,7 @@ from ._shared.active_handle import active_handle, poll_handle
 
 
 class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
-    """Let go of the vertices of the active handle."""
+    """Release the vertices of the active handle."""
 
     bl_idname = "cubic_craft.handle_remove"
     bl_label = "Remove Handle"

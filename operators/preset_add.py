@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Save Preset: keep the present look under a name."""
+"""Save Preset: save the current look under a name."""
 
 import bpy
 from bpy.props import StringProperty
@@ -11,7 +11,7 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
-    """Keep the look that the panel shows as a preset, for all files."""
+    """Save the look that the panel shows as a preset, for all files."""
 
     bl_idname = "cubic_craft.preset_add"
     bl_label = "Save Preset"
@@ -43,6 +43,6 @@ class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
         """Write the file."""
         properties = shared_properties(panel_mesh(context))
         path = files.save(self.name, properties)
-        properties.preset = path.stem  # of several that are alike, this one is shown
+        properties.preset = path.stem  # among presets with equal settings, this one is shown
         self.report({"INFO"}, f'Saved "{files.find(path.stem).name}"')
         return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Remove Preset: delete the preset that is shown."""
+"""Remove Preset: delete the current preset."""
 
 import bpy
 
@@ -11,7 +11,7 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
-    """Delete the preset that the panel shows; the settings stay."""
+    """Delete the preset that the panel shows; the settings do not change."""
 
     bl_idname = "cubic_craft.preset_remove"
     bl_label = "Remove Preset"

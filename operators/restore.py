@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Restore: the selected meshes get their original shape back, to the bit."""
+"""Restore: return the selected meshes to their original shape, bit for bit."""
 
 import bpy
 
@@ -11,7 +11,7 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
-    """Give the selected meshes their original shape back."""
+    """Return the selected meshes to their original shape."""
 
     bl_idname = "cubic_craft.restore"
     bl_label = "Restore"

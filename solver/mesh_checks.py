@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refuse what cannot be solved, before anything is computed."""
+"""Refuse input that cannot be solved, before anything is computed."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from .errors import CubicCraftError
 
 
 def check_mesh(V, F):
-    """Return the mesh as contiguous arrays, or say what is wrong with it.
+    """Return the mesh as contiguous arrays, or raise an error that says what is wrong with it.
 
     Parameters
     ----------

@@ -27,14 +27,14 @@ _MATRIX: Any = {"size": (4, 4), "subtype": "MATRIX", "default": _IDENTITY}
 
 
 def _bind_target(handle, _context):
-    """Take the place that the target has now as the one in which nothing moves."""
+    """Make the current transform of the target the one in which nothing moves."""
     if handle.target is not None:
         handle.mode = "FOLLOW"
         pose.bind(handle.id_data, handle)
 
 
 class _MemberProperties:
-    """Mixin of what an object's handle and an operator's have in common."""
+    """Mixin of the properties that an object's and an operator's handles share."""
 
     threshold: FloatProperty(
         name="Threshold",
@@ -46,7 +46,7 @@ class _MemberProperties:
 
 
 class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
-    """A handle of an object: a vertex group that is held, or goes along with another object."""
+    """A handle of an object: a vertex group that is held or follows another object."""
 
     group: StringProperty(
         name="Vertex Group",
@@ -110,7 +110,7 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
 class CubicCraftGivenHandle(_MemberProperties, bpy.types.PropertyGroup):
     """A handle that is given to Cubify by a script; its name is that of the vertex group.
 
-    Blender wants all three in each dictionary: "name", "threshold" and "matrix".
+    Blender requires all three in each dictionary: "name", "threshold" and "matrix".
     """
 
     matrix: FloatVectorProperty(

@@ -77,7 +77,7 @@ _DEVICES = (
 
 
 def _status(properties):
-    """Say it of the mesh, which other objects may show, too."""
+    """Return the status of the mesh, which several objects may share."""
     run = last_run(properties.id_data)
     return run.status if run else ""
 
@@ -90,10 +90,10 @@ _OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
 
 
 class StartProperty:
-    """Mixin of what the operator and the object share, but Live and presets have not.
+    """Mixin of the property that the operator and the object share, but not Live and presets.
 
-    Each object keeps its own, for one run: on a mesh that is edited once more, a click is to lose
-    nothing that was not asked for.
+    Each object keeps its own for one run: on a mesh that is edited again, a click must not discard
+    anything without being asked to.
     """
 
     start: EnumProperty(
@@ -293,7 +293,7 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
 def value_of(properties: Any, name: str) -> Any:
     """Return a property of a property group, or of an operator, as a plain value.
 
-    An enum that holds a number which has no item any more, from an older file, is at its default.
+    An enum with a number that no longer has an item, from an older file, has its default.
     """
     value = getattr(properties, name)
     if value == "" and isinstance(getattr(Settings, name, None), str):
@@ -308,7 +308,7 @@ def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None
     ----------
     obj
     handles : tuple of Handle, optional
-        In place of the object's own.
+        Instead of the object's own.
 
     Raises
     ------

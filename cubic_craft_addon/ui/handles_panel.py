@@ -43,7 +43,7 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
 
 def draw_switch(layout, obj):
-    """Draw the switch of all handles, which stands in the header of the section."""
+    """Draw the switch for all handles in the header of the section."""
     layout.use_property_split = False
     layout.prop(live.own_properties(obj), "use_handles", text="")
 

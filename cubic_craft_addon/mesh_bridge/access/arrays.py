@@ -47,7 +47,7 @@ def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        The key does not fit the mesh, as scripts may leave it.
+        The key does not fit the mesh, which scripts may cause.
     """
     check_fits(mesh, key)
     flat = np.empty(3 * len(key.points), np.float32)
@@ -61,7 +61,7 @@ def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     Raises
     ------
     CubicCraftError
-        It has not, as scripts may leave it.
+        It does not fit, which scripts may cause.
     """
     if len(key.points) != len(mesh.vertices):
         raise CubicCraftError(
@@ -76,11 +76,11 @@ def write_key(key: bpy.types.ShapeKey, positions: np.ndarray) -> None:
 
 
 def mark_moved(mesh: bpy.types.Mesh) -> None:
-    """Tell Blender that positions of the mesh have changed.
+    """Notify Blender that positions of the mesh have changed.
 
-    ``foreach_set`` tells nobody, and ``mesh.update()`` would leave the cached triangulation and
-    bounding box of the old shape behind. Setting one single coordinate drops all caches, tags the
-    mesh for evaluation and redraws; that it is set to what it is makes no difference.
+    ``foreach_set`` notifies nobody, and ``mesh.update()`` would keep the cached triangulation and
+    bounding box of the old shape. Setting a single coordinate, even to the same value, drops all
+    caches, tags the mesh for evaluation and redraws.
     """
     if mesh.vertices:
         first = mesh.vertices[0]
@@ -111,7 +111,7 @@ def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _position_of(mesh: bpy.types.Mesh) -> bpy.types.FloatVectorAttribute:
-    """Look the ``position`` attribute up."""
+    """Look up the ``position`` attribute."""
     attribute = mesh.attributes["position"]
     assert isinstance(attribute, bpy.types.FloatVectorAttribute)
     return attribute

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects can be cubified at all: refusals that name the object and the cure."""
+"""Checks whether objects can be cubified: refusals that name the object and the remedy."""
 
 import bpy
 import numpy as np
@@ -23,13 +23,13 @@ def check_editable(obj: bpy.types.Object) -> None:
 
 
 def check_usable(obj: bpy.types.Object) -> None:
-    """Check all of `check_editable` that is cheap enough for each redraw: no coordinates.
+    """Do the checks of `check_editable` that are cheap enough for each redraw: no coordinates.
 
     Raises
     ------
     CubicCraftError
         Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
-        vertices, no faces, shape keys that do not fit, or something in the way of our note or
+        vertices, no faces, shape keys that do not fit, or a name conflict with our note or
         attributes.
     """
     mesh = mesh_of(obj)
@@ -37,7 +37,7 @@ def check_usable(obj: bpy.types.Object) -> None:
     if obj.mode == "SCULPT":
         # Sculpt Mode keeps its own copy of what it edits.
         raise CubicCraftError(f'"{obj.name}" is in Sculpt Mode: go back to Object Mode first')
-    if obj.users_scene and not obj.visible_get():  # one in no scene is ours, see `make_seen`
+    if obj.users_scene and not obj.visible_get():  # objects in no scene are ours, see `make_seen`
         raise CubicCraftError(f'"{obj.name}" is hidden: show it and its collection first')
     if len(mesh.vertices) < 3:
         raise CubicCraftError(
@@ -57,7 +57,7 @@ def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
     Raises
     ------
     CubicCraftError
-        The object is of another kind.
+        The object is not a mesh.
     """
     if not isinstance(obj.data, bpy.types.Mesh):
         raise CubicCraftError(
@@ -67,7 +67,7 @@ def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
-    """Check that what is written to the mesh stays there; `name` is what the artist sees.
+    """Check that changes to the mesh persist; `name` is used in the message.
 
     Blender itself does not object to writes to linked data and only loses them on saving.
 
@@ -86,7 +86,7 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
 
 
 def is_linked(mesh: bpy.types.Mesh) -> bool:
-    """Return whether the mesh is linked or overridden data: what is written to it does not stay."""
+    """Return whether the mesh is linked or overridden data, to which changes do not persist."""
     return mesh.library is not None or mesh.override_library is not None or not mesh.is_editable
 
 
@@ -96,7 +96,7 @@ def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
     Raises
     ------
     CubicCraftError
-        Naming the shape and the first vertex that is wrong.
+        The message names the shape and the first wrong vertex.
     """
     shapes = {"": read_position(mesh)}
     if mesh.shape_keys is not None:

@@ -26,8 +26,8 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        A face names a vertex that is not there. Some importers let such faces into a mesh, and
-        triangulating them would read memory that is not the mesh's.
+        A face refers to a vertex that does not exist. Some importers create such faces, and
+        triangulating them would read memory outside the mesh.
     """
     corners = corner_vertices(mesh)
     wrong = corners[(corners < 0) | (corners >= len(positions))]
