@@ -22,7 +22,7 @@ def object_properties(obj: bpy.types.Object) -> CubicCraftProperties:
 def has_properties(obj: bpy.types.Object) -> bool:
     """Return whether the object has settings of its own.
 
-    Before Blender 5, reading the settings stores them on the object. So whoever looks at objects
-    that the artist has not brought to us asks here first.
+    Before Blender 5, reading the settings stores them on the object, so code that reads arbitrary
+    objects must check this first.
     """
     return obj.is_property_set(PROPERTY)

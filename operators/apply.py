@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Apply: the cubic shape becomes the mesh's own, and the original is forgotten."""
+"""Apply: keep the cubic shape permanently and discard the original."""
 
 import bpy
 
@@ -11,11 +11,11 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
-    """Keep the cubic shape for good and forget the original."""
+    """Keep the cubic shape permanently and discard the original."""
 
     bl_idname = "cubic_craft.apply"
     bl_label = "Apply"
-    bl_description = "Keep the cubic shape for good and forget the original one"
+    bl_description = "Keep the cubic shape permanently and discard the original"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -25,7 +25,7 @@ class CUBIC_CRAFT_OT_apply(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Forget each mesh's original once."""
+        """Discard the original of each mesh once."""
         return for_each_original(self, context, _apply, "Applied")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Auto Orient: turn the cube of each selected mesh to where its shape fits best."""
+"""Auto Orient: rotate the cube of each selected mesh to fit its shape best."""
 
 import bpy
 
@@ -16,13 +16,13 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
-    """Turn the cube to where the shape fits it best."""
+    """Rotate the cube to fit the shape best."""
 
     bl_idname = "cubic_craft.auto_orient"
     bl_label = "Auto Orient"
     bl_description = (
-        "Turn the cube of each selected mesh so that as much of its original surface as possible"
-        " faces a side of the cube"
+        "Rotate the cube of each selected mesh so that as much of its original surface as possible"
+        " faces a side"
     )
     bl_options = {"REGISTER", "UNDO"}
 

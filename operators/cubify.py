@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify: the selected meshes become cubic, in one click and one undo step.
 
-All objects are solved before the first is written, so that whatever goes wrong on the way, nothing
-has changed. From the interface a long run leaves Blender usable and can be cancelled; scripts wait.
+All objects are solved before the first is written, so that an error changes nothing. From the
+interface, a long run leaves Blender usable and can be cancelled; scripts wait.
 """
 
 import contextlib
@@ -40,38 +40,39 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     bl_idname = "cubic_craft.cubify"
     bl_label = "Cubify"
     bl_description = (
-        "Turn the selected meshes into cubic sculptures, with the settings of the active one."
-        " Each starts from its original shape"
+        "Turn the selected meshes into cubic sculptures, with the settings of the active one. Each"
+        " mesh starts from its original shape"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     frame: StringProperty(
         name="Frame",
-        description="Name of the object whose axes are those of the cube",
+        description="Name of the object whose axes the cube uses",
         options={"SKIP_SAVE"},
     )
     handles: CollectionProperty(
         name="Handles",
-        description="Handles in place of those of the objects",
+        description="Handles to use instead of those of the objects",
         type=CubicCraftGivenHandle,
         options={"SKIP_SAVE"},
     )
 
     is_edited: BoolProperty(
-        description="The mesh was edited before this run: the redo panel offers what to start from",
+        description="The mesh was edited before this run, so Adjust Last Operation offers what to"
+        " start from",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
     @classmethod
     def description(cls, context, properties):
-        """Say in the tooltip of the button what a result was made with that is out of date."""
+        """Return the tooltip, with the settings that have changed since the last run."""
         obj = panel_object(context)
         run = None if obj is None else last_run(obj)
         changes = changes_since(obj, run) if obj is not None and run is not None else []
         if not changes:
             return cls.bl_description
         return (
-            "Make the selected meshes cubic once more, with the settings as they are now."
+            "Update the selected meshes with the current settings."
             f" Changed since the last run: {', '.join(changes)}"
         )
 
@@ -82,7 +83,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Solve all objects, then write all results; without a break, for scripts."""
+        """Solve all objects, then write all results, without interruption, for scripts."""
         work = self._job(context)
         manager = context.window_manager
         manager.progress_begin(0, _PROGRESS_STEPS)
@@ -91,19 +92,19 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
                 manager.progress_update(round(_PROGRESS_STEPS * step.factor))
             return report_all(self, *work.write(is_alone=True))
         finally:
-            # What has been written needs its undo step, whatever fails in tidying up.
+            # Written meshes need their undo step, even if the cleanup fails.
             with contextlib.suppress(*UNEXPECTED):
                 work.discard()
             manager.progress_end()
 
     def invoke(self, context, event):
-        """Do the same, and let Blender go on beside what takes longer than a moment."""
+        """Do the same, in the background if it takes longer than a moment."""
         if bpy.app.background or context.window is None:  # nobody to watch it
             return self.execute(context)
         return self._start(context)
 
     def modal(self, context, event):
-        """Go on, or end; all else is Blender's, so that the view can be orbited."""
+        """Continue or end; pass all other events to Blender, so that the view can be orbited."""
         if self._watched.reason is None and _is_to_cancel(event):
             self._watched.cancel()
         if self._watched.reason is not None:
@@ -111,7 +112,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         return self._tick(context) if event.type == "TIMER" else {"PASS_THROUGH"}
 
     def cancel(self, context):
-        """Blender takes the operator away: another file, or the window is closed."""
+        """Handle cancellation by Blender: another file, or the window was closed."""
         self._watched.cancel("the window was closed")
 
     @reporting
@@ -122,7 +123,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
             if self._watched.is_solved:
                 return report_all(self, *self._watched.write())
             self._watched.watch(context.window)
-            # With its area: where that is not known, the panel of the last operator is not shown.
+            # With its area: without it, Adjust Last Operation is not shown.
             context.window_manager.modal_handler_add(self)
         except BaseException:
             self._watched.close()
@@ -156,7 +157,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         return {"CANCELLED"}
 
     def draw(self, context):
-        """Draw the redo panel."""
+        """Draw Adjust Last Operation."""
         layout = self.layout
         layout.use_property_split = True
         if self.is_edited:
@@ -186,7 +187,7 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
 
 
 def _asks_for_what_is_seen(operator, context):
-    """Return whether it is about what is seen: as told, as the active object says, or no mesh."""
+    """Return whether the visible mesh is used: as given, by the active object, or for no mesh."""
     active = panel_object(context)
     if active is None or not selected_meshes(context):
         return True
@@ -198,11 +199,11 @@ def _asks_for_what_is_seen(operator, context):
 
 
 def _adopt_settings(operator, objects):
-    """Take what the caller has not set from the active object, so that the redo panel shows it."""
+    """Take unset values from the active object, so that Adjust Last Operation shows them."""
     if objects[0].type != "MESH":
         _set_for_new_mesh(operator)
         if not has_properties(objects[0]):
-            return  # and it is to have none: it stays as it is
+            return  # and it should have none: it is not changed
     source = object_properties(objects[0])
     for name, value in values_of(source).items():
         if name in OF_EACH_OBJECT and len(objects) > 1:
@@ -219,7 +220,7 @@ def _adopt_settings(operator, objects):
 
 
 def _set_for_new_mesh(operator):
-    """Set what alone is possible with texts, curves and the like, unless the caller has."""
+    """Set the only possible values for texts, curves and the like, unless the caller has."""
     for name, value in (("result", "NEW_OBJECT"), ("with_modifiers", True)):
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
@@ -253,7 +254,7 @@ def _affine(item):
 
 
 def _is_to_cancel(event):
-    """Return whether it is Esc, or Ctrl-Z, which takes back what was clicked last: this."""
+    """Return whether it is Esc, or Ctrl-Z, which undoes the last click."""
     if event.value != "PRESS":
         return False
     is_undo = event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel Cubify, for those who look for a button."""
+"""Cancel Cubify with a button."""
 
 import bpy
 
@@ -7,11 +7,11 @@ from ..cubic_craft_addon import job
 
 
 class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
-    """End the Cubify that runs, as Esc does."""
+    """Cancel the running Cubify, like Esc."""
 
     bl_idname = "cubic_craft.cubify_cancel"
     bl_label = "Cancel Cubify"
-    bl_description = "End Cubify, which has changed nothing yet (Esc)"
+    bl_description = "Cancel Cubify, which has not changed anything yet (Esc)"
     bl_options = {"INTERNAL"}
 
     @classmethod

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add a handle: a vertex group of the mesh is held."""
+"""Add a handle that holds a vertex group of the mesh."""
 
 import bpy
 from bpy.props import StringProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.mesh_bridge import vertex_group
 from ..cubic_craft_addon.object_properties import object_properties
+from ..solver.errors import CubicCraftError
 from ._shared.active_handle import add_handle, poll_mesh
 from ._shared.selection import report_all
 
@@ -16,13 +18,13 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_add"
     bl_label = "Add Handle"
     bl_description = (
-        "Hold the vertices of a vertex group: of the active one, or the first that is not held yet"
+        "Hold the vertices of the active vertex group, or of the first group that is not held yet"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     group: StringProperty(
         name="Vertex Group",
-        description="Vertex group that is to be held; empty for the active one",
+        description="Vertex group to hold; empty for the active one",
         options={"SKIP_SAVE"},
     )
 
@@ -40,15 +42,16 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
         """Add the handle, pinned."""
         obj = panel_object(context)
         held = {handle.group for handle in object_properties(obj).handles}
-        groups = [group.name for group in obj.vertex_groups]
         if not self.group:
-            candidates = [obj.vertex_groups.active.name, *groups]
+            candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
             self.group = next((name for name in candidates if name not in held), "")
             if not self.group:
-                return report_all(self, "", ["Every vertex group has a handle already"])
-        if self.group not in groups:
-            return report_all(self, "", [f'"{obj.name}" has no vertex group "{self.group}"'])
+                return report_all(self, "", ["Every vertex group already has a handle"])
+        try:
+            vertex_group(obj, self.group)
+        except CubicCraftError as error:
+            return report_all(self, "", [str(error)])
         if self.group in held:
-            return report_all(self, "", [f'"{self.group}" has a handle already'])
+            return report_all(self, "", [f'"{self.group}" already has a handle'])
         add_handle(obj, self.group)
         return report_all(self, f'Added a handle for "{self.group}"', [])

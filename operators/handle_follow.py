@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Follow an Empty: make the object that a handle goes along with."""
+"""Follow an Empty: create the object that a handle follows."""
 
 import bpy
 import numpy as np
@@ -12,18 +12,18 @@ from ..solver import CubicCraftError
 from ._shared.active_handle import active_handle, members, poll_handle
 from ._shared.selection import report_all
 
-_MARGIN = 1.1  # the empty is larger than what it moves by this factor
+_MARGIN = 1.1  # size of the empty relative to the vertices it moves
 _SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
 
 
 class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
-    """Make an empty that the active handle goes along with."""
+    """Make an empty that the active handle follows."""
 
     bl_idname = "cubic_craft.handle_follow"
     bl_label = "Follow an Empty"
     bl_description = (
-        "Make an empty at the centre of the handle's vertices, and select it. Move, turn or scale"
-        " it, and the next Cubify takes the vertices along and bends the rest"
+        "Add an empty at the center of the handle's vertices and select it. When you move, rotate"
+        " or scale it, the next Cubify moves the vertices along and bends the rest"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -34,7 +34,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
             return False
         target = live_target(active_handle(panel_object(context)))
         if target is not None:
-            cls.poll_message_set(f'The handle follows "{target.name}" already')
+            cls.poll_message_set(f'The handle already follows "{target.name}"')
             return False
         return True
 
@@ -57,7 +57,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
 
 
 def _shown_positions(context, obj):
-    """Return the positions (n,3) as they are seen, where modifiers keep the vertices."""
+    """Return the visible positions (n,3), if the modifiers keep the vertices."""
     count = len(obj.data.vertices)
     seen = obj.evaluated_get(context.evaluated_depsgraph_get()).data
     if len(seen.vertices) != count:
@@ -76,7 +76,7 @@ def _add_empty(context, obj, group, shown, held):
     )
     empty.empty_display_type = "SPHERE"
     empty.empty_display_size = radius
-    empty.show_in_front = True  # else the mesh would hide it
+    empty.show_in_front = True  # otherwise the mesh would hide it
     empty.parent = obj  # without an inverse: its own location is in the object's coordinates
     empty.location = (low + high) / 2
     collections = [c for c in obj.users_collection if c.is_editable]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Move a handle up or down the list: where handles overlap, the first counts."""
+"""Move a handle in the list: where handles overlap, the first takes precedence."""
 
 import bpy
 from bpy.props import EnumProperty
@@ -15,7 +15,8 @@ class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_move"
     bl_label = "Move Handle"
     bl_description = (
-        "Move the active handle up or down the list; where handles overlap, the first counts"
+        "Move the active handle up or down in the list; where handles overlap, the first takes"
+        " precedence"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pin Selection: the selected vertices become a vertex group with a handle.
 
-It leaves Edit Mode, because the undo steps of Edit Mode hold the mesh only: the handle would stay
-when its vertex group goes. So one undo takes all of it back, into Edit Mode.
+It leaves Edit Mode, because the undo steps of Edit Mode hold only the mesh: the handle would remain
+without its vertex group. A single undo then reverts everything, back into Edit Mode.
 """
 
 import bpy
@@ -21,7 +21,8 @@ class CUBIC_CRAFT_OT_handle_pin_selection(bpy.types.Operator):
     bl_idname = "cubic_craft.handle_pin_selection"
     bl_label = "Pin Selection"
     bl_description = (
-        "Hold the vertices that are selected in Edit Mode: they become a vertex group with a handle"
+        "Hold the vertices that are selected in Edit Mode by making them a vertex group with a"
+        " handle"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -9,13 +9,13 @@ from ._shared.active_handle import active_handle, poll_handle
 
 
 class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
-    """Let go of the vertices of the active handle."""
+    """Release the vertices of the active handle."""
 
     bl_idname = "cubic_craft.handle_remove"
     bl_label = "Remove Handle"
     bl_description = (
-        "Let go of the vertices of the active handle. The vertex group stays; an empty that was"
-        " made for the handle is removed, unless something else uses it"
+        "Remove the active handle and release its vertices. The vertex group is kept; an empty"
+        " that was made for the handle is removed unless something else uses it"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reset Pose: the handles, and what they follow, go back to where nothing moves."""
+"""Reset Pose: return the handles and their targets to where nothing moves."""
 
 import bpy
 
@@ -13,13 +13,13 @@ from ._shared.active_handle import poll_mesh
 
 
 class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
-    """Take the handles' own poses away, and put what they follow back to where it began."""
+    """Remove the handles' own poses, and return their targets to their initial positions."""
 
     bl_idname = "cubic_craft.handle_reset_pose"
     bl_label = "Reset Pose"
     bl_description = (
-        "Put the handles, and the objects that they follow, back to where they were at the"
-        " beginning; the next Cubify then leaves the vertices of the handles in place"
+        "Return the handles, and the objects they follow, to their initial positions; the next"
+        " Cubify then leaves the vertices of the handles in place"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -35,7 +35,7 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        """Take each pose away, and put each target back."""
+        """Remove each pose, and return each target."""
         obj = panel_object(context)
         is_moved = False
         for handle, target in followed(obj):
@@ -44,7 +44,7 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
                 is_moved = True
         if live.current() is not None:
             live.reset_poses(obj)
-            # Live takes its poses back itself; an undo step would come before them.
+            # Live undoes its poses itself; an undo step would come before them.
             return {"FINISHED"} if is_moved else {"CANCELLED"}
         for handle in _posed(obj):
             set_own_pose(handle, IDENTITY)

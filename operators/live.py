@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live: a modal operator that hands the events of its window to the session.
+"""Live: a modal operator that passes the events of its window to the session.
 
-All that decides is in ``cubic_craft_addon/live``.
+All decisions are in ``cubic_craft_addon/live``.
 """
 
 import bpy
@@ -21,8 +21,8 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
     bl_idname = "cubic_craft.live"
     bl_label = "Live"
     bl_description = (
-        "Watch the selected meshes become cubic while you change the settings. Enter, or this"
-        " button again, confirms; Esc or right click cancels"
+        "Watch the selected meshes become cubic while you change the settings. Enter or this"
+        " button confirms; Esc or right click cancels"
     )
     bl_options = {"UNDO"}
 
@@ -34,8 +34,8 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         return poll_usable(cls, context) and _poll_without_modifiers(cls, context)
 
     def execute(self, context):
-        """Refuse: without a window nothing can be watched."""
-        self.report({"ERROR"}, "Live needs a window to be watched in; use Cubify")
+        """Refuse: Live needs a window."""
+        self.report({"ERROR"}, "Live needs a window; use Cubify instead")
         return {"CANCELLED"}
 
     def invoke(self, context, event):
@@ -52,17 +52,17 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
             return {"CANCELLED"}
         finally:
             context.window.cursor_modal_restore()
-        # Of the window, not of an area: the artist may close, join or maximize that.
+        # On the window, not on an area, which the artist may close, join or maximize.
         with context.temp_override(area=None, region=None):
             context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        """Pass on what concerns Live; all else is Blender's, so that the view can be orbited."""
+        """Process events for Live; pass all others to Blender, so that the view can be orbited."""
         session = self._session
         is_ours = False
         if session.is_dragged():
-            # Blender keeps mouse and keys for the drag, and the type of no event is what it was.
+            # During a drag, Blender keeps mouse and keys, and events have other types.
             session.tick_in_drag(context)
         elif event.type == "TIMER":
             if not session.is_ended:
@@ -74,7 +74,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         return {"RUNNING_MODAL"} if is_ours else {"PASS_THROUGH"}
 
     def cancel(self, context):
-        """Blender takes the operator away: another file, or the window is closed."""
+        """Handle cancellation by Blender: another file, or the window was closed."""
         self._session.on(live.Event.CLOSED)
 
     def _on_press(self, context, event):
@@ -101,11 +101,11 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
-    """Cancel Live, for those who look for a button."""
+    """Cancel Live with a button."""
 
     bl_idname = "cubic_craft.live_cancel"
     bl_label = "Cancel Live"
-    bl_description = "End Live and give the meshes the shape back that they had before"
+    bl_description = "End Live and restore the previous shape of the meshes"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -126,7 +126,7 @@ def _poll_without_modifiers(operator_class, context):
     if properties.result != "NEW_OBJECT" or not properties.with_modifiers:
         return True
     operator_class.poll_message_set(
-        "Live shows the mesh without its modifiers: switch With Modifiers off first"
+        "Live shows the mesh without its modifiers; disable With Modifiers first"
     )
     return False
 
@@ -136,7 +136,7 @@ def _is_over_viewport(context, event):
 
 
 def _is_in_view(context, event):
-    """Return whether the mouse is on the view itself, not on the sidebar with its context menus."""
+    """Return whether the mouse is over the view itself, not the sidebar with its context menus."""
     for area in context.screen.areas:
         if area.type == "VIEW_3D" and _contains(area, event):
             regions = [r for r in area.regions if r.width > 1 and _contains(r, event)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Save Preset: keep the present look under a name."""
+"""Save Preset: save the current look under a name."""
 
 import bpy
 from bpy.props import StringProperty
@@ -11,19 +11,19 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
-    """Keep the look that the panel shows as a preset, for all files."""
+    """Save the look that the panel shows as a preset, for all files."""
 
     bl_idname = "cubic_craft.preset_add"
     bl_label = "Save Preset"
     bl_description = (
-        "Keep the present look under a name, for all files: cubeness, solidity, and what holds"
-        " together. A preset of yours that has the name already is replaced"
+        "Save the current look under a name, for all files: cubeness, solidity, and what holds"
+        " together. This replaces a preset of yours with the same name"
     )
     bl_options = {"INTERNAL"}
 
     name: StringProperty(
         name="Name",
-        description="What to call it",
+        description="Name of the preset",
         default="My Look",
         maxlen=64,
         options={"SKIP_SAVE"},
@@ -43,6 +43,6 @@ class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
         """Write the file."""
         properties = shared_properties(panel_mesh(context))
         path = files.save(self.name, properties)
-        properties.preset = path.stem  # of several that are alike, this one is shown
+        properties.preset = path.stem  # among presets with equal settings, this one is shown
         self.report({"INFO"}, f'Saved "{files.find(path.stem).name}"')
         return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Remove Preset: delete the preset that is shown."""
+"""Remove Preset: delete the current preset."""
 
 import bpy
 
@@ -11,11 +11,11 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
-    """Delete the preset that the panel shows; the settings stay."""
+    """Delete the preset that the panel shows; the settings do not change."""
 
     bl_idname = "cubic_craft.preset_remove"
     bl_label = "Remove Preset"
-    bl_description = "Delete the preset that is shown, for all files; the settings stay"
+    bl_description = "Delete the current preset, for all files; the settings do not change"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -25,7 +25,9 @@ class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
             return False
         preset = preset_of(live.shared_properties(panel_mesh(context)))
         if preset is None or preset.is_own:
-            cls.poll_message_set("Choose a preset of your own first; ours stay")
+            cls.poll_message_set(
+                "Choose one of your own presets first; included presets cannot be removed"
+            )
             return False
         return True
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reset Settings: all settings as they were at first."""
+"""Reset Settings: return all settings to their defaults."""
 
 import bpy
 
@@ -9,13 +9,13 @@ from ._shared.selection import panel_mesh, poll_panel_mesh
 
 
 class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
-    """Give all settings their defaults; what belongs to the mesh stays."""
+    """Reset all settings to their defaults, except those that belong to the mesh."""
 
     bl_idname = "cubic_craft.reset"
     bl_label = "Reset Settings"
     bl_description = (
-        "Give all settings of the panel their defaults; handles and the cubeness map stay, and the"
-        " mesh is as it is until the next Cubify"
+        "Reset all settings of the panel to their defaults. Handles and the cubeness map are kept,"
+        " and the mesh does not change until the next Cubify"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -25,7 +25,7 @@ class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
         return poll_panel_mesh(cls, context)
 
     def execute(self, context):
-        """Unset them, so that they are also the defaults of a later version."""
+        """Unset them, so that they are also the defaults in a later version."""
         properties = live.shared_properties(panel_mesh(context))
         for name in ALL:
             if name not in OF_EACH_OBJECT:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Restore: the selected meshes get their original shape back, to the bit."""
+"""Restore: return the selected meshes to their original shape, bit for bit."""
 
 import bpy
 
@@ -11,13 +11,13 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
-    """Give the selected meshes their original shape back."""
+    """Return the selected meshes to their original shape."""
 
     bl_idname = "cubic_craft.restore"
     bl_label = "Restore"
     bl_description = (
-        "Give the selected meshes back the shape that they had before Cubify. What was moved by"
-        " hand since is lost"
+        "Restore the shape that the selected meshes had before Cubify. Changes made by hand since"
+        " are lost"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -36,4 +36,4 @@ def _restore(obj):
     was_edited = mesh_bridge.is_edited(obj.data)
     remember_pose(obj, is_posed=False)
     mesh_bridge.restore(obj)
-    return "what was edited since Cubify is gone (Ctrl-Z brings it back)" if was_edited else ""
+    return "edits made since Cubify are lost (Ctrl-Z brings them back)" if was_edited else ""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cubic stylization without Blender: NumPy, SciPy and, where it is installed, Taichi.
+"""Cubic stylization without Blender: NumPy, SciPy and, if it is installed, Taichi.
 
-The names below are imported at their first use, so that Blender can show the panel of the extension
-without loading SciPy, and even where SciPy is missing.
+The names below are imported on first use, so that Blender can show the panel of the extension
+without loading SciPy, and even if SciPy is missing.
 """
 
 from importlib import import_module

@@ -20,17 +20,17 @@ one or two where few are.
 import numpy as np
 
 START = 30.0
-"""the first t: that of the 59th iteration, as if it had long been under way"""
+"""the first t: that of the 59th iteration, as if the run had been going for a while"""
 RESTART = 4.0
-"""the t after the energy has risen, of the 7th iteration; 1 where it rises once more at once"""
+"""the t of the 7th iteration, after the energy has risen; 1 if it rises again immediately"""
 OVERSHOOT = 0.65
-"""share of the further step; the more, the longer the details swing about their place"""
+"""share of the additional step; the larger it is, the longer the details oscillate"""
 
 
 class Momentum:
     """The extrapolation of one run.
 
-    Every component has a momentum of its own, so that it moves as it would alone.
+    Each component has its own momentum, so that it moves as it would alone.
 
     Parameters
     ----------
@@ -50,14 +50,14 @@ class Momentum:
         self._energies, self._has_risen = energies, has_risen
 
     def next(self):
-        """Return how far to go on from the new positions, for each component.
+        """Return how far to extrapolate from the new positions, for each component.
 
         Returns
         -------
         momentum : (count,) array
-            In ways from the positions before to the new ones.
+            As a multiple of the last displacement.
         overshoot : (count,) array
-            In steps from the extrapolated point to the new positions.
+            As a multiple of the step from the extrapolated point to the new positions.
         """
         t_next = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * self._t * self._t))
         momentum, overshoot = (self._t - 1.0) / t_next, OVERSHOOT * self._t / t_next

@@ -25,7 +25,7 @@ def aggregated(A):
     Returns
     -------
     P : (n,k) csr_matrix
-        Rows of what is coupled to nothing are zero.
+        Rows of vertices that are not coupled to any other are zero.
     coarse : (k,k) csr_matrix
         P'AP. With no aggregate at all, a single row that P leaves alone.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The orientation of the cube that fits a shape best."""
+"""The orientation of the cube that best fits a shape."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -8,39 +8,54 @@ from scipy.spatial.transform import Rotation
 from .styles.cube import cost, nearest_to_identity
 
 SAMPLES = 100_000
-"""rotations over SO(3), of which a 24th is distinct for a cube: about 5 degrees apart"""
+"""rotations over SO(3), a 24th of which are distinct for a cube: about 5 degrees apart"""
 CANDIDATES = 12
 """samples that are refined"""
 BINS = 14
-"""per unit; normals are gathered in cells of the sphere for the search"""
+"""per unit; the search groups normals into cells of the sphere"""
 SMOOTHING = 1e-4
-"""of the absolute value, radians; only the refinement needs a derivative"""
+"""of the absolute value, in radians; only the refinement needs a derivative"""
 
 
 def auto_orient(normals, areas):
-    """Return the orientation whose axes fit the normals best.
+    """Return the orientation whose axes best fit the normals.
 
-    It minimises ``sum_i a_i |Q n_i|_1`` over all rotations: a search over evenly spread samples,
-    then descent from the best of them. Of the 24 rotations that are the same for a cube it is the
+    It minimises ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
+    and descent from the best of them. Of the 24 equivalent rotations of a cube, it returns the
     one nearest to the identity.
 
     Parameters
     ----------
-    normals : (n,3) float array
-        Unit normals, or zero. Those of the triangles: vertex normals of a coarse mesh, such as a
-        box of eight vertices, do not face the way its surface does.
-    areas : (n,) float array
+    normals : (n,3) numpy array
+        Unit normals of the triangles, or zero. Vertex normals would not fit: those of a coarse
+        mesh, such as a box with eight vertices, do not face the same way as its surface.
+    areas : (n,) numpy array
         Their weights, not negative.
 
     Returns
     -------
-    Q : (3,3) float array
+    Q : (3,3) numpy array
         Rotation that maps a vector into the frame of the cube; its rows are the cube's axes.
+
+    See Also
+    --------
+    triangle_areas_and_normals : Computes both inputs.
+    nearest_to_identity : Chooses among equivalent rotations.
 
     Notes
     -----
     The samples are super-Fibonacci spirals (Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy
     Sampling of SO(3)", CVPR 2022).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import auto_orient
+    >>> c, s = np.cos(0.3), np.sin(0.3)
+    >>> axes = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])  # of a rotated box
+    >>> Q = auto_orient(np.concatenate([axes, -axes]), np.ones(6))
+    >>> np.allclose(Q, axes, atol=1e-3)
+    True
     """
     directions, weights = _binned(normals, areas)
     if not len(directions):
@@ -104,7 +119,7 @@ def _super_fibonacci(count):
 
 
 def _distinct(quaternions):
-    """Return the matrices (k,3,3) of those that are nearest to the identity of their 24."""
+    """Return the matrices (k,3,3) of those nearest to the identity among their 24."""
     size = np.abs(quaternions)
     imaginary, real = size[:, :3], size[:, 3]
     others = np.maximum(

@@ -45,19 +45,19 @@ def coarse_stylization(fine):
 
 
 def prolongate(coarse, fine):
-    """Let a fresh Stylization start from what a coarser one has come to."""
+    """Start a new Stylization from the current state of a coarser one."""
     positions, R = coarse.placed()
     merged = R[fine.rest.coarse.cluster]
     fine.start_from(*_prolongate(fine.rest, positions, _smoothed(fine.rest, merged)))
 
 
 def preview_on_fine(positions, R, rest):
-    """Return rotations and positions of a finer mesh at a glance, from placed (k,3) and (k,3,3)."""
+    """Return approximate rotations and positions of a finer mesh, from placed (k,3) and (k,3,3)."""
     return _prolongate(rest, positions, R[rest.coarse.cluster])
 
 
 def _prolongate(rest, positions, R):
-    """Return R (n,3,3), and where it turns the vertices about those that they were merged into."""
+    """Return R (n,3,3), and the vertices rotated about those that they were merged into."""
     cluster = rest.coarse.cluster
     offset = rest.V - rest.coarse.rest.input_positions[cluster]
     return R, positions[cluster] + np.einsum("nij,nj->ni", R, offset)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Connected components: what shares no triangle, and is not linked."""
+"""Connected components: parts that share no triangle and are not linked."""
 
 import numpy as np
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A coarser mesh of the same shape, and where each vertex has gone in it."""
+"""A coarser mesh of the same shape, and the vertices that were merged into each of its own."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def decimate(V, F, ratio):
     F : (m,3) int array
         Triangles that use all vertices.
     ratio : float
-        How many times fewer triangles there shall be.
+        Factor by which to reduce the number of triangles.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def _clusters(F, n, collapses):
     is_used[F[is_triangle]] = True
     if not is_used.any():
         return None
-    # What has lost all its triangles goes to a neighbour.
+    # A vertex that has lost all its triangles is merged into a neighbour.
     F = F[~is_used[F].all(axis=1)]  # few
     edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
     edges = np.concatenate([edges, edges[:, ::-1]])
@@ -66,5 +66,5 @@ def _clusters(F, n, collapses):
     merged = np.arange(n)
     merged[edges[:, 0]] = edges[:, 1]
     number = np.cumsum(is_used) - 1
-    number[~is_used] = 0  # a part that has collapsed: it starts from anything
+    number[~is_used] = 0  # a collapsed part: its start does not matter
     return number[merged[into]]

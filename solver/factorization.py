@@ -37,7 +37,7 @@ class _Cholesky:
             A.indptr.astype(np.int32),
             A.indices.astype(np.int32),
             A.data,
-            cholespy.MatrixType.CSR,  # of columns it would take the arrays as its own, and crash
+            cholespy.MatrixType.CSR,  # it would take ownership of arrays in column order, and crash
         )
         self._has_solved = False
 
@@ -50,9 +50,9 @@ class _Cholesky:
         return X
 
     def _free_at_end(self, n):
-        """Let go of what cholespy 2.2 keeps of a solve, as long as B, when its solver is gone.
+        """Release the memory, as large as B, that cholespy 2.2 keeps after its solver is gone.
 
-        A solve for no column makes it take less instead. As the first one it would crash.
+        A solve for no columns replaces it with less. As the first solve, it would crash.
         """
         nothing, result = np.empty((n, 0)), np.empty((n, 0))
         weakref.finalize(self, self._solver.solve, nothing, result).atexit = False

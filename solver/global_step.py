@@ -65,7 +65,7 @@ class GlobalStep:
 
     @cached_property
     def multigrid(self):
-        """The Multigrid, made when first asked for: where nothing is factorised, or for a GPU."""
+        """The Multigrid, created on first use: if nothing is factorised, or for a GPU."""
         L, is_held = self._laplacian, self._is_held
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
@@ -90,7 +90,7 @@ class GlobalStep:
 
     @cached_property
     def no_turning(self):
-        """The NoTurning, made when first asked for."""
+        """The NoTurning, created on first use."""
         if not self.is_factorized:
             return self.no_turning_by_cycles
         return NoTurning(self._rest, ~self.is_anchored, self.solve)

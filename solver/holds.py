@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Groups of vertices that keep their place, or go along with a handle, while their surface changes.
+"""Groups of vertices that keep their place, or follow a handle, while their surface changes.
 
 A group with weights w_i, centroid c and offsets x_i = v_i - c has a place and a rotation: those of
 the rigid map v -> R (v - c) + d that fits it best. They are asked for by linear constraints
@@ -20,7 +20,7 @@ _SMALLEST = 1e-9  # relative; a group on a line may turn about it
 
 
 class HoldFields:
-    """What is done once per mesh, pins and groups.
+    """Everything that is computed once per mesh, pins and groups.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class HoldFields:
 
 
 class Holds:
-    """Constraints of the global step: `impose` brings positions to where they are obeyed.
+    """Constraints of the global step: `impose` moves positions so that they are satisfied.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class Holds:
         return np.concatenate(found)
 
     def _system(self):
-        """Return what the unknowns do to what is measured, and the balance of forces."""
+        """Return the effect of the unknowns on the measurements, and the balance of forces."""
         groups, free = len(self._places), len(self._free)
         size = 6 * groups + 3 * free
         A = np.zeros((size, size))
@@ -121,7 +121,7 @@ class Holds:
         return A
 
     def _change(self, unknown):
-        """Return the change (n,3) of the positions that unknowns stand for."""
+        """Return the change (n,3) of the positions for given unknowns."""
         change = np.zeros((len(self._component), 3))
         for g, (P, T) in enumerate(self._moves):
             a, b = unknown[6 * g : 6 * g + 3], unknown[6 * g + 3 : 6 * g + 6]
@@ -132,7 +132,7 @@ class Holds:
         return change
 
     def impose(self, U):
-        """Move positions (n,3) to the nearest that obey the constraints, in place."""
+        """Move positions (n,3) to the nearest ones that satisfy the constraints, in place."""
         wrong = np.zeros(len(self._inverse))
         wrong[: len(self._goals)] = self._goals - self._measure(U)
         U += self._change(self._inverse @ wrong)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refuse what would not fit into memory, before the machine comes to a standstill over it."""
+"""Refuse meshes that would not fit into memory, before the machine runs out of it."""
 
 import ctypes
 import os
@@ -14,7 +14,7 @@ _LINUX = Path("/proc/meminfo")
 
 
 def check_memory(vertices, triangles):
-    """Compare what a run will need with what is free; where that is unknown, nothing is refused.
+    """Check that a run fits into the free memory; if that is unknown, nothing is refused.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def check_memory(vertices, triangles):
     Raises
     ------
     CubicCraftError
-        It does not fit; the message tells the estimate, what is free, and what to do.
+        It does not fit; the message has the estimate, the free memory, and what to do.
     """
     # A closed mesh has two triangles for each vertex; what has more needs more.
     needed = BYTES_PER_VERTEX * max(vertices, triangles // 2)
@@ -44,7 +44,7 @@ def free_memory():
     """
     try:
         return _free_memory()
-    except (OSError, ValueError, KeyError, AttributeError):  # another system, or one that hides it
+    except (OSError, ValueError, KeyError, AttributeError):  # an unknown system
         return None
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refuse what cannot be solved, before anything is computed."""
+"""Refuse input that cannot be solved, before anything is computed."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from .errors import CubicCraftError
 
 
 def check_mesh(V, F):
-    """Return the mesh as contiguous arrays, or say what is wrong with it.
+    """Return the mesh as contiguous arrays, or raise an error that says what is wrong with it.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def check_mesh(V, F):
         raise CubicCraftError(f"triangles must be integers, not {F.dtype}")
     if F.min() < 0 or F.max() >= len(V):
         raise CubicCraftError(
-            f"triangles name the vertices {F.min()} to {F.max()}, but there are only {len(V)}"
+            f"triangles refer to vertices {F.min()} to {F.max()}, but there are only {len(V)}"
         )
     bad = np.flatnonzero(~np.isfinite(V).all(axis=1))
     if len(bad):

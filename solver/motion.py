@@ -13,12 +13,12 @@ class Motion:
     U : (n,3) float64 array
         The first positions in the unit box, with pinned vertices at their targets.
     constraints : sequence
-        What each step ends with: ``impose(U)`` moves positions (n,3) to where they are obeyed.
+        Applied after each step: ``impose(U)`` moves positions (n,3) so that they are satisfied.
 
     Attributes
     ----------
     point : (n,3) array
-        Where the next local step looks.
+        Positions used by the next local step.
     """
 
     def __init__(self, setup, local, U, constraints=()):
@@ -27,7 +27,7 @@ class Motion:
 
     @property
     def positions(self):
-        """(n,3) float64 present positions in the unit box."""
+        """(n,3) float64 current positions in the unit box."""
         return self._U
 
     def put(self, U):
@@ -35,11 +35,11 @@ class Motion:
         self._U = self.point = U
 
     def look_at_positions(self):
-        """Let the next local step look at the positions themselves."""
+        """Make the next local step use the positions themselves."""
         self.point = self._U
 
     def relax(self, times):
-        """Come nearer to what the rotations ask for, without momentum or turning."""
+        """Approach the solution for the rotations, without momentum or turning."""
         rhs = self._local.right_hand_side()
         for _ in range(times):
             self.put(self._setup.global_step.positions(rhs, self._U))
@@ -50,9 +50,9 @@ class Motion:
         Parameters
         ----------
         momentum, overshoot : (component_count,) arrays
-            How far the point goes on from the new positions, see `Momentum.next`.
+            Extrapolation from the new positions, see `Momentum.next`.
         keep_rotation : bool
-            Keep each component without pins as it stands at rest.
+            Keep the rotation of each component without pins.
 
         Returns
         -------

@@ -4,12 +4,12 @@
 The local-global iteration needs no exact solve: any positive definite matrix above the Laplacian
 makes it descend, and has the same fixed points. One V-cycle of algebraic multigrid by smoothed
 aggregation (Vanek, Mandel and Brezina, 1996) is near enough to the inverse that the iteration takes
-about a third more steps (98,721 vertices, cubeness 0.4: 40 in place of 30 to a gap of 1 %), and its
+about a third more steps (98,721 vertices, cubeness 0.4: 40 instead of 30 to a gap of 1 %), and its
 set-up takes time and memory in proportion to the mesh: 395 k vertices in a quarter of the time of
 the Cholesky factorisation.
 
-With Taichi the cycle runs in its kernels, which need 40 ms of processor time in place of 115
-for 395 k vertices, and 100 in place of 280 for a million; both cores share it.
+With Taichi the cycle runs in its kernels, which need 40 ms of processor time instead of 115
+for 395 k vertices, and 100 instead of 280 for a million; both cores share it.
 """
 
 from functools import cached_property
@@ -41,7 +41,7 @@ class Multigrid:
     A : (n,n) csr_matrix
         Symmetric.
     decoupled : (n,n) csr_matrix
-        The same without what couples to the rows that are held: positive definite.
+        The same without coupling to the held rows: positive definite.
     held : (k,) int array
         Rows of the solution that stay as they are given.
 
@@ -51,8 +51,8 @@ class Multigrid:
         All but the coarsest, from fine to coarse. The matrix of each is scaled on both sides to a
         diagonal of ones.
     scale : (n,) float32 array
-        What the residual is multiplied by before the cycle, and the correction after it; 0 for what
-        is held.
+        Factor of the residual before the cycle, and of the correction after it; 0 for
+        held rows.
     coarsest : csr_matrix
         The scaled matrix of the coarsest level.
     """

@@ -11,14 +11,14 @@ energy are U + mu x P with P = L^-1 (w x) and, with M = sum_i w_i P_i x_i', the 
 
     (tr(M) 1 - M) mu = -t(U)
 
-So the iteration is a descent as without it: it only goes on within fewer positions. To turn the
-component back after each step would cost energy, and may cost more than the step has gained.
+The iteration is therefore a descent as without the constraint, among fewer positions. Rotating the
+component back after each step would cost energy, possibly more than the step has gained.
 """
 
 import numpy as np
 
 CYCLES = 4
-"""solves, where each only comes nearer"""
+"""number of solves, if each is approximate"""
 _SMALLEST = 1e-9  # relative; a component on a line may turn about it
 
 

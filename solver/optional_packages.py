@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packages that the solver can do without: imported when they are needed."""
+"""Optional packages of the solver, imported when they are needed."""
 
 from functools import cache
 from importlib import import_module
@@ -8,7 +8,7 @@ from typing import Any
 
 @cache
 def optional_package(name: str) -> Any:
-    """Return the package, or None where it cannot be imported."""
+    """Return the package, or None if it cannot be imported."""
     try:
         return import_module(name)
     except Exception:  # a broken installation can raise anything

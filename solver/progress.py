@@ -1,19 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far a run has come, as one number for a progress bar."""
+"""The progress of a run as one number, for a progress bar."""
 
 import math
 
 
 class Progress:
-    """Estimate the progress of a run from 0 to 1; it never goes back.
+    """Estimate the progress of a run from 0 to 1; the estimate never decreases.
 
-    The displacement per iteration falls about exponentially, so its logarithm, between the start
-    and the tolerance, tells more than the iteration count, whose end is not known.
+    The displacement per iteration falls almost exponentially, so its logarithm, between the start
+    and the tolerance, is a better estimate than the number of iterations, whose end is not known.
 
     Parameters
     ----------
-    max_iterations, tolerance
+    max_iterations : int
         As in `run`.
+    tolerance : float
+        As in `run`.
+
+    See Also
+    --------
+    StopRule : The test that ends the run.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Progress, Setup, Stylization, rest_mesh
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
+    >>> stylization.step()
+    >>> Progress(max_iterations=100, tolerance=1e-3).update(stylization)
+    0.01
     """
 
     def __init__(self, max_iterations, tolerance):
@@ -22,7 +39,7 @@ class Progress:
         self._fraction = 0.0
 
     def update(self, stylization):
-        """Take in one iteration of a Stylization and return the fraction done."""
+        """Record one iteration of a Stylization and return the fraction done."""
         fraction = stylization.iteration / self._max_iterations
         if stylization.iteration > 1 and stylization.distance > 0.0:
             relative = stylization.displacement / stylization.distance

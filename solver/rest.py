@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that is computed once per mesh, whatever the cubeness, orientation or pins."""
+"""Everything that is computed once per mesh, regardless of cubeness, orientation and pins."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,15 +22,26 @@ from .topology import Topology, topology
 from .unit_box import UnitBox
 
 COARSENING = 16
-"""triangles of a mesh for each triangle of its coarser mesh"""
+"""number of triangles of a mesh per triangle of its coarser mesh"""
 
 
 @dataclass(frozen=True)
 class RestMesh:
     """The rest shape in the unit box: the proxy of the input, without its loose vertices.
 
-    The arrays are indexed by the `n` vertices that are solved; `input_map` leads to them from the
-    vertices of the input, and back.
+    The arrays are indexed by the `n` vertices that are solved; `input_map` maps between them and
+    the `N` vertices of the input.
+
+    See Also
+    --------
+    rest_mesh : Builds it.
+
+    Examples
+    --------
+    >>> from solver import rest_mesh
+    >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0], [9, 9, 9]], [[0, 1, 2]])
+    >>> rest.V.shape, rest.input_positions.shape  # the last vertex is loose
+    ((3, 3), (4, 3))
     """
 
     input_positions: np.ndarray
@@ -48,13 +59,13 @@ class RestMesh:
     """(n,) factors of the cubeness: 0 in creases, more than 1 beside them"""
     to_neighbours: Links
     to_other_side: Links | None
-    """of solidity 1; None where they have not been looked for"""
+    """for a solidity of 1; None if they have not been computed"""
     solidity: float
     is_refined: bool
     skin: SpokesAndRims
-    """of the triangles alone"""
+    """of the triangles only"""
     matrices: SpokesAndRims
-    """with the links"""
+    """including the links"""
 
     @property
     def F(self):  # noqa: N802 - as everywhere
@@ -63,26 +74,26 @@ class RestMesh:
 
     @cached_property
     def used(self):
-        """(n,) int vertex of the input that stands for each that is solved."""
+        """(n,) int vertex of the input that represents each solved vertex."""
         return self.input_map.source
 
     @cached_property
     def place(self):
-        """Vertices of the input that are solved, and which solved vertex each of them is."""
+        """Vertices of the input that are solved, and the solved vertex of each of them."""
         return self.input_map.place()
 
     @cached_property
     def box_frames(self):
-        """(n,3,3) frames of parts that are boxes already, see `proxy/boxes.py`, or None."""
+        """(n,3,3) frames of parts that are already boxes, see `proxy/boxes.py`, or None."""
         return box_frames(self.V, self.F, self.topology.part) if self.is_refined else None
 
     @cached_property
     def standing(self):
-        """(n,) weights with which the vertices say how a component stands.
+        """(n,) weights of the vertices in the rotation of a component.
 
-        In the paper's energy the areas. Otherwise their fourth roots, nearly a count of vertices:
-        where an artist has put many, as in a face, it is seen when they turn; but a zip of tiny
-        triangles shall not turn a coat.
+        In the paper's energy, they are the areas. Otherwise they are the fourth roots of the areas,
+        nearly a count of vertices: a rotation is noticeable where an artist has put many vertices,
+        as in a face, but the tiny triangles of a zip must not turn a coat.
         """
         return (np.sqrt(np.sqrt(self.areas)) if self.is_refined else self.areas) + 1e-300
 
@@ -94,7 +105,7 @@ class RestMesh:
         return self.to_neighbours.joined(self.to_other_side.scaled(self.solidity))
 
     def with_solidity(self, solidity):
-        """Return the RestMesh of another solidity; links are not looked for again."""
+        """Return the RestMesh with another solidity, without a new search for links."""
         if solidity == self.solidity:
             return self
         to_other_side = self.to_other_side
@@ -129,7 +140,7 @@ class RestMesh:
 
     @cached_property
     def coarse(self):
-        """The Coarsening, or None where it cannot be had."""
+        """The Coarsening, or None if it is not available."""
         decimated = decimate(self.V, self.F, COARSENING)
         if decimated is None:
             return None
@@ -139,7 +150,7 @@ class RestMesh:
         return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
 
     def _linked(self, links):
-        """Return the mesh with links in place of its own."""
+        """Return the mesh with other links."""
         if not len(links):
             return self
         return replace(
@@ -156,22 +167,45 @@ class Coarsening:
 
     rest: RestMesh
     cluster: np.ndarray
-    """(n,) int vertex of the coarser mesh that each vertex has been merged into"""
+    """(n,) int vertex of the coarser mesh into which each vertex was merged"""
 
 
 def rest_mesh(V, F, proxy=PAPER):
-    """Build the RestMesh of positions V (N,3), any unit, and triangles F (m,3).
+    """Build the RestMesh of a mesh.
 
     Parameters
     ----------
-    V, F
+    V : (N,3) numpy array
+        Rest positions, in any unit.
+    F : (m,3) numpy int array
+        Triangles.
     proxy : ProxyOptions
-        How the surface is prepared; by default not at all, as in the paper.
+        How to prepare the surface; by default nothing is done, as in the paper.
+
+    Returns
+    -------
+    RestMesh
 
     Raises
     ------
     CubicCraftError
-        See `check_mesh` and `check_memory`.
+        The mesh is invalid, or needs more memory than is free.
+
+    See Also
+    --------
+    Setup : The next step, for a set of pinned vertices.
+
+    Notes
+    -----
+    The weights are the cotangents of Pinkall and Polthier, "Computing Discrete Minimal Surfaces and
+    Their Conjugates", Experimental Mathematics 2(1), 1993.
+
+    Examples
+    --------
+    >>> from solver import ProxyOptions, rest_mesh
+    >>> V, F = [[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]]
+    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 3
+    (3, True)
     """
     input_positions, F = check_mesh(V, F)
     check_memory(len(input_positions), len(F))

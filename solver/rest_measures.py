@@ -7,7 +7,34 @@ from .edge_vectors import double_area_vectors, edge_vectors
 
 
 def triangle_areas_and_normals(V, F):
-    """Return the areas (m,) and unit normals (m,3), zero where undefined, of the triangles."""
+    """Return the areas and unit normals of the triangles.
+
+    Parameters
+    ----------
+    V : (n,3) numpy array
+        Rest positions.
+    F : (m,3) numpy int array
+        Triangles.
+
+    Returns
+    -------
+    areas : (m,) numpy array
+    normals : (m,3) numpy array
+        Zero for triangles without area.
+
+    See Also
+    --------
+    auto_orient : Uses both.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import triangle_areas_and_normals
+    >>> V, F = np.array([[0.0, 0, 0], [2, 0, 0], [0, 2, 0]]), np.array([[0, 1, 2]])
+    >>> areas, normals = triangle_areas_and_normals(V, F)
+    >>> areas, np.abs(normals)
+    (array([2.]), array([[0., 0., 1.]]))
+    """
     areas, normals = np.empty(len(F)), np.empty((len(F), 3))
     for block, edges in edge_vectors(V, F):
         vectors = double_area_vectors(edges)
@@ -22,18 +49,18 @@ def areas_and_normals(V, F):
 
     Parameters
     ----------
-    V : (n,3) float array
+    V : (n,3) numpy array
         Rest positions.
-    F : (m,3) int array
+    F : (m,3) numpy int array
         Triangles.
 
     Returns
     -------
-    areas : (n,) float array
-        A third of the area of the triangles around each vertex, in the unit of V squared.
-    normals : (n,3) float array
+    areas : (n,) numpy array
+        A third of the area of the triangles around each vertex, in the units of V squared.
+    normals : (n,3) numpy array
         Unit normals; zero where the triangles around a vertex cancel out or have no area, which
-        switches the cubic term off there.
+        disables the cubic term there.
     """
     vectors = np.empty((3, len(F)))
     thirds = np.empty(len(F))
@@ -48,6 +75,6 @@ def areas_and_normals(V, F):
     areas = at_corners(thirds)
     sums = np.stack([at_corners(x) for x in vectors], axis=1)
     lengths = np.linalg.norm(sums, axis=1)
-    is_defined = lengths > 1e-12 * areas  # else rounding alone would choose the direction
+    is_defined = lengths > 1e-12 * areas  # otherwise rounding alone would choose the direction
     normals = np.where(is_defined[:, None], sums, 0.0) / np.where(is_defined, lengths, 1.0)[:, None]
     return areas, normals

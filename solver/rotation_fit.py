@@ -25,14 +25,18 @@ def fit_rotations(M, guess):
 
     Parameters
     ----------
-    M : (n,3,3) float array
-    guess : (n,3,3) float array
+    M : (n,3,3) numpy array
+    guess : (n,3,3) numpy array
         Rotations to start from.
 
     Returns
     -------
-    R : (n,3,3) float array
+    R : (n,3,3) numpy array
         In SO(3), each maximising tr(R M).
+
+    See Also
+    --------
+    svd_rotations : The same without a guess.
     """
     R = guess.copy()
     todo = np.arange(len(M))
@@ -51,7 +55,32 @@ def fit_rotations(M, guess):
 
 
 def svd_rotations(M):
-    """Return argmax tr(R M) over SO(3) for M (n,3,3), by singular value decompositions."""
+    """Return argmax tr(R M) over SO(3) for each M, by singular value decompositions.
+
+    Parameters
+    ----------
+    M : (n,3,3) numpy array
+
+    Returns
+    -------
+    R : (n,3,3) numpy array
+
+    See Also
+    --------
+    fit_rotations : Faster with a good guess.
+
+    Notes
+    -----
+    Kabsch, "A solution for the best rotation to relate two sets of vectors", Acta Crystallographica
+    A32, 1976.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import svd_rotations
+    >>> np.allclose(svd_rotations(np.diag([3.0, 2.0, 1.0])[None]), np.eye(3))
+    True
+    """
     U, _, Vt = np.linalg.svd(M)
     R = (U @ Vt).swapaxes(1, 2)
     mirrored = np.linalg.det(R) < 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The whole run in one call: mesh in, cubic mesh out."""
+"""A complete run in one call: mesh in, cubic mesh out."""
 
 import time
 from dataclasses import dataclass
@@ -17,10 +17,25 @@ from .stylization import Energy, Stylization
 
 @dataclass(frozen=True)
 class Result:
-    """A finished run."""
+    """The result of a run.
+
+    See Also
+    --------
+    stylize, run : Return it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import stylize
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> result = stylize(V, F, 0.4, device="numpy")
+    >>> result.reason, result.device, result.positions.shape, result.rotations.shape
+    ('converged', 'numpy', (4, 3), (4, 3, 3))
+    """
 
     positions: np.ndarray
-    """(n,3) float64, in the unit of the input"""
+    """(n,3) float64, in the units of the input"""
     rotations: np.ndarray
     """(n,3,3) float64 rotation of each vertex; the identity for loose vertices"""
     energy: Energy
@@ -29,8 +44,11 @@ class Result:
     reason: str
     """"converged", "max_iterations" or "cancelled" """
     device: str
+    """name of the device that ran the local step, such as "taichi-cpu" """
     compile_seconds: float
+    """time to compile the kernels or to load them from a cache"""
     solve_seconds: float
+    """time of the iterations"""
 
     @property
     def converged(self):
@@ -50,25 +68,28 @@ def stylize(
     proxy=PAPER,
     **options,
 ):
-    """Return the cubic version of a mesh (Liu and Jacobson, "Cubic Stylization", 2019).
+    """Return the cubic version of a mesh.
 
     Parameters
     ----------
-    V : (n,3) array_like of float
-        Rest positions, in any unit. Vertices in no triangle stay where they are.
-    F : (m,3) array_like of int
+    V : (n,3) numpy array
+        Rest positions, in any unit. Vertices that belong to no triangle do not move.
+    F : (m,3) numpy int array
         Triangles.
-    cubeness : float or (n,) array_like
+    cubeness : float or (n,) numpy array
         0 keeps the shape; 0.1 to 1 are common.
-    pinned : (k,) array_like of int
+    pinned : (k,) numpy int array
         Vertices held exactly in place.
     max_iterations : int
-        See `run`, also for the next two.
+        Limit, even if the run has not converged.
     tolerance : float
+        See `StopRule`.
     on_iteration : callable, optional
+        Called with the Stylization after each iteration; a true value cancels the run.
     proxy : ProxyOptions
-        How the surface is prepared: welded, refined, linked to its neighbours and its other side.
-        By default not at all, as in the paper; ``ProxyOptions()`` is what artists get.
+        How to prepare the surface: weld it, refine it, and link it to its neighbours and its
+        opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
+        defaults of the extension.
     **options
         See `Stylization`: orientation, targets, device, precision, keep_rotation and more.
 
@@ -79,7 +100,17 @@ def stylize(
     Raises
     ------
     CubicCraftError
-        The mesh or an option cannot be used; the message says why.
+        The mesh or an option is invalid; the message gives the reason.
+
+    See Also
+    --------
+    run : The same for a prepared Stylization.
+    auto_orient : Finds an orientation for ``orientation``.
+
+    Notes
+    -----
+    Minimises the energy of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
+    38(6), 2019.
 
     Examples
     --------
@@ -95,12 +126,13 @@ def stylize(
 
 
 def run(stylization, max_iterations=1000, tolerance=1e-3, on_iteration=None):
-    """Iterate a fresh Stylization to its end.
+    """Iterate a new Stylization to its end.
 
     Parameters
     ----------
     stylization : Stylization
     max_iterations : int
+        Limit, even if the run has not converged.
     tolerance : float
         See `StopRule`.
     on_iteration : callable, optional
@@ -113,7 +145,22 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, on_iteration=None):
     Raises
     ------
     CubicCraftError
-        The tolerance is not positive, or there is no iteration to do.
+        The tolerance is not positive, or max_iterations is less than 1.
+
+    See Also
+    --------
+    stylize : The same for a mesh, in one call.
+    Run : The same, phase by phase.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Setup, Stylization, rest_mesh, run
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> setup = Setup(rest_mesh(V, F))
+    >>> [run(Stylization(setup, x, device="numpy")).converged for x in (0.1, 0.4)]
+    [True, True]
     """
     run = Run(stylization, max_iterations, tolerance)
     run.complete(on_iteration)
@@ -121,26 +168,43 @@ def run(stylization, max_iterations=1000, tolerance=1e-3, on_iteration=None):
 
 
 class Run:
-    """A run that is advanced phase by phase, for those who have something else to do in between.
+    """A run that is advanced phase by phase, so that the caller can do other work in between.
 
-    However it is sliced, the result is that of `run`, bit for bit.
+    However it is sliced, the result is identical to that of `run`, bit for bit.
 
     Parameters
     ----------
     stylization : Stylization
-        As in `run`, and so are the next two.
     max_iterations : int
+        Limit, even if the run has not converged.
     tolerance : float
+        See `StopRule`.
 
     Attributes
     ----------
     reason : str or None
-        None while there is more to do, then as in `Result`.
+        None while the run is not finished, then as in `Result`.
 
     Raises
     ------
     CubicCraftError
-        As `run`.
+        The tolerance is not positive, or max_iterations is less than 1.
+
+    See Also
+    --------
+    run : The same in one call.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Run, Setup, Stylization, rest_mesh
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy"))
+    >>> while run.reason is None:
+    ...     run.advance()
+    >>> run.reason
+    'converged'
     """
 
     def __init__(self, stylization, max_iterations=1000, tolerance=1e-3):
@@ -160,17 +224,17 @@ class Run:
 
     @property
     def is_on_coarser_mesh(self):
-        """Whether it has yet to begin on the mesh itself."""
+        """Whether the run has not yet reached the mesh itself."""
         return self._coarse is not None
 
     @property
     def iterations(self):
-        """Number of iterations done, those on coarser meshes included."""
+        """Number of iterations done, including those on coarser meshes."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
         return coarse + self.stylization.iteration
 
     def advance(self):
-        """Do one phase: a local or a global step. At the end, `reason` is set."""
+        """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
         if self._coarse is not None:
             self._advance_coarse()
@@ -207,18 +271,18 @@ class Run:
                 self.reason = "cancelled"
 
     def positions(self):
-        """Return the positions (n,3) as they are now, in the unit of the input.
+        """Return the current positions (n,3), in the units of the input.
 
-        While it starts on a coarser mesh they are those of its vertices, with the details at rest.
+        While the run is on a coarser mesh, they follow its vertices, with the details at rest.
         """
-        return self.stylization.placed_positions(self._glance()[1])
+        return self.stylization.placed_positions(self._current()[1])
 
     def placed(self):
-        """Return the positions (n,3) and the rotations (n,3,3) as they are now."""
-        return self.stylization.placed(*self._glance())
+        """Return the current positions (n,3) and rotations (n,3,3)."""
+        return self.stylization.placed(*self._current())
 
-    def _glance(self):
-        """Return the rotations and the positions in the unit box as they are now."""
+    def _current(self):
+        """Return the current rotations and the positions in the unit box."""
         state = self.stylization
         if self._coarse is None:
             return state.rotations, state.positions
@@ -226,7 +290,7 @@ class Run:
         return preview_on_fine(positions, R, state.rest)
 
     def result(self):
-        """Return the Result of what has been done; the iteration cannot go on after it."""
+        """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
         state = self.stylization
         energy = state.finish()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is done once per mesh and set of pins."""
+"""Everything that is computed once per mesh and set of pins."""
 
 from copy import copy
 from functools import cached_property
@@ -12,41 +12,53 @@ from .holds import HoldFields
 from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
 NARROW = 0.01
-"""Longest side of the triangles, in the unit box, of a ring that is left free beside what is still:
-it moves by less than that is long."""
+"""Longest side of the triangles, in the unit box, in a ring beside held vertices that is left free:
+it moves by less than this length."""
 
 
 class Setup:
-    """The rest mesh, its pinned vertices and the factorisation that belongs to both.
+    """A rest mesh, its pinned vertices and the factorisation for both.
 
     Parameters
     ----------
     rest : RestMesh
-    pinned : (k,) array_like of int, optional
+    pinned : (k,) numpy int array, optional
         Vertices of the input that are held exactly.
-    still : (N,) array_like of bool, optional
-        Vertices of the input that are asked to stay where they are. They are held, but for one ring
-        next to what moves if that is narrow: so the surface bends there without a crease.
+    still : (N,) numpy bool array, optional
+        Vertices of the input that should stay in place. They are held, except for one narrow ring
+        next to the moving vertices, so that the surface bends there without a crease.
     mirrors : sequence of Mirror, optional
-        Of the input, in its unit: halves that stay mirror images of each other. What is held is
-        left out.
-
-    Raises
-    ------
-    CubicCraftError
-        An index that is no integer or out of range, or no vertex left free.
+        Of the input, in its units: halves that stay mirror images of each other. Held vertices are
+        excluded.
 
     Attributes
     ----------
-    pinned_input : (k,) int array
-        The pinned vertices, loose ones included.
-    pinned : (j,) int array
+    pinned_input : (k,) numpy int array
+        The pinned vertices, including loose ones.
+    pinned : (j,) numpy int array
         Those that are not loose, as indices into ``rest.V``.
-    has_pin : (component_count,) bool array
+    has_pin : (component_count,) numpy bool array
         Components with a pinned vertex.
     mirrors : tuple of Mirror
         Of the solved vertices, in the unit box.
     hold_fields : HoldFields or None
+
+    Raises
+    ------
+    CubicCraftError
+        An index is not an integer or is out of range, or no vertex is left free.
+
+    See Also
+    --------
+    rest_mesh : The step before.
+    Stylization : The next step, for a cubeness and an orientation.
+
+    Examples
+    --------
+    >>> from solver import Setup, rest_mesh
+    >>> setup = Setup(rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]]), pinned=[0])
+    >>> setup.pinned, setup.has_pin
+    (array([0]), array([ True]))
     """
 
     def __init__(self, rest, pinned=(), still=None, mirrors=()):
@@ -75,20 +87,20 @@ class Setup:
 
     @property
     def is_anchored(self):
-        """(component_count,) bool array, components with a pinned vertex or a group that is held.
+        """(component_count,) bool array, components with a pinned vertex or a held group.
 
-        The others float, and stay where they are as a whole.
+        The other components float; they stay in place as a whole.
         """
         return self.global_step.is_anchored
 
     def with_holds(self, weights) -> "Setup":
-        """Return the same with groups of vertices that keep their place, see `holds.py`.
+        """Return the same setup with groups of vertices that keep their place, see `holds.py`.
 
-        Nothing is factorised anew. What a group asks for, a Stylization is told.
+        The factorisation is reused. A Stylization is given the goal of each group.
 
         Parameters
         ----------
-        weights : sequence of (N,) arrays
+        weights : sequence of (N,) numpy arrays
             Of the vertices of the input.
         """
         other = copy(self)
@@ -106,7 +118,7 @@ class Setup:
 
     @cached_property
     def coarse(self):
-        """The Setup of the coarser mesh, with the pins merged, or None where there is none."""
+        """The Setup of the coarser mesh, with merged pins, or None if there is no such mesh."""
         coarsening = self.rest.coarse
         if coarsening is None:
             return None
@@ -126,7 +138,7 @@ class Setup:
 
 
 def _held_by(rest, still):
-    """Return the vertices of the input that are still (N,), less those in a narrow ring."""
+    """Return the vertices of the input that are still (N,), without those in a narrow ring."""
     is_still = rest.input_map.spread_mask(still)
     F = rest.F
     sides = np.linalg.norm(rest.V[F] - rest.V[np.roll(F, 1, axis=1)], axis=2)
@@ -144,7 +156,7 @@ def _solved(rest, mirror):
     solved[used] = place
     partner = np.full(len(rest.V), NO_PARTNER)
     partner[place] = solved[mirror.partner[used]]
-    # Midpoints are found where they are: the diagonals that they lie on need not have images.
+    # Midpoints are matched by position: the diagonals that they lie on need not have images.
     is_added = np.ones(len(rest.V), dtype=bool)
     is_added[place] = False
     added = np.flatnonzero(is_added)

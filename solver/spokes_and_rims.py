@@ -119,7 +119,7 @@ def spokes_and_rims(V, F, C):
 
 
 class _Pattern:
-    """Where the pairs of vertices that share an edge have their place in a sparse matrix.
+    """The places in a sparse matrix of the pairs of vertices that share an edge.
 
     Parameters
     ----------

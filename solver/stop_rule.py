@@ -2,23 +2,36 @@
 """When the iteration has converged."""
 
 ENERGY_WINDOW = 10
-"""iterations over which the fall of the energy is judged"""
+"""number of iterations over which the fall of the energy is measured"""
 ENERGY_SHARE = 0.1
-"""the fall per iteration, as part of the whole fall, may be this share of the tolerance"""
+"""limit of the fall per iteration relative to the total fall, as a fraction of the tolerance"""
 
 
 class StopRule:
     """Converged when the shape no longer moves and the energy no longer falls.
 
-    Either alone is no certificate: the displacement stalls before late snaps, when the energy still
-    falls; and the energy hardly changes while flat regions still slide.
+    Neither alone is sufficient: the displacement may stall before the shape snaps into place, while
+    the energy still falls; and the energy hardly changes while flat regions still slide.
 
     Parameters
     ----------
     tolerance : float
         Largest displacement in one iteration, relative to the largest distance from the rest shape.
     resolution : float
-        Distance below which everything is rounding.
+        Distance below which differences are rounding errors.
+
+    See Also
+    --------
+    Progress : An estimate of the progress until then.
+
+    Examples
+    --------
+    >>> from solver import StopRule
+    >>> rule = StopRule(tolerance=1e-3)
+    >>> [rule.is_converged(energy, 1e-6, 1.0) for energy in (2.0, 1.0, 1.0)]
+    [False, False, False]
+    >>> [rule.is_converged(1.0, 1e-6, 1.0) for _ in range(9)][-2:]
+    [False, True]
     """
 
     def __init__(self, tolerance, resolution=1e-9):
@@ -27,11 +40,12 @@ class StopRule:
         self._energies = []
 
     def is_converged(self, energy, displacement, distance):
-        """Take in one iteration and tell whether it was the last.
+        """Record one iteration and return whether it was the last.
 
         Parameters
         ----------
         energy : float
+            Total energy.
         displacement : float
             Largest displacement of a vertex in this iteration.
         distance : float

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The local-global iteration on one mesh, one step at a time."""
+"""The local-global iteration on one mesh, step by step."""
 
 from dataclasses import dataclass
 
@@ -12,15 +12,28 @@ from .holds import Holds
 from .mesh_checks import per_vertex
 from .styles.admm import AdmmOptions
 
-_FIRST_SOLVES = 3  # where a solve only comes nearer to the positions, the first is far from them
+_FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
 
 
 @dataclass(frozen=True)
 class Energy:
-    """Energies in the unit box (divide lengths by the largest extent of the mesh)."""
+    """Energies in the unit box (divide lengths by the largest extent of the mesh).
+
+    See Also
+    --------
+    Stylization.energy_of : Returns the energy of a given shape.
+
+    Examples
+    --------
+    >>> from solver import Energy
+    >>> Energy(arap=0.25, cubic=0.5).total
+    0.75
+    """
 
     arap: float
+    """of the as-rigid-as-possible deformation"""
     cubic: float
+    """of the normals, which is lowest along the axes of the cube"""
 
     @property
     def total(self):
@@ -29,33 +42,33 @@ class Energy:
 
 
 class Stylization:
-    """The state of one run. Create, call `step` as often as you like, read `positions`.
+    """The state of one run: call `step` repeatedly and read `positions`.
 
     Parameters
     ----------
     setup : Setup
-    cubeness : float or (N,) array_like
+    cubeness : float or (N,) numpy array
         Weight lambda of the cubic term, per vertex of the input; 0 keeps the shape.
-    orientation : (3,3) or (N,3,3) array_like, optional
+    orientation : (3,3) or (N,3,3) numpy array, optional
         Rotation Q that maps a vector into the frame of the cube; its rows are the cube's axes.
-    targets : (N,3) array_like, optional
-        Positions of the pinned vertices in the user's unit; by default where they are at rest. The
-        rows of all other vertices are ignored.
+    targets : (N,3) numpy array, optional
+        Positions of the pinned vertices in the units of the input; by default their rest positions.
+        The rows of all other vertices are ignored.
     device : {"auto", "cpu", "gpu", "numpy"}
-        On a GPU the arrays stay there. If Taichi is reset meanwhile, all that needs them raises a
-        CubicCraftError.
+        On a GPU, the arrays stay there. If Taichi is reset during the run, every method that needs
+        them raises a CubicCraftError.
     precision : {"f64", "f32"}, optional
-        Of the local step in Taichi; by default the best that the device has.
+        Of the local step in Taichi; by default the highest that the device supports.
     admm : AdmmOptions, optional
     is_accelerated : bool
         False for the plain iteration, in which the energy falls in every step.
     keep_rotation : bool
-        Keep each component without pins in the orientation it has at rest. Otherwise it may turn as
+        Whether each component without pins keeps its orientation. Otherwise it may turn as
         a whole to fit the cube.
     is_coarse : bool
-        Of a coarser mesh, to start another one from.
-    hold_matrices : sequence of (4,4) array_like
-        Where the groups of `Setup.with_holds` go, in the user's unit.
+        Whether the mesh is a coarser one that provides the start for another.
+    hold_matrices : sequence of (4,4) numpy arrays
+        Maps of the groups of `Setup.with_holds`, in the units of the input.
 
     Attributes
     ----------
@@ -65,9 +78,35 @@ class Stylization:
     iteration : int
         Number of steps done.
     energy : Energy or None
-        Of the point that the last local step looked at; of the result after `finish`.
+        At the point used by the last local step; after `finish`, that of the result.
     displacement, distance : float
         Largest displacement in the last step and largest distance from rest, in the unit box.
+
+    Raises
+    ------
+    CubicCraftError
+        An option is invalid, or the device is not available.
+
+    See Also
+    --------
+    run, Run : Iterate it to the end.
+
+    Notes
+    -----
+    The steps are those of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
+    38(6), 2019; `active_set` and `acceleration` describe the differences.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Setup, Stylization, rest_mesh
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
+    >>> for _ in range(3):
+    ...     stylization.step()
+    >>> stylization.iteration, stylization.positions.shape
+    (3, (4, 3))
     """
 
     def __init__(
@@ -91,7 +130,7 @@ class Stylization:
         rest = self.rest = setup.rest
         lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))
         lam = rest.input_map.spread(lam) * rest.cubic_shares
-        lam[setup.pinned] = 0.0  # else their rotations would shear the pinned part
+        lam[setup.pinned] = 0.0  # otherwise their rotations would shear the pinned part
         Q = _orientation(orientation, rest)
         self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q
         make_local_step = local_step_class(device, precision)
@@ -116,7 +155,7 @@ class Stylization:
 
     @property
     def resolution(self):
-        """Distance in the unit box below which everything is rounding."""
+        """Distance in the unit box below which differences are rounding errors."""
         return self._local.resolution
 
     @property
@@ -126,7 +165,7 @@ class Stylization:
 
     @property
     def positions(self):
-        """(n,3) present positions in the unit box, of the vertices of `rest`."""
+        """(n,3) current positions in the unit box, of the vertices of `rest`."""
         return self._motion.positions
 
     @property
@@ -135,7 +174,7 @@ class Stylization:
         return self._local.R
 
     def coarser(self):
-        """Return a fresh Stylization of the coarser mesh of the setup."""
+        """Return a new Stylization of the coarser mesh of the setup."""
         setup, coarsening = self.setup.coarse, self.rest.coarse
         areas = self.rest.areas + 1e-300
         count = len(coarsening.rest.V)
@@ -165,7 +204,7 @@ class Stylization:
         )
 
     def _hold_matrices_of(self, coarse):
-        """Return the matrices in the unit of a coarser mesh, which is our unit box."""
+        """Return the matrices in the units of a coarser mesh, which are those of the unit box."""
         if coarse.hold_fields is None:
             return ()
         box = self.rest.box
@@ -174,7 +213,7 @@ class Stylization:
         return [np.linalg.inv(into) @ np.asarray(matrix) @ into for matrix in self._hold_matrices]
 
     def start_from(self, R, near):
-        """Let the iteration begin with rotations (n,3,3) and positions (n,3) of the unit box."""
+        """Start the iteration from rotations (n,3,3) and positions (n,3) in the unit box."""
         self._local.start_from(R)
         near[self.setup.pinned] = self.positions[self.setup.pinned]
         self._motion.put(near)
@@ -193,7 +232,7 @@ class Stylization:
         self.energy = Energy(float(arap.sum()), float(cubic.sum()))
 
     def global_step(self):
-        """Move the positions toward the rotations of the local step before."""
+        """Move the positions toward the rotations of the previous local step."""
         if self._acceleration is None:
             momentum = overshoot = np.zeros(self.rest.topology.component_count)
         else:
@@ -214,20 +253,25 @@ class Stylization:
 
         Parameters
         ----------
-        positions : (N,3) array_like
-            In the user's unit. The state of the run is replaced by it.
+        positions : (N,3) numpy array
+            In the units of the input. They replace the state of the run.
         steps : int
-            Local steps; each starts from the rotations of the one before, and the best counts.
+            Number of local steps; each starts from the rotations of the previous one, and the best
+            counts.
+
+        Returns
+        -------
+        Energy
         """
         solved = self.rest.input_map.spread(np.asarray(positions, dtype=np.float64))
         self._motion.put(self.rest.box.to_unit(solved))
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
     def placed(self, R=None, U=None):
-        """Return positions (N,3) in the user's unit and rotations (N,3,3) of the present state.
+        """Return positions (N,3) in the units of the input and rotations (N,3,3).
 
-        Loose vertices have exactly their given positions, pinned ones their targets. Of another
-        state, if its rotations (n,3,3) and positions (n,3) in the unit box are given.
+        They are those of the current state, or of given rotations (n,3,3) and positions (n,3) in
+        the unit box. Loose vertices have exactly their given positions, pinned ones their targets.
         """
         rotations = np.tile(np.eye(3), (len(self.rest.input_positions), 1, 1))
         used, place = self.rest.place
@@ -235,7 +279,7 @@ class Stylization:
         return self.placed_positions(U), rotations
 
     def placed_positions(self, U=None):
-        """Return the positions alone, for those who look on while it runs."""
+        """Return only the positions, to show them while it runs."""
         rest = self.rest
         positions = rest.input_positions.copy()
         used, place = rest.place
@@ -263,7 +307,7 @@ def _orientation(Q, rest):
 
 
 def _targets(targets, setup):
-    """Return the targets as (N,3) positions in the user's unit; only those of pins matter."""
+    """Return the targets as (N,3) positions in the units of the input; only pins matter."""
     at_rest = setup.rest.input_positions
     if targets is None:
         return at_rest
@@ -276,19 +320,19 @@ def _targets(targets, setup):
 
 
 def _moved(setup, targets):
-    """Return how far the targets of the solved vertices that are pinned are from rest, (k,3)."""
+    """Return the displacements (k,3) from rest to the targets of the pinned solved vertices."""
     rest = setup.rest
     moved = np.zeros_like(rest.input_positions)
     share = np.zeros(len(moved))
     share[setup.pinned_input] = 1.0
     moved[setup.pinned_input] = (targets - rest.input_positions)[setup.pinned_input]
-    # of vertices that are welded, only those count that are pinned
+    # of welded vertices, only the pinned ones count
     moved, share = (rest.input_map.spread(x)[setup.pinned] for x in (moved, share))
     return moved / share[:, None]
 
 
 def _with_boxes(Q, frames):
-    """Return orientations with those of parts that are boxes but stand askew, see `proxy/boxes`."""
+    """Return the orientations with those of rotated boxes replaced, see `proxy/boxes`."""
     if frames is None:
         return Q
     turn = np.abs(Q @ frames.swapaxes(1, 2))

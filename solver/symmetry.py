@@ -2,9 +2,9 @@
 """Halves that stay mirror images of each other.
 
 The global step is followed by a projection onto the positions that are their own image: each
-vertex goes to the middle between itself and the image of its partner. Where the mesh is symmetric,
-links and triangulation included, that is the global step among symmetric positions; where it is so
-but for a few vertices or diagonals, it keeps the halves from growing apart.
+vertex moves halfway toward the image of its partner. If the mesh is symmetric, including its links
+and triangulation, this is the global step among symmetric positions. If it is symmetric except for
+a few vertices or diagonals, the projection keeps the halves from diverging.
 """
 
 from collections.abc import Sequence
@@ -17,17 +17,34 @@ from scipy.spatial import KDTree
 from .rotation_fit import svd_rotations
 
 NO_PARTNER = -1
-"""in place of the number of one"""
+"""in place of the index of a partner"""
 MATCHING = 1e-3
-"""of the largest extent: how far a vertex may be from the image of its partner"""
+"""largest distance of a vertex from the image of its partner, relative to the largest extent"""
 
 
 @dataclass(frozen=True)
 class Mirror:
-    """A reflection x -> A x + b, and which vertices are each other's images."""
+    """A reflection x -> A x + b, and the vertices that are images of each other.
+
+    See Also
+    --------
+    partners : Finds the vertices.
+    Setup : Keeps the halves symmetric.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Mirror
+    >>> mirror = Mirror(np.array([1, 0]), np.diag([-1.0, 1, 1]), np.zeros(3))
+    >>> positions = np.array([[1.0, 0, 0], [-1, 1, 0]])
+    >>> mirror.impose(positions)
+    >>> positions
+    array([[ 1. ,  0.5,  0. ],
+           [-1. ,  0.5,  0. ]])
+    """
 
     partner: np.ndarray
-    """(n,) int image of each vertex: itself in the plane, -1 where it has none"""
+    """(n,) int image of each vertex: itself in the plane, -1 if it has none"""
     linear: np.ndarray
     """(3,3) A, with A A = 1"""
     offset: np.ndarray
@@ -69,28 +86,40 @@ class Mirror:
         rotations[inside] = svd_rotations((rotations[inside] + images).swapaxes(1, 2))
 
     def without(self, is_held):
-        """Return the mirror that leaves vertices (n,) and their partners alone."""
+        """Return the mirror without the vertices of a mask (n,) and without their partners."""
         partner = self.partner.copy()
         partner[is_held | is_held[partner]] = NO_PARTNER
         return replace(self, partner=partner)
 
 
 def partners(V, image, tolerance):
-    """Find which vertices are each other's images.
+    """Find the vertices that are images of each other.
 
     Parameters
     ----------
-    V : (n,3) array
-    image : (n,3) array
-        Where the reflection takes them.
+    V : (n,3) numpy array
+    image : (n,3) numpy array
+        The reflected vertices.
     tolerance : float
         Largest distance between a vertex and the image of its partner.
 
     Returns
     -------
-    (n,) int array
+    (n,) numpy int array
         As `Mirror.partner`. Each vertex is the nearest to the image of its partner; of several at
-        the same place, as along the seams of a UV map, the first belongs to the first.
+        the same place, as along the seams of a UV map, the first is paired with the first.
+
+    See Also
+    --------
+    Mirror : Holds the result.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import partners
+    >>> V = np.array([[1.0, 0, 0], [-1, 0, 0], [0, 2, 0], [5, 5, 5]])
+    >>> partners(V, V * [-1, 1, 1], tolerance=1e-3)
+    array([ 1,  0,  2, -1])
     """
     places, first, place, count = np.unique(
         V, axis=0, return_index=True, return_inverse=True, return_counts=True
@@ -118,9 +147,30 @@ def partners(V, image, tolerance):
 
 
 def commuting(mirrors: Sequence[Mirror]) -> tuple[Mirror, ...]:
-    """Return mirrors without those pairs that would undo the symmetry about another plane.
+    """Return mirrors without the pairs that would break the symmetry about another plane.
 
-    So that all of them can be imposed, one after the other.
+    All of them can then be imposed one after the other.
+
+    Parameters
+    ----------
+    mirrors : sequence of Mirror
+
+    Returns
+    -------
+    tuple of Mirror
+
+    See Also
+    --------
+    Setup : Uses them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Mirror, commuting
+    >>> x = Mirror(np.array([1, 0, -1]), np.diag([-1.0, 1, 1]), np.zeros(3))
+    >>> y = Mirror(np.array([2, -1, 0]), np.diag([1.0, -1, 1]), np.zeros(3))
+    >>> [mirror.count for mirror in commuting([x, y])]  # vertex 1 has no partner about y
+    [0, 2]
     """
     found = [mirror.partner.copy() for mirror in mirrors]
     is_changed = len(found) > 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the vertices of a mesh hang together, wherever they are."""
+"""How the vertices of a mesh are connected, regardless of their positions."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,16 +15,16 @@ _CHUNK = 256
 class Topology:
     """Vertices that share triangles or links, by components.
 
-    A mesh that is deformed keeps it, and so do the frames of an animation.
+    It is the same for a deformed mesh, and for all frames of an animation.
     """
 
     F: np.ndarray
     """(m,3) int32 triangles"""
     part: np.ndarray
-    """(n,) int connected part of each vertex, links left aside"""
+    """(n,) int connected part of each vertex, without links"""
     component_count: int
     component: np.ndarray
-    """(n,) int component of each vertex: parts that are linked are one"""
+    """(n,) int component of each vertex: linked parts are one component"""
 
     def linked(self, pairs):
         """Return the Topology with further pairs (p,2) of vertices connected."""
@@ -34,9 +34,9 @@ class Topology:
 
     @cached_property
     def chunks(self):
-        """Up to 256 vertices each, one after the other and of one component, for sums in parallel.
+        """Up to 256 consecutive vertices of one component each, for parallel sums.
 
-        (k+1,) int32 where each begins, and (k,) int32 the component of each.
+        (k+1,) int32 start of each, and (k,) int32 component of each.
         """
         count = len(self.component)
         is_start = np.zeros(count, dtype=bool)
@@ -48,7 +48,7 @@ class Topology:
 
     @cached_property
     def largest_component(self):
-        """Number of vertices of the largest component, which says how hard the problem is."""
+        """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
 
     def sum_parts_at(self, vertices, values):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solve in a unit box, whatever the size of the mesh and its distance from the origin.
 
-The energy itself does not depend on the unit: both terms grow with the square of the length. What
-depends on it is rounding, above all in 32 bit. So the solver always works on the mesh moved to the
+The energy itself does not depend on the unit: both terms grow with the square of the length.
+Rounding errors do, above all in 32 bit. The solver therefore always works on the mesh moved to the
 origin and scaled so that its largest extent is 1.
 """
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Number the vertices of a large mesh so that neighbours lie near each other in memory.
+"""Reorder the vertices of a large mesh so that neighbours are close to each other in memory.
 
-An iteration is as fast as the memory gives it what lies at the neighbours. Programs that subdivide
+The speed of an iteration depends on memory access to neighbours. Programs that subdivide
 append the new vertices, far from the old ones. In the order of Cuthill and McKee (1969) the set-up,
 the local step and the products with sparse matrices take half the time (400,000 vertices), and an
 iteration a third less (25,000).
@@ -15,7 +15,7 @@ LEAST_VERTICES = 20_000
 
 
 def vertex_order(F, n):
-    """Return the order (n,) int of the vertices of triangles F (m,3), or None where it is kept.
+    """Return the order (n,) int of the vertices of triangles F (m,3), or None to keep it.
 
     Vertices of a component come one after the other.
     """

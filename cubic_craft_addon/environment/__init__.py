@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What CubicCraft finds itself in: Blender's modes, the packages that are there, Taichi's cache."""
+"""The environment of CubicCraft: Blender's modes, installed packages, Taichi's cache."""

@@ -11,10 +11,10 @@ from .package import ROOT_PACKAGE
 
 @cache
 def use_extension_folder() -> None:
-    """Have Taichi cache its kernels in the folder that Blender gives the extension."""
+    """Make Taichi cache its kernels in the folder that Blender gives the extension."""
     try:
         folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True)
     except (ValueError, OSError):
-        # Not installed as an extension, or the folder cannot be made: Taichi's default will do.
+        # Not installed as an extension, or the folder cannot be created: use Taichi's default.
         return
     solver.set_cache_folder(folder)

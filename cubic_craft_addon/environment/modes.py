@@ -6,9 +6,9 @@ import bpy
 _MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
 
 MESSAGE = "Switch to Object Mode first"
-"""what to say in any other"""
+"""message in any other mode"""
 
 
 def is_mode_usable(context: bpy.types.Context) -> bool:
-    """Return whether meshes can be read and written in the present mode."""
+    """Return whether meshes can be read and written in the current mode."""
     return context.mode in _MODES

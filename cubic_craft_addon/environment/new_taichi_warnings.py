@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""That Taichi does not work here: worth one message, not one per run."""
+"""A warning that Taichi does not work here: shown once, not in every run."""
 
 from ... import solver
 
@@ -7,7 +7,7 @@ _told = ""
 
 
 def new_taichi_warnings() -> list[str]:
-    """Return what is to be told about Taichi now, as one text or none."""
+    """Return new warnings about Taichi, as a list of one text or none."""
     global _told
     problem = solver.problem_with_taichi()
     if problem == _told:

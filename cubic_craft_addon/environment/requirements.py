@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the solver needs beside what every Blender brings."""
+"""Requirements of the solver that not every Blender includes."""
 
 from functools import cache
 from importlib.util import find_spec
@@ -8,7 +8,7 @@ from ...solver import CubicCraftError
 
 
 def check_requirements() -> None:
-    """Check that SciPy is there; without Taichi the solver runs in NumPy.
+    """Check that SciPy is installed; without Taichi the solver runs in NumPy.
 
     Raises
     ------

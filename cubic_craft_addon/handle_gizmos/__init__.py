@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gizmos by which handles are moved, turned and scaled in the viewport while Live runs.
 
-``places`` says where they are, ``drag`` what a drag makes of a pose, without a window; ``group`` is
-what Blender draws and hands the mouse to.
+``places`` computes their positions and ``drag`` the effect of a drag on a pose, without a window;
+``group`` is what Blender draws and sends mouse events to.
 """
 
 from .group import register, unregister

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What moving, turning and scaling a handle in the world makes of its pose. Without Blender.
+"""The effect of moving, rotating and scaling a handle in the world on its pose. Without Blender.
 
 The handle's vertices are where W P v is, with W the matrix of the object in the world and P the
-pose. A motion D of the world makes P' = W^-1 D W P of it. W's own place cancels out of that and is
-left out, so that a part far from the origin does not lose digits.
+pose. A motion D of the world changes it to P' = W^-1 D W P. The location of W cancels out and is
+omitted, so that a part far from the origin does not lose digits.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 
 SMALLEST_FACTOR = 0.01
-"""least scale of a drag: a part without extent could not be scaled up again"""
+"""minimum scale of a drag: a part without extent could not be scaled up again"""
 
 
 @dataclass(frozen=True)
 class Drag:
-    """A drag, from its start on.
+    """A drag since its start.
 
-    Every method returns a pose, 16 numbers of single precision, row by row; without any motion
-    that at the start, bit for bit.
+    Each method returns a pose, 16 single-precision numbers, row by row; without any motion,
+    it is the pose at the start, bit for bit.
     """
 
     pose: tuple[float, ...]
@@ -32,7 +32,7 @@ class Drag:
     centre: np.ndarray
     """(3,) of the handle at the start, in object space"""
     axes: np.ndarray
-    """(3,3) orthonormal axes of the world in which it is turned and scaled, as columns"""
+    """(3,3) orthonormal axes in the world for rotation and scale, as columns"""
 
     def moved(self, way: Sequence[float] | np.ndarray) -> tuple[float, ...]:
         """Move it by a vector (3,) of the world."""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The gizmos: a dot on each handle, and arrows, rings and boxes around the active one.
 
-They are Blender's own, so that Shift makes a drag precise, and Esc or a right click takes it back.
-A gizmo asks where its value stands, and tells where the mouse has taken it: the values of arrows,
-rings and boxes count from the start of a drag, those of dots are places in the world.
+They are Blender's own, so that Shift makes a drag precise, and Esc or right click cancels it.
+A gizmo gets its value from us and sets it from the mouse: the values of arrows,
+rings and boxes are relative to the start of a drag, those of dots are positions in the world.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ _ALPHA, _ALPHA_HIGHLIGHT = 0.7, 1.0
 _DOT_SIZE = 0.11  # of the radius of the rings
 _ARROW_START, _BOX_LENGTH = 1.12, 0.7  # of the radius of the rings
 _BOX_SIZE = 0.05  # as Blender draws it at the end of a stem of 1
-_END_ON = 0.97  # cosine to the view from which on an arrow cannot be dragged any more
-_EDGE_ON = 0.15  # cosine to the view up to which a ring cannot
+_END_ON = 0.97  # cosine to the view beyond which an arrow cannot be dragged
+_EDGE_ON = 0.15  # cosine to the view below which a ring cannot be dragged
 
 
 @dataclass(frozen=True)
 class _Grab:
-    """What the mouse holds."""
+    """The handle being dragged."""
 
     gizmo: Any
     number: int
     """of the handle"""
     drag: Drag
     start: np.ndarray
-    """(3,) float32, where the handle was in the world"""
+    """(3,) float32, initial position of the handle in the world"""
     size: float
     """radius of the rings in the world"""
 
@@ -56,11 +56,11 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context):
-        """Return whether a mesh is live, and it or what its handles follow is active."""
+        """Return whether a mesh is live, and it or a target of its handles is active."""
         return live_object(context) is not None
 
     def setup(self, _context):
-        """Make the gizmos around the active handle; dots are made as they are needed."""
+        """Make the gizmos around the active handle; dots are made when needed."""
         self.middles = Middles()
         self.grab: _Grab | None = None
         self.value: Any = 0.0
@@ -82,9 +82,9 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
             self.dots.append(self._new_dot(len(self.dots)))
 
     def draw_prepare(self, context):
-        """Put all gizmos where the handles are now."""
+        """Move all gizmos to their handles."""
         if self._is_dragging():
-            # Blender moves what is dragged; all others would be in the way, or where it was.
+            # Blender moves the dragged gizmo; the others would be in the way, or at its old place.
             for gizmo in self.gizmos:
                 gizmo.hide = self.grab is not None and gizmo != self.grab.gizmo
             return
@@ -98,7 +98,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
         self._put_around(context, places.get(active))
 
     def invoke_prepare(self, context, gizmo):
-        """Begin a drag: from here on the poses are those that the gizmo tells."""
+        """Begin a drag: from here on, the gizmo sets the poses."""
         session, obj = live.current(), live_object(context)
         if session is None or obj is None:
             return
@@ -115,7 +115,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
         self.grab, self.value = _Grab(gizmo, number, drag, start, size), 0.0
         session.begin_drag(self._is_dragging)
 
-    # -- what the gizmos ask and tell --------------------------------------------------------------
+    # -- values of the gizmos ----------------------------------------------------------------------
 
     def _value_of(self, gizmo):
         return self.value if self.grab is not None and gizmo == self.grab.gizmo else 0.0
@@ -143,7 +143,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
         self._pose(scaled)
 
     def _pose(self, posed):
-        """Give the handle the pose that a function makes of what the mouse holds."""
+        """Set the pose of the handle that is dragged with a function of the drag."""
         obj = live_object(bpy.context)
         if self.grab is None or obj is None:
             return  # Live has ended meanwhile
@@ -157,7 +157,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
         except ReferenceError:
             return False  # its viewport has been closed
 
-    # -- how they are made and where they are put --------------------------------------------------
+    # -- creating and placing them -----------------------------------------------------------------
 
     def _new_dot(self, number):
         dot: Any = self.gizmos.new("GIZMO_GT_move_3d")
@@ -202,7 +202,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
         gizmo.target_set_handler("offset", get=partial(self._value_of, gizmo), set=take)
 
     def _put_around(self, context, place):
-        """Put arrows, rings and boxes around the active handle, those that can be dragged."""
+        """Place the arrows, rings and boxes that can be dragged around the active handle."""
         if place is None:
             for gizmo in (*self.arrows, *self.rings, *self.boxes):
                 gizmo.hide = True
@@ -222,7 +222,7 @@ class CUBIC_GGT_handles(bpy.types.GizmoGroup):
 
 
 def _make_active(obj, number):
-    """Make a handle the active one of the list, as soon as Blender lets objects be written to."""
+    """Make a handle the active one of the list, as soon as Blender allows writing to objects."""
     uid = obj.session_uid
 
     def write():
@@ -234,13 +234,13 @@ def _make_active(obj, number):
 
 
 def _axes(context, place):
-    """Return the axes (3,3) of the arrows as columns, as the artist has set them for all tools."""
+    """Return the axes (3,3) of the arrows as columns, by Blender's Transform Orientation."""
     slot = context.scene.transform_orientation_slots[0]
     return place.own_axes if slot.type == "LOCAL" else np.eye(3)
 
 
 def _view_axes(context, centre):
-    """Return which directions of the world are right, up and toward the view at a place."""
+    """Return the world directions right, up and toward the view at a position."""
     region = context.region_data
     turned = np.array(region.view_matrix.inverted(), dtype=np.float64)
     right, up, view = turned[:3, :3].T

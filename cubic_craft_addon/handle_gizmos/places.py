@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the handles are that can be dragged, and what their axes are."""
+"""The positions and axes of the handles that can be dragged."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Place:
 
     @property
     def own_axes(self):
-        """(3,3) orthonormal axes that turn with the handle, in the world, as columns."""
+        """(3,3) orthonormal axes that rotate with the handle, in the world, as columns."""
         linear = self.world[:3, :3] @ np.reshape(self.pose, (4, 4))[:3, :3]
         U, _, Vt = np.linalg.svd(linear)
         axes = U @ Vt
@@ -63,7 +63,7 @@ def places_of(obj: bpy.types.Object, middles: Middles) -> list[Place]:
 def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | None:
     """Return a handle of a live object, None if it cannot be dragged.
 
-    Those that follow something cannot: what they follow is what is moved.
+    Handles that follow a target cannot: the target is moved instead.
     """
     member = _member_of(live.current(), obj)
     handles = object_properties(obj).handles
@@ -71,7 +71,7 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
     if number >= len(handles) or number >= len(seen):
         return None
     handle, world = handles[number], np.array(obj.matrix_world, dtype=np.float64)
-    # Live may not have seen a change of the list yet.
+    # Live may not have noticed a change of the list yet.
     is_seen = handle.group == seen[number].group and live_target(handle) is None
     middle = middles.of(member, number)
     if not is_seen or middle is None or not _is_invertible(world):
@@ -82,14 +82,14 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
 
 
 class Middles:
-    """The middles of the handles on the original shape, found once per shape and handles."""
+    """The centers of the handles on the original shape, computed once per shape and handles."""
 
     def __init__(self):
         self._shape = self._handle_of = None
         self._middles: dict[int, np.ndarray | None] = {}
 
     def of(self, member: Any, number: int) -> np.ndarray | None:
-        """Return the middle (3,) of what a handle holds, None if it holds nothing."""
+        """Return the center (3,) of the vertices of a handle, None if it has none."""
         if self._shape is not member.shape or self._handle_of is not member.handle_of:
             self._shape, self._handle_of = member.shape, member.handle_of
             self._middles = {}
@@ -101,7 +101,7 @@ class Middles:
 
 
 def _member_of(session, obj):
-    """Return what Live has read of an object, None if it is not live itself."""
+    """Return the data that Live has read from an object, None if it is not live itself."""
     mesh = session.mesh_of(obj) if session is not None else None
     return mesh.member if mesh is not None and mesh.object_uid == obj.session_uid else None
 

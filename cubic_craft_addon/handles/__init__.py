@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles: vertex groups that are held in place, or follow an object, and the rest comes along.
+"""Handles: vertex groups that are held in place or follow an object, and the rest follows.
 
-``handle`` is what the solver needs to know of one, in plain values; ``pose`` reads it off the
-objects, ``properties`` is what is saved with them.
+``handle`` holds the plain values that the solver needs, ``pose`` reads them from the objects, and
+``properties`` is saved with the objects.
 """
 
 from .handle import IDENTITY, THRESHOLD, Handle, handle_of, targets

@@ -2,9 +2,9 @@
 """When the posed shape becomes the original, its pose becomes the rest.
 
 Apply makes the posed shape the original, and so does an edit by hand. The next Cubify starts from
-that, where the vertices are with their targets already; without a new rest it would move them by
-the same way once more. So each handle remembers the relation of its target (see `pose`), and the
-pose of its own, with which the mesh was last written.
+that shape, in which the vertices are already at their targets; without a new rest, it would move
+them by the same displacement again. Each handle therefore stores the relation of its target (see
+`pose`) and its own pose from when the mesh was last written.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ from .pose import live_target, relation
 
 
 def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
-    """Remember the pose with which the mesh of the object has just been written.
+    """Store the pose with which the mesh of the object has just been written.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
 
 
 def rest_in_pose(mesh: bpy.types.Mesh) -> None:
-    """Make the pose that the mesh was written with the rest, as its shape is the original now."""
+    """Make the pose of the written mesh the rest, because its shape is now the original."""
     for user in _users(mesh):
         for handle in object_properties(user).handles:
             if handle.is_baked:
@@ -52,7 +52,7 @@ def rest_in_pose(mesh: bpy.types.Mesh) -> None:
 def rebase_edited_handles(
     objects: list[bpy.types.Object], start_of: Callable[[bpy.types.Object], mesh_bridge.Start]
 ) -> None:
-    """Do so for each mesh object that starts from where it is, as edited since it was written."""
+    """Do this for each mesh object that starts from its current shape, edited since written."""
     for obj in objects:
         mesh = mesh_bridge.mesh_of(obj)
         is_baked = any(handle.is_baked for handle in object_properties(obj).handles)
@@ -61,7 +61,7 @@ def rebase_edited_handles(
 
 
 def _is_as(handle, other):
-    """Return whether a handle moves vertices as the other one, with which the mesh was written."""
+    """Return whether a handle moves vertices like the other, with which the mesh was written."""
     target = live_target(handle)
     if target is not None or live_target(other) is not None:
         return target == live_target(other)
@@ -69,7 +69,7 @@ def _is_as(handle, other):
 
 
 def _users(mesh):
-    """Return the objects with handles that show the mesh."""
+    """Return the objects with handles that use the mesh."""
     users = bpy.data.user_map(subset=[mesh])[mesh]
     return [
         user

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles: the vertices that are held, and where."""
+"""Handles: the held vertices and their targets."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,32 +11,32 @@ from ...solver.errors import CubicCraftError
 from .. import mesh_bridge
 
 THRESHOLD = 0.5
-"""least weight in a vertex group that makes a vertex part of a handle, by default"""
+"""default of the minimum weight that makes a vertex part of a handle"""
 IDENTITY = tuple(np.eye(4).ravel().tolist())
 
 
 @dataclass(frozen=True)
 class Handle:
-    """A set of vertices that is held in place, or moved as one, and the rest follows."""
+    """A set of vertices that is held in place or moved as a whole, and the rest follows."""
 
     group: str = ""
     """name of a vertex group"""
     vertices: tuple[int, ...] | None = None
-    """in place of the group: numbers of vertices"""
+    """instead of the group: indices of vertices"""
     threshold: float = THRESHOLD
     matrix: tuple[float, ...] = IDENTITY
     """4x4, row by row: affine map of original positions, in object space"""
     is_cubic: bool = False
-    """whether only its place and its rotation are held, and its surface becomes cubic"""
+    """whether only its position and rotation are held, and its surface becomes cubic"""
 
     @property
     def members(self):
-        """All that decides which vertices belong to it, and whether they are held exactly."""
+        """Everything that determines which vertices belong to it and how they are held."""
         return self.group, self.vertices, self.threshold, self.is_cubic
 
     @property
     def is_moved(self):
-        """Whether it asks its vertices to be somewhere else."""
+        """Whether it moves its vertices."""
         return self.matrix != IDENTITY
 
 
@@ -46,7 +46,7 @@ def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        A vertex group or a vertex that is not there.
+        A vertex group or a vertex does not exist.
     """
     count = len(mesh_bridge.mesh_of(obj).vertices)
     result = np.full(count, -1)
@@ -67,7 +67,7 @@ def _holds(obj, handle, count):
 
 
 def targets(original: np.ndarray, holder: np.ndarray, handles: Sequence[Handle]) -> np.ndarray:
-    """Return where the handles want their vertices.
+    """Return the targets of the vertices by the handles.
 
     Parameters
     ----------

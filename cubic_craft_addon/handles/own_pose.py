@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pose that a handle has of itself: a matrix P, by which its vertices are moved.
+"""The own pose of a handle: a matrix P that moves its vertices.
 
-It is given in the coordinates of the object, so that it goes along with that. Where the handle
-follows an object as well, that moves the vertices on from there.
+It is in the coordinates of the object, so that it follows the object. If the handle also follows
+a target, the target moves the vertices from there.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ if TYPE_CHECKING:
 Pose = tuple[float, ...]
 """16 numbers, row by row, of single precision"""
 SMALLEST_SCALE = 1e-6
-"""relative; what is flatter has no inverse worth the name"""
+"""relative; flatter matrices have no usable inverse"""
 
 
 def own_pose(handle: CubicCraftHandle) -> Pose:
-    """Return the pose that is kept with the handle."""
+    """Return the pose stored with the handle."""
     return tuple(value for row in handle.pose for value in row)
 
 
 def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> None:
-    """Refuse a pose that cannot be used.
+    """Refuse an invalid pose.
 
     Raises
     ------
     CubicCraftError
-        It is no affine map, or flattens the vertices; the message names the handle and the cure.
+        It is no affine map, or flattens the vertices; the message names the handle and the remedy.
     """
     if pose == IDENTITY:
         return
@@ -56,31 +56,31 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
 
 
 def has_pose(handle: CubicCraftHandle) -> bool:
-    """Return whether the handle has a pose of its own."""
+    """Return whether the handle has its own pose."""
     return own_pose(handle) != IDENTITY
 
 
 def set_own_pose(handle: CubicCraftHandle, pose: Pose) -> None:
-    """Keep a pose with the handle."""
+    """Store a pose with the handle."""
     handle.pose = Matrix(np.reshape(pose, (4, 4)).tolist())
 
 
 def identify(handle: CubicCraftHandle) -> int:
-    """Return a number that tells the handle from the others of its object, whatever its place."""
+    """Return a number that identifies the handle on its object, whatever its place in the list."""
     if not handle.uid:
         handle.uid = random.randrange(1, 2**31)
     return handle.uid
 
 
 def keep_poses(obj: bpy.types.Object, poses: Mapping[int, Pose]) -> None:
-    """Keep poses, by the numbers of `identify`, with the object's handles."""
+    """Store poses, by the numbers of `identify`, with the object's handles."""
     for handle in object_properties(obj).handles:
         if handle.uid in poses:
             set_own_pose(handle, poses[handle.uid])
 
 
 def pose_since_baked(handle: CubicCraftHandle) -> Matrix:
-    """Return the pose as it is from where it was when the mesh was written."""
+    """Return the pose relative to that when the mesh was written."""
     if handle.pose == handle.baked_pose:
         return Matrix()
     return handle.pose @ handle.baked_pose.inverted_safe()

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From the target of a handle to the mesh that it poses.
 
-An artist who moves a handle has its empty selected, not the mesh; what he clicks is meant for the
-mesh all the same.
+An artist who moves a handle has its empty selected, not the mesh, but the buttons should still act
+on the mesh.
 
-(What is returned is an object whose data is a mesh, which bpy's type stubs cannot say.)
+(The result is an object whose data is a mesh, which bpy's type stubs cannot express.)
 """
 
 from typing import Any
@@ -17,7 +17,7 @@ from ..object_properties import has_properties, object_properties
 def posed_mesh(context: bpy.types.Context, target: bpy.types.Object) -> Any:
     """Return the mesh object with a handle that follows the target, None if there is none.
 
-    Cheap for objects that are no target, as it runs at every redraw.
+    It is cheap for objects that are not targets, because it runs at every redraw.
     """
     if not has_properties(target) or not object_properties(target).is_target:
         return None
@@ -28,7 +28,7 @@ def posed_mesh(context: bpy.types.Context, target: bpy.types.Object) -> Any:
 
 
 def panel_object(context: bpy.types.Context) -> Any:
-    """Return the mesh object that the panel is about: the active one, or the one it poses."""
+    """Return the mesh object that the panel shows: the active one, or the one it poses."""
     active = context.active_object
     if active is None or active.type == "MESH":
         return active

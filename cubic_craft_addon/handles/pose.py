@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pose: where the handles are, and where their targets have gone since they were bound.
+"""The pose: the handles, and the motion of their targets since they were bound.
 
 A target's *relation* to the object is its matrix in the object's coordinates; B is the relation
 when the handle was bound, C is the one now, and the handle's vertices are mapped by M = C B^-1 P,
-where P is the pose that the handle has of itself (see `own_pose`).
+where P is the handle's own pose (see `own_pose`).
 
-Invariant: M is the same, bit for bit, as long as object and target move together; Live starts anew
-whenever it changes. That is why the relation of a child comes from its own transform: its matrix in
-the world carries the rounding (32 bit) of wherever the object is.
+Invariant: M is the same, bit for bit, as long as object and target move together; Live restarts
+whenever it changes. The relation of a child is therefore computed from its own transform: its world
+matrix has 32-bit rounding errors that depend on the position of the object.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
+from ..mesh_bridge import vertex_group
 from ..object_properties import has_properties, object_properties
 from .handle import IDENTITY, Handle
 from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
@@ -28,12 +29,12 @@ from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
 
-_STILL = 1e-6  # relative; a target that has moved less has not moved
-_DIGITS = 5  # of a matrix that comes by way of the world
+_STILL = 1e-6  # relative; smaller motions of a target are ignored
+_DIGITS = 5  # of a matrix computed through world space
 
 
 def object_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
-    """Return the handles of the object as they are posed now; none while they are switched off.
+    """Return the handles of the object in their current pose; none while they are disabled.
 
     Raises
     ------
@@ -46,21 +47,21 @@ def object_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
 def posed_handles(
     obj: bpy.types.Object, poses: Mapping[int, Pose] | None = None
 ) -> tuple[Handle, ...]:
-    """Return the handles of the object as they are posed now, switched on or off.
+    """Return the handles of the object in their current pose, even while they are disabled.
 
-    Cheap: it looks at no vertex. A handle whose target was deleted is where its own pose says.
+    It is cheap: it reads no vertices. If its target was deleted, a handle only has its own pose.
 
     Parameters
     ----------
     obj
     poses : mapping of int to Pose, optional
-        In place of those that the handles of these numbers (`identify`) have of themselves.
+        Instead of the own poses of the handles with these numbers (`identify`).
 
     Raises
     ------
     CubicCraftError
-        A vertex group is missing, or a target or the object has a transform that cannot be used;
-        the message names the object and the cure.
+        A vertex group is missing, or a target or the object has an invalid transform;
+        the message names the object and the remedy.
     """
     return tuple(
         Handle(
@@ -74,16 +75,16 @@ def posed_handles(
 
 
 def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
-    """Make the place that the target has now the one in which nothing moves.
+    """Make the current transform of the target the one in which nothing moves.
 
-    Where the transform of the object or the target cannot be used, the handle gets no target.
+    If the transform of the object or the target is invalid, the handle gets no target.
     """
     target = handle.target
     object_properties(target).is_target = True
     parent = target.parent
     handle.is_foreign = parent is not None and parent != obj and parent.type == "MESH"
     if target == obj:
-        return  # refused when it is used, so that the panel can say it
+        return  # refused when it is used, so that the panel can show it
     bpy.context.view_layer.update()
     try:
         matrix = relation(obj, handle)
@@ -100,7 +101,7 @@ def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        The object has a transform that cannot be used.
+        The object has an invalid transform.
     """
     return _relation(obj, handle)[0]
 
@@ -118,14 +119,14 @@ def reset(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
 def live_target(handle: CubicCraftHandle) -> bpy.types.Object | None:
     """Return the object that the handle follows; None if it is pinned, or the target was deleted.
 
-    The handle itself keeps a deleted object in the file, where no scene has it any more.
+    The handle itself keeps a deleted object in the file, but no scene uses it.
     """
     target = handle.target if handle.mode == "FOLLOW" else None
     return target if target is not None and _is_in_a_scene(target) else None
 
 
 def followed(obj: bpy.types.Object) -> Iterator[tuple[CubicCraftHandle, bpy.types.Object]]:
-    """Give each handle of the object that follows something, with its target."""
+    """Yield each handle of the object that follows something, with its target."""
     for handle in object_properties(obj).handles:
         target = live_target(handle)
         if target is not None:
@@ -137,11 +138,7 @@ def _group(obj, number, handle):
         raise CubicCraftError(
             f'handle {number} of "{obj.name}" has no vertex group; pick one or remove the handle'
         )
-    if handle.group not in obj.vertex_groups:
-        raise CubicCraftError(
-            f'"{obj.name}" has no vertex group "{handle.group}"; pick another one'
-        )
-    return handle.group
+    return vertex_group(obj, handle.group).name
 
 
 def _matrix(obj, handle, pose):
@@ -154,7 +151,7 @@ def _matrix(obj, handle, pose):
 
 
 def _motion(obj, handle):
-    """Return what the target does, C B^-1, as 16 numbers, row by row."""
+    """Return the motion of the target, C B^-1, as 16 numbers, row by row."""
     target = live_target(handle)
     if target is None:
         return IDENTITY
@@ -177,7 +174,7 @@ def _motion(obj, handle):
 
 
 def _relation(obj, handle):
-    """Return the relation (4,4), and the size whose last bits it may be wrong by, 0 if by none."""
+    """Return the relation (4,4), and the size whose last bits may be wrong in it, 0 if none."""
     target = handle.target
     reference = _reference(obj, handle)
     if _is_plain_child(target, reference):
@@ -200,8 +197,8 @@ def _relation(obj, handle):
 def _reference(obj, handle):
     """Return the object to which the target is related.
 
-    A copy of an object has handles with the same targets, which hang on the original. There they
-    tell the pose of both, wherever the copy is put.
+    A copy of an object has handles with the same targets, which are children of the original. They
+    define the pose of both, wherever the copy is.
     """
     parent = handle.target.parent
     if handle.is_foreign or parent is None or parent == obj:
@@ -213,7 +210,7 @@ def _reference(obj, handle):
 
 
 def _is_plain_child(target, reference):
-    """Return whether nothing but its own transform says where the target is on the reference."""
+    """Return whether the target's own transform alone determines its place on the reference."""
     return (
         target.parent == reference
         and target.parent_type == "OBJECT"

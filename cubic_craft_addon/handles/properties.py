@@ -20,25 +20,25 @@ from .handle import THRESHOLD
 
 _MODES = (
     ("PINNED", "Pinned", "The vertices stay exactly in place", "PINNED", 0),
-    ("FOLLOW", "Follow", "The vertices go along with an object", "EMPTY_AXIS", 1),
+    ("FOLLOW", "Follow", "The vertices follow an object", "EMPTY_AXIS", 1),
 )
 _IDENTITY = tuple(tuple(row) for row in np.eye(4).tolist())
 _MATRIX: Any = {"size": (4, 4), "subtype": "MATRIX", "default": _IDENTITY}
 
 
 def _bind_target(handle, _context):
-    """Take the place that the target has now as the one in which nothing moves."""
+    """Make the current transform of the target the one in which nothing moves."""
     if handle.target is not None:
         handle.mode = "FOLLOW"
         pose.bind(handle.id_data, handle)
 
 
 class _MemberProperties:
-    """Mixin of what an object's handle and an operator's have in common."""
+    """Mixin of the properties that an object's and an operator's handles share."""
 
     threshold: FloatProperty(
         name="Threshold",
-        description="Least weight in the vertex group that makes a vertex part of the handle",
+        description="Minimum weight in the vertex group that makes a vertex part of the handle",
         default=THRESHOLD,
         min=0.0,
         max=1.0,
@@ -46,40 +46,41 @@ class _MemberProperties:
 
 
 class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
-    """A handle of an object: a vertex group that is held, or goes along with another object."""
+    """A handle of an object: a vertex group that is held or follows another object."""
 
     group: StringProperty(
         name="Vertex Group",
-        description="Vertex group that is held",
+        description="Vertex group to hold",
     )
     mode: EnumProperty(
         name="Mode",
-        description="Whether the vertices stay in place or go along with an object",
+        description="Whether the vertices stay in place or follow an object",
         items=_MODES,
         default="PINNED",
     )
     is_cubic: BoolProperty(
         name="Becomes Cubic",
-        description="The part keeps its place and rotation as a whole, or goes where it is moved,"
-        " while its surface becomes cubic. Off: its vertices are held exactly",
+        description="Hold or move only the position and rotation of the part as a whole, while its"
+        " surface becomes cubic. When off, its vertices are held exactly",
     )
     target: PointerProperty(
         name="Target",
-        description="Object that the vertices go along with when it is moved, turned or scaled"
-        " from where it is when it is picked",
+        description="Object that the vertices follow when you move, rotate or scale it, starting"
+        " from its transform when you pick it",
         type=bpy.types.Object,
         poll=lambda handle, obj: obj != handle.id_data,
         update=_bind_target,
     )
     rest: FloatVectorProperty(
         name="Rest",
-        description="Matrix of the target, relative to the object, at which nothing moves",
+        description="Matrix of the target, relative to the object, at which the vertices do not"
+        " move",
         **_MATRIX,
     )
     pose: FloatVectorProperty(
         name="Pose",
-        description="Matrix in object space by which the vertices are moved, before what they"
-        " follow moves them on (a mathutils.Matrix)",
+        description="Matrix in object space that moves the vertices, before the target moves them"
+        " further (a mathutils.Matrix)",
         **_MATRIX,
     )
     baked: FloatVectorProperty(
@@ -102,14 +103,14 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
     )
     uid: IntProperty(
         name="Number",
-        description="What tells the handle from the others of its object, 0 as long as none asked",
+        description="Unique number of the handle on its object, or 0 if not assigned yet",
     )
 
 
 class CubicCraftGivenHandle(_MemberProperties, bpy.types.PropertyGroup):
     """A handle that is given to Cubify by a script; its name is that of the vertex group.
 
-    Blender wants all three in each dictionary: "name", "threshold" and "matrix".
+    Blender requires all three in each dictionary: "name", "threshold" and "matrix".
     """
 
     matrix: FloatVectorProperty(

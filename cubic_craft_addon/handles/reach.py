@@ -11,21 +11,21 @@ from ... import solver
 from .handle import Handle
 
 LEAST_RADIUS = 0.03
-"""of the largest extent: a smaller handle takes what is around it along, else it pulls a spike"""
+"""of the largest extent: smaller handles move their surroundings, or they would pull a spike"""
 NEAR, FAR = 0.2, 0.6
-"""of the largest distance from the handles: what is nearer goes along, what is further stays"""
+"""of the largest distance from the handles: closer vertices move along, farther ones stay"""
 
 
 def grown(
     handle_of: np.ndarray, handles: Sequence[Handle], V: np.ndarray, F: np.ndarray
 ) -> np.ndarray:
-    """Return the handle that holds each vertex, where small ones hold some around them as well.
+    """Return the handle that holds each vertex; small handles also hold vertices around them.
 
     Parameters
     ----------
     handle_of : (n,) int array, from `handles.handle_of`
     handles
-    V : (n,3) array, positions as they are seen
+    V : (n,3) array, visible positions
     F : (m,3) int array
     """
     result = handle_of.copy()
@@ -43,10 +43,10 @@ def grown(
 
 
 def far_from(seeds: np.ndarray, V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Return how far from the seeds each vertex is: (n,) from 0, near, to 1.
+    """Return the distance of each vertex from the seeds, (n,) from 0, near, to 1, far.
 
-    Along edges, as an arm is far from the hip that it hangs beside; parts that no edge leads to are
-    as far as they lie.
+    It is measured along edges, because an arm is far from the hip beside it; for unconnected parts,
+    it is the straight distance.
     """
     if not len(seeds) or not len(F):
         return np.zeros(len(V))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a click on Cubify sets going: solved step by step, so that it can be watched and cancelled.
+"""What a click on Cubify starts: solved step by step, so that it can be watched and cancelled.
 
-``job`` does the work, ``watched`` does it while Blender goes on; the operator in
+``job`` does the work, ``watched`` does it while Blender stays responsive; the operator in
 ``operators/cubify.py`` passes events on.
 """
 
@@ -12,11 +12,11 @@ __all__ = ("FIRST_SLICE", "Job", "Step", "WatchedJob", "current", "register", "u
 
 
 def register():
-    """Nothing is there before the first click."""
+    """There is nothing to register before the first click."""
 
 
 def unregister():
-    """End what runs."""
+    """End a running job."""
     running = current()
     if running is not None:
-        running.cancel("CubicCraft was switched off")
+        running.cancel("CubicCraft was disabled")

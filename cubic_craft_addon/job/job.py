@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that one Cubify has to do, step by step.
+"""The work of one Cubify, step by step.
 
-Invariant: all objects are solved before the first is written, so that it can be given up between
-any two steps and nothing has changed.
+Invariant: all objects are solved before the first is written, so that it can be cancelled between
+any two steps without changing anything.
 """
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
@@ -22,7 +22,7 @@ from ..run.tasks import Task, plan, write_all
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept, settings_untouched
 
-_LONG_SETUP = 15_000  # vertices; what has more is not factorised in the wink of an eye
+_LONG_SETUP = 15_000  # vertices; larger meshes take noticeable time to factorise
 _MODES = ("OBJECT", "WEIGHT_PAINT")
 
 
@@ -31,15 +31,15 @@ class Step:
     """How far a job has come."""
 
     texts: tuple[str, ...]
-    """what it is doing, for the artist; from long to short"""
+    """what it is doing, to be displayed; from long to short"""
     factor: float
-    """the part that is done, from 0 to 1"""
+    """the fraction done, from 0 to 1"""
     is_long: bool = False
-    """whether what comes next takes long and cannot be interrupted"""
+    """whether the next step takes long and cannot be interrupted"""
 
 
 class Job:
-    """Objects to be cubified; they are read as they are now.
+    """Objects to be cubified, as they are now.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Job:
         self._shapes: dict[int, Shape] = {}
 
     def _make_seen(self, sources: list[bpy.types.Object]) -> list[bpy.types.Object]:
-        """Return new objects of what is seen of others; what has no faces is named."""
+        """Return new objects made from the visible meshes of others, and the problems."""
         for source in sources:
             try:
                 self._made.append((mesh_bridge.make_seen(source), source))
@@ -82,7 +82,7 @@ class Job:
             task.is_seen = task.source is not None
 
     def discard(self) -> None:
-        """Remove what was made and not written."""
+        """Remove objects that were made but not written."""
         for new, _ in self._made:
             try:
                 is_written = bool(new.users_scene)
@@ -125,13 +125,13 @@ class Job:
 
     @property
     def obstacle(self) -> str:
-        """Why it cannot go on, after something else than the job has had its turn; or empty."""
+        """Why it cannot continue after other code has run; or empty."""
         for task in self._tasks:
             try:
                 if task.is_seen:
                     task.obj.name  # noqa: B018 - raises where Blender has removed it
                 elif task.obj.data != task.mesh or not task.obj.users_scene:
-                    return "an object was deleted, or has got another mesh"
+                    return "an object was deleted or assigned another mesh"
                 if task.obj.mode not in _MODES:
                     return f'"{task.obj.name}" is being edited'
             except ReferenceError:
@@ -144,7 +144,7 @@ class Job:
         Parameters
         ----------
         is_alone : bool
-            Nothing else has had a turn since the job was made.
+            No other code has run since the job was made.
 
         Returns
         -------
@@ -169,10 +169,10 @@ class Job:
         return summary, problems
 
     def _drop_changed(self) -> None:
-        """Give up the solutions of objects that are no longer what was solved."""
+        """Discard the solutions of objects that have changed since they were solved."""
         for task in self._tasks:
             if task.is_seen:
-                task.source = _if_there(task.source)  # what it was made of may have changed since
+                task.source = _if_there(task.source)  # its source may have changed since
                 continue
             if task.solution is None:
                 continue

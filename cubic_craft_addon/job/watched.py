@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A job that is done in slices of time, between which Blender draws and handles events.
+"""A job that is done in time slices, between which Blender draws and handles events.
 
-Before Blender takes any of its data away, by undo or by another file, the job is given up.
+The job is cancelled before Blender frees any of its data, by undo or by another file.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from ..screen.redraw import redraw_panels
 from .job import Job, Step
 
 FIRST_SLICE = 0.7
-"""seconds for which the artist waits at once: most meshes are done by then, and nothing flickers"""
-_SLICE = 0.05  # seconds of a tick; the last phase of the solver comes on top
+"""seconds to work without a pause: most meshes are done by then, and nothing flickers"""
+_SLICE = 0.05  # seconds per tick, plus the last phase of the solver
 _TIMER_STEP = 0.01  # seconds between two ticks
 _REDRAW_STEP = 0.1  # seconds between two redraws of the progress bar
 _BAR_WIDTH = 12  # in units of the interface, wide enough for iteration and energy
@@ -28,21 +28,21 @@ _current: WatchedJob | None = None
 
 
 def current() -> WatchedJob | None:
-    """Return the job that Blender goes on beside, or None."""
+    """Return the job that runs in the background, or None."""
     return _current
 
 
 class WatchedJob:
-    """A job in slices.
+    """A job in time slices.
 
     Attributes
     ----------
     step : Step
         How far it has come.
     is_solved : bool
-        Whether there is nothing left to do but to write.
+        Whether only writing is left to do.
     reason : str or None
-        Why it was cancelled, empty if the artist has asked for it; None if it was not.
+        Why it was cancelled, empty if the artist cancelled it; None if it was not cancelled.
     """
 
     def __init__(self, job: Job):
@@ -55,7 +55,7 @@ class WatchedJob:
         self.reason: str | None = None
 
     def advance(self, seconds: float) -> None:
-        """Work for a slice of time, or until what comes next would have to be announced."""
+        """Work for a time slice, or until the next step takes so long that it must be announced."""
         deadline = time.perf_counter() + seconds
         for step in self._steps:
             self.step = step
@@ -64,7 +64,7 @@ class WatchedJob:
         self.is_solved = True
 
     def watch(self, window: bpy.types.Window) -> None:
-        """Show the progress, and have the window send the events for `tick`."""
+        """Show the progress, and make the window send the events for `tick`."""
         global _current
         _current = self
         for name, handler in _HANDLERS:
@@ -73,7 +73,7 @@ class WatchedJob:
         self._redraw()
 
     def tick(self) -> None:
-        """Work for a slice of time, unless it has become impossible."""
+        """Work for a time slice, unless it has become impossible."""
         assert self._job is not None
         obstacle = self._job.obstacle
         if obstacle:
@@ -92,16 +92,16 @@ class WatchedJob:
             self.close()
 
     def cancel(self, reason: str = "") -> None:
-        """Give up; nothing has changed."""
+        """Cancel; nothing has changed."""
         self.reason = reason
         self.close()
 
     def close(self) -> None:
-        """Leave nothing behind."""
+        """Clean up."""
         global _current
         self._steps.close()
         if self._job is not None:
-            with contextlib.suppress(*UNEXPECTED):  # what has been written needs its undo step
+            with contextlib.suppress(*UNEXPECTED):  # written meshes need an undo step
                 self._job.discard()
         self._job = None
         if _current is not self:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live: the mesh moves toward its cubic shape while the artist watches and changes settings.
 
-``machine`` and ``history`` decide, without Blender; ``session`` does it, on ``live_mesh`` for each
-mesh; the operator in ``operators/live.py`` passes events on.
+``machine`` and ``history`` decide, without Blender; ``session`` carries it out, with a
+``live_mesh`` for each mesh; the operator in ``operators/live.py`` passes events on.
 """
 
 from dataclasses import replace
@@ -56,18 +56,18 @@ def current() -> Session | None:
 
 
 def shared_properties(obj: bpy.types.Object):
-    """Return what holds the settings that all objects of a run have in common."""
+    """Return the holder of the settings that all objects of a run share."""
     return live_properties() if current() else object_properties(obj)
 
 
 def own_properties(obj: bpy.types.Object):
-    """Return what holds the settings that each object of a run keeps (`OF_EACH_OBJECT`)."""
+    """Return the holder of the settings that each object of a run keeps (`OF_EACH_OBJECT`)."""
     session = current()
     return live_properties() if session and session.is_single else object_properties(obj)
 
 
 def settings_now(obj: bpy.types.Object) -> Settings:
-    """Return the settings that the panel shows for an object, its handles left out.
+    """Return the settings that the panel shows for an object, without its handles.
 
     Raises
     ------
@@ -80,13 +80,13 @@ def settings_now(obj: bpy.types.Object) -> Settings:
 
 
 def register():
-    """Add the settings of Live, and watch out for what is left of it in files."""
+    """Add the settings of Live, and watch for previews left in files."""
     properties.register()
     stale_previews.register()
 
 
 def unregister():
-    """End a running session, then take all back."""
+    """End a running session, then undo `register`."""
     session = current()
     if session is not None:
         session.on(Event.DISABLED)

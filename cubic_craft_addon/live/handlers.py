@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender tells a running Live session, beside the events of its window."""
+"""Notifications from Blender to a running Live session, besides the events of its window."""
 
 import bpy
 from bpy.app.handlers import persistent
@@ -36,7 +36,7 @@ def _on_frame(*_):
 
 @persistent
 def _on_update(_scene, depsgraph):
-    """Tell what the artist has done from what Live itself has caused."""
+    """Distinguish what the artist has done from what Live itself has caused."""
     mesh_uids = _session.mesh_uids
     for update in depsgraph.updates:
         data = update.id.original
@@ -49,7 +49,7 @@ def _on_update(_scene, depsgraph):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself.
             _session.wake()
         elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
-            _session.wake()  # an object was deleted, perhaps; of that itself nothing is told
+            _session.wake()  # perhaps an object was deleted, of which Blender does not notify us
 
 
 _HANDLERS = (
@@ -65,7 +65,7 @@ _HANDLERS = (
 
 
 def install(session):
-    """Have the session told what happens."""
+    """Notify the session of what happens."""
     global _session
     _session = session
     for name, handler in _HANDLERS:
@@ -83,5 +83,5 @@ def remove():
 
 
 def is_installed():
-    """Return whether a session is told what happens."""
+    """Return whether a session is notified of what happens."""
     return _session is not None

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Ctrl-Z takes back while Live runs. Without Blender.
+"""What Ctrl-Z undoes while Live runs. Without Blender.
 
 The settings of Live are not in Blender's undo stack, what the artist does beside them is: moved
-handles, strokes on the cubeness map. Ctrl-Z takes back whichever came last.
+handles, strokes on the cubeness map. Ctrl-Z undoes whichever came last.
 """
 
 from enum import Enum, auto
@@ -13,7 +13,7 @@ PAUSE = 0.5
 
 
 class TakeBack(Enum):
-    """What Ctrl-Z is to do where there are no settings to go back to."""
+    """What Ctrl-Z does if there are no settings to go back to."""
 
     LIVE = auto()
     """end Live: nothing has been done in it"""
@@ -22,7 +22,7 @@ class TakeBack(Enum):
 
 
 class History:
-    """The settings that were given up for others.
+    """The previous settings.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class History:
         self._is_outside = False
 
     def record(self, values: dict[str, Any], now: float) -> None:
-        """Take in the settings as they are now, at a time in seconds."""
+        """Record the current settings, at a time in seconds."""
         changed = frozenset(name for name in values if values[name] != self._values.get(name))
         if not changed:
             return
@@ -48,16 +48,16 @@ class History:
         self._last = (changed, now)
 
     def cut(self) -> None:
-        """Let the next change be a step of its own, however soon it comes."""
+        """Make the next change a separate step, however soon it comes."""
         self._last = (frozenset(), float("-inf"))
 
     def record_outside(self) -> None:
-        """Take in that something else has changed, which is in Blender's undo stack."""
+        """Record another change, which is in Blender's undo stack."""
         self._earlier.clear()
         self._is_outside = True
 
     def record_undo(self, is_outside: bool) -> None:
-        """Take in that Blender has undone or redone a step; tell it what that leaves.
+        """Record that Blender has undone or redone a step.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class History:
         self._is_outside = is_outside
 
     def take_back(self) -> dict[str, Any] | TakeBack:
-        """Return the settings to go back to, or what else is to be done."""
+        """Return the settings to go back to, or what else to do."""
         if self._earlier:
             self._values = self._earlier.pop()
             self.cut()

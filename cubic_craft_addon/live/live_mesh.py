@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One mesh of a Live session: what is shown on it of the run that it takes part in."""
+"""One mesh of a Live session, which shows the run that it takes part in."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -18,16 +18,16 @@ from ..run.tasks import Task
 class LiveMesh:
     """The mesh of one task of `tasks.plan`.
 
-    It keeps no reference to Blender's data, which dies at every undo: the mesh is given anew to
-    each call, and told by its ``session_uid``.
+    It keeps no reference to Blender's data, which undo frees: the mesh is passed again to
+    each call, and identified by its ``session_uid``.
 
     Attributes
     ----------
     object_uid, mesh_uid : int
     run : StepwiseRun or None
-        What it takes part in.
+        The run that it takes part in.
     member : Member or None
-        What was read of it last.
+        The data last read from it.
     """
 
     def __init__(self, task: Task, is_shown: bool):
@@ -42,7 +42,7 @@ class LiveMesh:
 
     @property
     def is_working(self):
-        """Whether there is something left to compute."""
+        """Whether there is more to compute."""
         return self.run is not None and self.run.is_working
 
     @property
@@ -52,7 +52,7 @@ class LiveMesh:
 
     @property
     def status(self):
-        """Lines for the artist, from long to short, and how far the run has come, from 0 to 1."""
+        """Status lines, from long to short, and the fraction done, from 0 to 1."""
         return self.run.status if self.run else (("",), 0.0)
 
     @property
@@ -62,7 +62,7 @@ class LiveMesh:
 
     @property
     def is_seen(self):
-        """Whether the present run has been shown, as far as it is shown at all."""
+        """Whether the current run has been shown, if it is shown at all."""
         return self._preview is None or self._shown_moment is not None
 
     def join(self, run: StepwiseRun | None) -> None:
@@ -72,7 +72,7 @@ class LiveMesh:
         self._shown_moment = None
 
     def follow(self, task: Task) -> None:
-        """Forget what was read of a mesh that has another shape, as Blender has undone or redone.
+        """Discard the data of a mesh that has another shape after undo or redo.
 
         The preview must have been ended.
         """
@@ -81,7 +81,7 @@ class LiveMesh:
                 read_shape(task.obj, task.settings.start)
             )
         except solver.CubicCraftError:
-            is_like = False  # reading it once more will say why
+            is_like = False  # reading it again will report the reason
         if not is_like:
             self.member = None
             if self.run is not None:
@@ -94,7 +94,7 @@ class LiveMesh:
             self._shown_moment = None
 
     def show(self, mesh: bpy.types.Mesh) -> bool:
-        """Show what the run has come to; tell whether that was anything new."""
+        """Show the current state of the run; return whether it was new."""
         if self._preview is None or self.run is None:
             return False
         moment = self.run.moment
@@ -108,18 +108,18 @@ class LiveMesh:
         return True
 
     def take_along(self, mesh: bpy.types.Mesh) -> bool:
-        """Transform what lies under the preview as the artist has transformed what is shown.
+        """Transform the data under the preview as the artist has transformed the visible mesh.
 
-        Return whether the preview is to be begun anew, see `Preview.take_along`.
+        Return whether the preview must be restarted, see `Preview.take_along`.
         """
         return self._preview is not None and self._preview.take_along(mesh)
 
     def release(self) -> None:
-        """Let go of all arrays."""
+        """Release all arrays."""
         self._preview = self.member = self.run = None
 
 
 def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, Any]) -> bool:
-    """Do so for all meshes whose objects, by ``session_uid``, are there; tell if any was moved."""
+    """Do this for all meshes whose objects, by ``session_uid``, exist; return whether any moved."""
     there = [mesh for mesh in meshes if mesh.object_uid in objects]
     return any([mesh.take_along(objects[mesh.object_uid].data) for mesh in there])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All runs of a Live session: one for each assembly, which may be made of other meshes any time."""
+"""All runs of a Live session: one per assembly, whose meshes may change at any time."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -23,16 +23,16 @@ class LiveRuns:
 
     @property
     def is_working(self):
-        """Whether there is something left to compute."""
+        """Whether there is more to compute."""
         return any(run.is_working for run in self._runs.values())
 
     @property
     def problems(self):
-        """What is wrong with objects, as texts."""
+        """The problems of objects, as texts."""
         return [text for run in self._runs.values() for text in run.problems]
 
     def is_changed(self, groups: Groups) -> bool:
-        """Return whether something else is asked for than what is being done."""
+        """Return whether the settings differ from those of the runs."""
         if not groups:
             return any(run.is_asked_for for run in self._runs.values())
         if groups.keys() != self._runs.keys():
@@ -40,8 +40,8 @@ class LiveRuns:
         return any(run.is_changed(groups[uids]) for uids, run in self._runs.items())
 
     def restart_changed(self, groups: Groups, meshes: Sequence[LiveMesh]) -> None:
-        """Start those anew of which something else is asked, and have the meshes take part."""
-        if not groups:  # a setting cannot be used; what is known is kept for a better one
+        """Restart the runs whose settings have changed, and connect the meshes to them."""
+        if not groups:  # a setting is invalid; the known data is kept for the next one
             for run in self._runs.values():
                 run.stop()
             return
@@ -58,7 +58,7 @@ class LiveRuns:
                 mesh.join(None)
 
     def restart_painted(self, groups: Groups, meshes: Sequence[LiveMesh]) -> bool:
-        """Start those anew whose vertex groups have other weights now; tell if there were any."""
+        """Restart the runs whose vertex groups have new weights; return whether there were any."""
         painted = [
             uids
             for uids, tasks in groups.items()
@@ -69,7 +69,7 @@ class LiveRuns:
         return bool(painted)
 
     def advance(self, deadline: float) -> None:
-        """Advance all runs in turn, so that they are seen to move together."""
+        """Advance all runs in turn, so that they visibly move together."""
         working = [run for run in self._runs.values() if run.is_working]
         while working:
             self._turn += 1
@@ -79,7 +79,7 @@ class LiveRuns:
             working = [run for run in working if run.is_working]
 
     def release(self) -> None:
-        """Let go of all arrays."""
+        """Release all arrays."""
         for run in self._runs.values():
             run.forget()
         self._runs.clear()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Live does when something happens: a table of states and events, without Blender.
 
-`Machine.on` takes an event and returns the actions to be carried out, in their order. Every way to
+`Machine.on` takes an event and returns the actions to carry out, in order. Every way to
 end puts the meshes back before anything else, and cleans up last.
 """
 
@@ -9,7 +9,7 @@ from enum import Enum, auto
 
 
 class State(Enum):
-    """Where Live stands."""
+    """The state of Live."""
 
     WORKING = auto()
     """the timer runs, the solver iterates"""
@@ -34,42 +34,42 @@ class Event(Enum):
     DONE = auto()
     """all runs have come to their end"""
     REFUSED = auto()
-    """there is nothing that could be written"""
+    """there is nothing to write"""
     CONFIRM = auto()
     CANCEL = auto()
     NOTHING_LEFT = auto()
-    """the artist takes back more than he has changed"""
+    """the artist undoes more than was changed"""
     UNDONE = auto()
     """Blender has undone or redone a step; the data may be anything"""
     LOST = auto()
     """no mesh is left to work on"""
     MODE_LEFT = auto()
-    """the artist has gone to a mode in which meshes must not be written"""
+    """the artist has switched to a mode in which meshes must not be written"""
     SAVE = auto()
     SAVED = auto()
     LOAD = auto()
-    """another file is going to be loaded"""
+    """another file is about to be loaded"""
     CLOSED = auto()
-    """Blender has taken the operator away, as when the window is closed"""
+    """Blender has cancelled the operator, for example because the window was closed"""
     DISABLED = auto()
-    """the extension is being switched off"""
+    """the extension is being disabled"""
     FAILED = auto()
     """an exception"""
 
 
 class Action(Enum):
-    """What is to be done, in answer to an event."""
+    """The responses to an event."""
 
     START_TIMER = auto()
     STOP_TIMER = auto()
     RESTART = auto()
-    """all that has changed starts again from the original shape"""
+    """everything that has changed restarts from the original shape"""
     FOLLOW = auto()
-    """find the objects again in what Blender has undone, and show the preview on them"""
+    """find the objects again after an undo, and show the preview on them"""
     PUT_BACK = auto()
-    """give the meshes the bits from before the preview"""
+    """restore the meshes to the bits from before the preview"""
     SHOW_AGAIN = auto()
-    """begin the preview again after PUT_BACK"""
+    """restart the preview after PUT_BACK"""
     WRITE = auto()
     """write the results as Cubify does"""
     CLEAN_UP = auto()
@@ -92,12 +92,12 @@ _ENDINGS = {
 }
 
 _FAREWELLS = {
-    Event.NOTHING_LEFT: "Live has ended: there was no change left to take back, and the shape is as"
-    " before Live",
+    Event.NOTHING_LEFT: "Live has ended because there was nothing left to undo, and the shape is"
+    " as before Live",
     Event.MODE_LEFT: "Live has ended because the mode was changed, and the shape is as before Live",
     Event.LOST: "Live has ended because its object is gone from the scene",
 }
-"""what the artist is told of endings that he did not ask for, and may not have noticed"""
+"""messages about endings that the artist did not request and may not have noticed"""
 
 # What is not in the table changes nothing.
 _TABLE = {
@@ -145,7 +145,7 @@ class Machine:
     ----------
     state : State
     farewell : str
-        Why it has ended, where that needs to be said.
+        Why it has ended, if the artist must be told.
     """
 
     def __init__(self):
@@ -153,7 +153,7 @@ class Machine:
         self.farewell = ""
 
     def on(self, event):
-        """Take in an Event and return a tuple of Actions."""
+        """Process an Event and return a tuple of Actions."""
         before = self.state
         self.state, actions = _TABLE[before].get(event, (before, ()))
         if self.state is State.ENDED and before is not State.ENDED:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The poses of handles that are dragged while Live runs.
 
-They are settings of Live, and kept as those are: beside Blender's undo stack, until Confirm carries
-them over to the objects.
+They are settings of Live and kept like those: outside Blender's undo stack, until Confirm transfers
+them to the objects.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ _poses: Poses = {}
 
 
 def live_poses() -> Poses:
-    """Return the poses that are not those of the objects; the mapping never changes."""
+    """Return the poses that differ from those of the objects; the mapping never changes."""
     return _poses
 
 
@@ -35,7 +35,7 @@ def set_live_poses(poses: Poses) -> None:
 
 
 def pose_of(obj: bpy.types.Object, handle: CubicCraftHandle) -> Pose:
-    """Return the pose that a handle has of itself now, be it from Live or its own."""
+    """Return the current pose of a handle itself, from Live or its own."""
     return _poses.get((obj.session_uid, handle.uid)) or own_pose(handle)
 
 
@@ -43,12 +43,12 @@ def set_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> Non
     """Give a handle another pose while Live runs."""
     key = obj.session_uid, identify(handle)
     others = {other: kept for other, kept in _poses.items() if other != key}
-    # Else a drag that ends where it began would be a change.
+    # Otherwise a drag that ends where it began would be a change.
     set_live_poses(others if pose == own_pose(handle) else {**others, key: pose})
 
 
 def reset_poses(obj: bpy.types.Object) -> None:
-    """Take the poses of all handles of the object away while Live runs."""
+    """Remove the poses of all handles of the object while Live runs."""
     for handle in object_properties(obj).handles:
         if pose_of(obj, handle) != IDENTITY:
             set_pose(obj, handle, IDENTITY)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings while Live runs.
 
-They lie on the window manager: a slider on an object would push an undo step that holds a mesh in
-the middle of its way. Confirming carries them over to the objects, in the one step of Live.
+They are stored on the window manager: a slider on an object would push an undo step that holds an
+intermediate shape. Confirming transfers them to the objects, in the single step of Live.
 """
 
 from typing import Any
@@ -21,7 +21,7 @@ _FRAME, _POSES = "frame", "poses"
 
 
 def _with_update(declared):
-    """Return the declaration of a property once more, with a callback on changes beside its own."""
+    """Return a copy of the declaration of a property, with an additional callback on changes."""
     own = declared.keywords.get("update")
 
     def on_update(properties, context):
@@ -38,10 +38,10 @@ class CubicCraftLiveProperties(bpy.types.PropertyGroup):
     __annotations__ = {
         name: _with_update(declared) for name, declared in RunProperties.__annotations__.items()
     } | {
-        # By name: a pointer on the window manager would outlive the objects at an undo.
+        # By name: a pointer on the window manager would outlive the objects after an undo.
         _FRAME: StringProperty(
             name="Frame",
-            description="Name of the object whose axes are those of the cube",
+            description="Name of the object whose axes the cube uses",
             update=wake.on_property,
         ),
         "preset": preset_property(),
@@ -58,7 +58,7 @@ def adopt(obj: bpy.types.Object) -> None:
     source = object_properties(obj)
     frame = source.frame
     set_live_values(values_of(source) | {_FRAME: frame.name if frame else "", _POSES: {}})
-    glimpse.forget()  # the cube has not been turned by that
+    glimpse.forget()  # this has not rotated the cube
 
 
 def live_values() -> dict[str, Any]:

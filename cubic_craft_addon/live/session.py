@@ -28,10 +28,10 @@ from .undo_steps import UndoSteps
 _log = logging.getLogger(__name__)
 
 SLICE = 0.02
-"""seconds of a tick that go into computing; the last phase of the solver comes on top"""
+"""seconds per tick for computing, plus the last phase of the solver"""
 _TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and handles events
 _PANEL_STEP = 0.1  # seconds between two redraws of the panel
-_CHECK_SHARE = 0.1  # of the time, at most, goes into looking whether anything has changed
+_CHECK_SHARE = 0.1  # largest share of the time for checking whether anything has changed
 _LEAST_LIFE = 0.1  # seconds of a run while settings are dragged
 _MODES = ("OBJECT", "WEIGHT_PAINT")
 
@@ -55,11 +55,11 @@ class Session:
     ----------
     meshes : list of LiveMesh
     is_dragged : callable
-        Tells whether a handle is being dragged in the viewport.
+        Returns whether a handle is being dragged in the viewport.
     error : str
         Why it has ended by itself.
     summary, problems : str, list of str
-        What was written, as of `tasks.write_all`, or why nothing could be.
+        What was written, as from `tasks.write_all`, or why nothing could be written.
     """
 
     def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
@@ -98,7 +98,7 @@ class Session:
             self._clean_up()
             raise
 
-    # -- what the operator, the panel and the handlers ask -----------------------------------------
+    # -- for the operator, the panel and the handlers ----------------------------------------------
 
     @property
     def is_ended(self):
@@ -107,12 +107,12 @@ class Session:
 
     @property
     def farewell(self):
-        """What there is to say about how it has ended, beside `error`."""
+        """The message about the end of the session, besides `error`."""
         return self._machine.farewell
 
     @property
     def is_finishing(self):
-        """Whether it has been confirmed and is on its way to the end."""
+        """Whether it has been confirmed and is finishing."""
         return self._machine.state is State.FINISHING
 
     @property
@@ -127,7 +127,7 @@ class Session:
 
     @property
     def tasks(self):
-        """What is being done, that of the active object first; valid within one event only."""
+        """The current runs, that of the active object first; valid only within one event."""
         return list(self._tasks.values())
 
     @property
@@ -140,31 +140,31 @@ class Session:
         return next(iter(self._objects(context).values()), None)
 
     def mesh_of(self, obj: bpy.types.Object) -> LiveMesh | None:
-        """Return what is done for an object, or for the mesh that it shares."""
+        """Return the run of an object, or of the mesh that it shares."""
         uid = obj.data.session_uid
         candidates = [mesh for mesh in self.meshes if mesh.mesh_uid == uid]
         own = [mesh for mesh in candidates if mesh.object_uid == obj.session_uid]
         return next(iter(own + candidates), None)
 
     def on(self, event: Event) -> None:
-        """Take in an event and do what the state machine says."""
+        """Process an event and carry out the actions of the state machine."""
         for action in self._machine.on(event):
             try:
                 _METHODS[action](self)
             except Exception as error:
-                # What comes after it must be done all the same, above all the cleaning up.
+                # The remaining actions must still be done, above all the cleanup.
                 _log.exception("Live has failed in %s", action)
                 self.error = f"Live has ended because of an error: {error}"
         if self.error and not self.is_ended:
             self.on(Event.FAILED)
 
     def wake(self) -> None:
-        """Have the next tick look whether anything has changed."""
+        """Make the next tick check whether anything has changed."""
         self._next_check = 0.0
         self.on(Event.WAKE)
 
     def on_mesh_update(self) -> None:
-        """Take in that Blender has evaluated a mesh of the session anew."""
+        """Record that Blender has re-evaluated a mesh of the session."""
         if self._has_written:
             self._has_written = False
         else:
@@ -172,24 +172,24 @@ class Session:
             self.wake()
 
     def on_undo(self) -> None:
-        """Take in that Blender has undone or redone a step."""
-        # Steps from before Live have no preview on their meshes, those pushed since then do.
+        """Record that Blender has undone or redone a step."""
+        # Undo steps from before Live have no preview on their meshes; those pushed since do.
         meshes = [obj.data for obj in self._objects(bpy.context).values()]
         self._history.record_undo(any(mesh_bridge.has_preview(mesh) for mesh in meshes))
         self._is_undone = True
         self.on(Event.UNDONE)
 
     def begin_drag(self, is_dragged: Callable[[], bool]) -> None:
-        """Take in that a handle is going to be dragged, as long as the function says.
+        """Record that a handle is being dragged, for as long as the function returns true.
 
-        That is one change to take back, however long it takes and however soon another follows.
+        This is one change to undo, however long it takes and however soon another follows.
         """
         self._history.record(properties.live_values(), time.perf_counter())
         self._history.cut()
         self.is_dragged = is_dragged
 
     def take_back(self) -> bool:
-        """Do what Ctrl-Z stands for; false if Blender is to undo its last step instead."""
+        """Undo a change of Live; return false if Blender is to undo its last step instead."""
         self._undo_steps.tell(self._history)
         self._history.record(properties.live_values(), time.perf_counter())
         earlier = self._history.take_back()
@@ -202,7 +202,7 @@ class Session:
         return True
 
     def tick(self, context: bpy.types.Context) -> None:
-        """Look whether anything has changed, compute for a slice of time, and show it."""
+        """Check whether anything has changed, compute for a time slice, and show the result."""
         try:
             self._tick(self._objects(context))
         except Exception as error:
@@ -212,7 +212,7 @@ class Session:
         self._last_tick = time.perf_counter()
 
     def tick_in_drag(self, context: bpy.types.Context) -> None:
-        """Tick as the timer would: in a drag nothing tells its events from all others."""
+        """Tick as the timer would: during a drag, its events cannot be told from others."""
         if self._timer is not None and time.perf_counter() - self._last_tick >= _TIMER_STEP:
             self.tick(context)
 
@@ -225,7 +225,7 @@ class Session:
         if self.is_ended:
             return
         if take_along(self.meshes, objects):
-            self.on(Event.UNDONE)  # as if somebody else had brought other shapes
+            self.on(Event.UNDONE)  # as if something else had set other shapes
             return
         begin = time.perf_counter()
         if begin >= self._next_check:
@@ -247,7 +247,7 @@ class Session:
         redraw_panels()
 
     def _check(self, objects, now):
-        """Restart what has other settings, or other weights, now."""
+        """Restart the runs whose settings or weights have changed."""
         values = properties.live_values()
         self._undo_steps.tell(self._history)
         if not self.is_dragged():
@@ -263,14 +263,14 @@ class Session:
             is_changed |= self._runs.restart_painted(self._groups, self.meshes)
         if is_changed:
             self._last_restart = now
-            # The first look after an undo still finds changes: frames had not been evaluated.
+            # The first check after an undo still finds changes: frames had not been evaluated.
             if values == self._values and not self._is_undone:
                 self._history.record_outside()
             self._values = values
         self._is_undone = False
 
     def _is_too_young(self, now):
-        """Return whether the runs have yet to be seen: else a drag would show nothing at all."""
+        """Return whether the runs have yet to be shown; otherwise a drag would show nothing."""
         working = [mesh for mesh in self.meshes if mesh.is_working]
         is_seen = all(mesh.is_seen for mesh in working)
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
@@ -279,9 +279,9 @@ class Session:
         self._runs.restart_changed(self._groups, self.meshes)
 
     def _is_changed_at_rest(self, objects):
-        """Look a last time: what is confirmed must be what the settings say.
+        """Check a last time: the confirmed shape must match the settings.
 
-        Changes may have waited for the run to be seen, and strokes may have gone unnoticed while
+        Changes may have waited for the run to be shown, and strokes may have gone unnoticed while
         Live itself changed the mesh.
         """
         self._may_be_painted = True
@@ -293,10 +293,10 @@ class Session:
         self._has_written |= any(shown)
         return any(shown)
 
-    # -- what the state machine asks for -----------------------------------------------------------
+    # -- actions of the state machine --------------------------------------------------------------
 
     def _follow(self):
-        """Go on with meshes that Blender has undone or redone, which may have another shape now."""
+        """Continue with meshes after an undo or redo, which may have another shape now."""
         self._put_back()
         self._plan(list(self._objects(bpy.context).values()))
         if any(task.obj.mode not in _MODES for task in self._tasks.values()):
@@ -336,7 +336,7 @@ class Session:
 
     def _put_back(self):
         take_along(self.meshes, self._objects(bpy.context))
-        # Of all meshes: a preview may have been copied, or left on a mesh that was taken away.
+        # On all meshes: a preview may have been copied, or left on a mesh that was removed.
         mesh_bridge.end_all_previews()
 
     def _clean_up(self):
@@ -356,9 +356,9 @@ class Session:
     # -- helpers -----------------------------------------------------------------------------------
 
     def _objects(self, context):
-        """Return the objects that are still there, by ``session_uid``, the active one first."""
+        """Return the objects that still exist, by ``session_uid``, the active one first."""
         uids = set(self._object_uids)
-        # There is a None in it where a script has just removed an object.
+        # It contains None if a script has just removed an object.
         there = [obj for obj in context.view_layer.objects if obj is not None]
         found = {obj.session_uid: obj for obj in there if obj.session_uid in uids}
         known = {mesh.object_uid: mesh.mesh_uid for mesh in self.meshes}
@@ -369,7 +369,7 @@ class Session:
         }
 
     def _plan(self, objects):
-        """Find out what is to be done for the objects, with the settings as they are."""
+        """Determine the tasks of the objects, with the current settings."""
         self._tasks: dict[int, Task] = {}
         self._groups: dict[tuple[int, ...], list[Task]] = {}
         try:
@@ -382,7 +382,7 @@ class Session:
         self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
 
     def _pairs(self):
-        """Return each mesh that there is something to be done for, with its task."""
+        """Return each mesh that has a task, with the task."""
         tasks = [(mesh, self._tasks.get(mesh.object_uid)) for mesh in self.meshes]
         return [(mesh, task) for mesh, task in tasks if task is not None]
 

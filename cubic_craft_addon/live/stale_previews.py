@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Previews of Live that come back without it: out of an undo step, a file, or a crash."""
+"""Previews of Live that reappear without it: from an undo step, a file, or a crash."""
 
 import bpy
 from bpy.app.handlers import persistent
@@ -18,15 +18,15 @@ _NAMES = ("undo_post", "redo_post", "load_post")
 
 
 def register():
-    """Watch out for them."""
+    """Watch for them."""
     for name in _NAMES:
         getattr(bpy.app.handlers, name).append(_heal)
-    # The file that is open now; while extensions are registered at the start it cannot be read.
+    # The file that is open now; at startup it cannot be read while extensions are registered.
     bpy.app.timers.register(_heal, first_interval=0.0)
 
 
 def unregister():
-    """No longer."""
+    """Stop watching."""
     for name in _NAMES:
         getattr(bpy.app.handlers, name).remove(_heal)
     if bpy.app.timers.is_registered(_heal):

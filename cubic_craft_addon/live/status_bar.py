@@ -22,5 +22,5 @@ def show(session):
 
 
 def hide():
-    """Give the status bar back."""
+    """Restore the status bar."""
     status_text.hide()

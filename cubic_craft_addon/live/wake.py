@@ -7,7 +7,7 @@ _listener: Callable[[], None] | None = None
 
 
 def listen(listener: Callable[[], None] | None) -> None:
-    """Have a function called when a setting of Live changes; None ends that."""
+    """Set the function to call when a setting of Live changes, or None."""
     global _listener
     _listener = listener
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that reads or writes mesh data-blocks.
 
-Only positions are ever written: the ``position`` attribute and the points of shape keys. Beside
-them the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
+Only positions are ever written: the ``position`` attribute and the points of shape keys. Besides
+them, the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
 Restore and Apply remove without a trace.
 """
 
 from .access.checks import check_editable, check_usable, mesh_of
 from .access.group_names import set_groups_aside
 from .access.triangulation import triangles
-from .access.vertex_groups import group_weights
+from .access.vertex_groups import group_weights, vertex_group
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
@@ -51,6 +51,7 @@ __all__ = (
     "set_groups_aside",
     "starts_here",
     "triangles",
+    "vertex_group",
     "write_mesh",
     "write_new_object",
     "write_seen",

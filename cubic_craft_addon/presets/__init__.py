@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets: looks that come with the extension, and those that the artist has kept.
+"""Presets: looks that are included with the extension, and those that the artist has saved.
 
 ``files`` reads and writes them, ``pictures`` are their thumbnails, ``selector`` is the property
 that the panel shows, and ``panel`` draws it.
@@ -19,12 +19,12 @@ _ASSETS = str(Path(OWN_FOLDER).parents[1])
 
 
 def register():
-    """Tell Blender where our presets are."""
+    """Register the folder of our presets."""
     bpy.utils.register_preset_path(_ASSETS)
 
 
 def unregister():
-    """Take that back, and free the pictures."""
+    """Unregister it, and free the pictures."""
     bpy.utils.unregister_preset_path(_ASSETS)
     forget()
     pictures.free()

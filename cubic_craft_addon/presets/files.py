@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets as files: what Blender's own presets are, assignments of Python, that are never run."""
+"""Presets as files: Python assignments like Blender's own presets, which are never executed."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ..object_properties import PROPERTY
 
 SUBFOLDER = "cubic_craft"
 OWN_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
-"""holds the presets that come with the extension, and their pictures"""
+"""folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
 SETTINGS = ("cubeness", "solidity", "together", "refine", "rotation", "hold_rest")
-"""what makes a look; the orientation belongs to a mesh, the device to a machine"""
+"""the settings of a look; the orientation belongs to a mesh, the device to a machine"""
 
 _ORDER = ("Soft", "Rounded", DEFAULT, "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper")
 _PREFIX = "bpy.context.object.cubic_craft."
@@ -37,35 +37,35 @@ class Preset:
     description: str
     """empty for those of the artist"""
     values: Mapping[str, Any]
-    """of those in `SETTINGS` that it sets"""
+    """the values of `SETTINGS` that it sets"""
 
     @property
     def identifier(self):
-        """The name of the file, without its end."""
+        """The name of the file without its suffix."""
         return self.path.stem
 
     @property
     def name(self):
-        """What it is called."""
+        """The display name."""
         return bpy.path.display_name(self.path.stem, title_case=False)
 
     @property
     def is_own(self):
-        """Whether it comes with the extension."""
+        """Whether it is included with the extension."""
         return self.path.parent == OWN_FOLDER
 
     @property
     def picture(self):
-        """Where its picture is, if it has one."""
+        """The path of its picture, which may not exist."""
         return self.path.with_suffix(".png")
 
     def is_of(self, properties: Any) -> bool:
-        """Return whether properties have its values."""
+        """Return whether the properties have its values."""
         return all(_is_like(getattr(properties, name), v) for name, v in self.values.items())
 
 
 def presets() -> list[Preset]:
-    """Return all presets: ours, then those in the folders of the artist, each by its first file."""
+    """Return all presets: included ones, then those of the artist, each from its first file."""
     global _known, _stamp
     folders = bpy.utils.preset_paths(SUBFOLDER)
     stamp = tuple((folder, Path(folder).stat().st_mtime_ns) for folder in folders)
@@ -95,19 +95,19 @@ def find(identifier: str) -> Preset:
 
 
 def save(name: str, properties: Any) -> Path:
-    """Keep the settings of properties under a name, in place of those that had it, if any.
+    """Save settings under a name, and replace the preset of that name, if any.
 
     Raises
     ------
     CubicCraftError
-        The name cannot be used, or the file cannot be written.
+        The name is invalid, or the file cannot be written.
     """
     stem = name.strip().translate(_FORBIDDEN).strip("_")
     if not stem:
         raise CubicCraftError("a preset needs a name")
     taken = {preset.identifier.lower() for preset in presets() if preset.is_own}
     if stem.lower() in taken:
-        raise CubicCraftError(f'"{name}" comes with CubicCraft; choose another name')
+        raise CubicCraftError(f'"{name}" is included with CubicCraft; choose another name')
     lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
     folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"
@@ -125,10 +125,10 @@ def remove(preset: Preset) -> None:
     Raises
     ------
     CubicCraftError
-        It is one of ours, or cannot be deleted.
+        It is an included preset, or cannot be deleted.
     """
     if preset.is_own:
-        raise CubicCraftError(f'"{preset.name}" comes with CubicCraft and stays')
+        raise CubicCraftError(f'"{preset.name}" is included with CubicCraft and cannot be removed')
     try:
         preset.path.unlink()
         preset.picture.unlink(missing_ok=True)
@@ -144,14 +144,14 @@ def _forget():
 
 
 def _place(path):
-    """Return what to sort by: ours first, from soft to hard."""
+    """Return a sort key: included presets first, from soft to hard."""
     is_own = path.parent == OWN_FOLDER
     place = _ORDER.index(path.stem) if is_own and path.stem in _ORDER else len(_ORDER)
     return not is_own, place, path.stem.lower()
 
 
 def _read(path):
-    """Return the preset of a file, None where it has nothing that we know."""
+    """Return the preset of a file, None if it has no known setting."""
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError):
@@ -162,7 +162,7 @@ def _read(path):
 
 
 def _assignments(tree):
-    """Give the names and values that can be set; a newer CubicCraft may have written others."""
+    """Yield the names and values that can be set; a newer CubicCraft may have written others."""
     declaration: Any = bpy.types.Object.bl_rna.properties[PROPERTY]
     group = declaration.fixed_type
     for node in tree.body:
@@ -183,7 +183,7 @@ def _can_be(declaration, value):
 
 
 def _plain(value):
-    """Return a value with no more digits than it has: properties are 32 bit numbers."""
+    """Return a value without meaningless digits: properties are 32-bit numbers."""
     return float(f"{value:.7g}") if isinstance(value, float) else value
 
 

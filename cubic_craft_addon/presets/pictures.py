@@ -13,7 +13,7 @@ _collection: Any = None
 
 
 def icon_of(preset: Preset | None) -> int:
-    """Return the number of the icon of a preset; None and those without one have one in common."""
+    """Return the icon number of a preset; None and presets without a picture share one."""
     global _collection
     if _collection is None:
         _collection = bpy.utils.previews.new()
@@ -25,7 +25,7 @@ def icon_of(preset: Preset | None) -> int:
 
 
 def free() -> None:
-    """Let go of all pictures."""
+    """Release all pictures."""
     global _collection
     if _collection is not None:
         bpy.utils.previews.remove(_collection)

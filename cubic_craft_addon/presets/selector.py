@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The property that shows which preset the settings are, and sets them when it is set.
+"""The property that shows the current preset and applies a preset when it is set.
 
-It stores nothing: settings that are no preset are "Custom".
+It stores nothing: settings that match no preset are "Custom".
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ from .pictures import icon_of
 
 CUSTOM, CUSTOM_NAME = "CUSTOM", "Custom"
 
-_texts: dict[str, str] = {}  # all that was shown: Blender does not keep them alive
+_texts: dict[str, str] = {}  # all displayed items: Blender does not keep them alive
 _last_applied = ""
 
 
@@ -21,7 +21,7 @@ def preset_property() -> Any:
     """Return the declaration of the property, for a group that has the settings."""
     return EnumProperty(
         name="Preset",
-        description="A look: how cubic, how solid, and what holds together",
+        description="Look of the result: how cubic, how solid, and what holds together",
         items=_items_of,
         get=_get,
         set=_set,
@@ -30,9 +30,9 @@ def preset_property() -> Any:
 
 
 def preset_of(properties: Any) -> Preset | None:
-    """Return the preset that the settings are, None where they are none.
+    """Return the preset that the settings match, or None.
 
-    Of several, the one that was chosen last.
+    If several match, it is the one that was chosen last.
     """
     fitting = [preset for preset in presets() if preset.is_of(properties)]
     chosen = [preset for preset in fitting if preset.identifier == _last_applied]
@@ -40,7 +40,7 @@ def preset_of(properties: Any) -> Preset | None:
 
 
 def apply(identifier: str, properties: Any) -> Preset:
-    """Give properties the settings of a preset, by its identifier or its name.
+    """Apply the settings of a preset, given by its identifier or its name.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def apply(identifier: str, properties: Any) -> Preset:
 
 
 def forget() -> None:
-    """Let go of what was shown."""
+    """Release the displayed items."""
     global _last_applied
     _last_applied = ""
     _texts.clear()
@@ -68,7 +68,7 @@ def _items_of(properties, _context) -> Any:
         for number, preset in enumerate(presets())
     ]
     if properties is None or preset_of(properties) is None:
-        about = "Settings that are no preset"
+        about = "Settings that match no preset"
         shown.append(_item(CUSTOM, CUSTOM_NAME, about, icon_of(None), len(shown)))
     return shown
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From objects and settings to results: read, prepare, solve, write.
 
-``tasks`` says what there is to solve, ``member`` reads one object, ``assembly`` factorises what is
-solved at once, ``fields`` says what each vertex is asked for, and ``pipeline`` solves and writes.
+``tasks`` lists what to solve, ``member`` reads one object, ``assembly`` factorises what is solved
+together, ``fields`` has the settings of each vertex, and ``pipeline`` solves and writes.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is solved at once: an object by itself, or several that are kept together.
+"""What is solved together: a single object, or several that are kept together.
 
 `prepare` changes nothing.
 """
@@ -22,22 +22,22 @@ from .object_frame import Placement
 
 @dataclass(frozen=True)
 class Prepared:
-    """What is done once per shapes, placements and handles of an assembly."""
+    """Everything that is computed once per shapes, placements and handles of an assembly."""
 
     members: tuple[Member, ...]
     placements: tuple[Placement, ...]
     """where each member is solved"""
     setup: solver.Setup
     is_still: np.ndarray
-    """(N,) bool, what the setup was made with"""
+    """(N,) bool, the held vertices that the setup was made with"""
     without_holds: solver.Setup
-    """the same before groups were held"""
+    """the setup before groups were held"""
     holds: Sequence[Hold]
     seconds: float
 
     @property
     def name(self):
-        """What to call it in messages."""
+        """The name for messages."""
         return _listed([member.name for member in self.members])
 
     @property
@@ -57,16 +57,16 @@ class Prepared:
 
     @property
     def is_idle(self):
-        """Whether nothing is asked to change at all."""
+        """Whether the settings change nothing at all."""
         return bool(self.is_still.all())
 
     @property
     def settings(self):
-        """Those of the first member, for what all have in common."""
+        """Those of the first member, for the settings that all share."""
         return self.members[0].settings
 
     def with_cubeness(self, cubeness: float) -> Prepared:
-        """Return the same, to be solved at another cubeness."""
+        """Return the same with another cubeness."""
         members = tuple(
             replace(member, settings=replace(member.settings, cubeness=cubeness))
             for member in self.members
@@ -74,12 +74,12 @@ class Prepared:
         return replace(self, members=members)
 
     def parts(self) -> Iterator[tuple[Member, Placement, slice]]:
-        """Give each member with its placement and its part of the arrays, see `parts_of`."""
+        """Yield each member with its placement and its part of the arrays, see `parts_of`."""
         return parts_of(self.members, self.placements)
 
 
 class Joinable(Protocol):
-    """What `assemblies` puts together."""
+    """What `assemblies` groups."""
 
     @property
     def settings(self) -> Settings:
@@ -88,7 +88,7 @@ class Joinable(Protocol):
 
     @property
     def in_world(self) -> Placement | None:
-        """None where it cannot be solved with others."""
+        """None if it cannot be solved with others."""
         ...
 
 
@@ -96,7 +96,7 @@ T = TypeVar("T", bound=Joinable)
 
 
 def assemblies(items: Sequence[T]) -> list[list[T]]:
-    """Return objects by what is solved at once, in the order of the first of each."""
+    """Return the objects that are solved together, in the order of the first of each group."""
     joined = [item for item in items if _is_joined(item)]
     return [
         joined if _is_joined(item) else [item]
@@ -110,14 +110,14 @@ def _is_joined(item):
 
 
 def prepare(members: Sequence[Member], earlier: Sequence[Prepared] = ()) -> Prepared:
-    """Factorise what is to be solved at once.
+    """Factorise an assembly.
 
     Parameters
     ----------
     members : sequence of Member
-        A single one is solved in its own coordinates, several in world space.
+        A single member is solved in its own coordinates, several in world space.
     earlier : sequence of Prepared
-        What has not changed since is taken from them.
+        Unchanged data is reused.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def prepare(members: Sequence[Member], earlier: Sequence[Prepared] = ()) -> Prep
             None,
         )
         if setup is None:
-            # Somewhere the solver needs a vertex that is free.
+            # The solver needs at least one free vertex.
             is_some_free = not (is_still | is_held).all()
             still = is_still if is_some_free and is_still.any() else None
             mirrors = _mirrors(members, placements)
@@ -160,7 +160,7 @@ def _placements(members):
 
 
 def _rest(members, placements, earlier):
-    """Build the RestMesh, or take an earlier one of the same shapes: its links are known."""
+    """Build the RestMesh, or reuse an earlier one of the same shapes with its links."""
     proxy = members[0].settings.proxy
     for other in earlier:
         if not _has_shapes(other, members, placements):
@@ -199,7 +199,7 @@ def _has_setup(prepared, members, rest, is_still):
 
 
 def _with_holds(setup, holds, earlier):
-    """Return a Setup with groups, or take an earlier one: only where they go has changed."""
+    """Return a Setup with groups, or reuse an earlier one if only their goals have changed."""
     for other in earlier:
         if other.without_holds is setup and len(other.holds) == len(holds):
             pairs = zip(other.holds, holds, strict=True)
@@ -209,12 +209,12 @@ def _with_holds(setup, holds, earlier):
 
 
 def _is_held(members):
-    """Return where handles hold vertices, of all that are solved."""
+    """Return which of the solved vertices handles hold."""
     return np.concatenate([member.of_whole(member.is_held) for member in members])
 
 
 def _mirrors(members, placements):
-    """Return the Mirrors of all members where they are solved."""
+    """Return the Mirrors of all members in the coordinates in which they are solved."""
     total, found = sum(len(member.whole.source) for member in members), []
     for member, placement, part in parts_of(members, placements):
         whole = member.whole

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the artist is told when something goes wrong that nobody has foreseen."""
+"""Messages about unexpected errors."""
 
 UNEXPECTED = (Exception, KeyboardInterrupt)
-"""what an operator reports instead of letting it through: Blender would show a traceback"""
+"""errors that an operator reports itself, because Blender would show a traceback"""
 
 
 def in_words(error: BaseException) -> str:

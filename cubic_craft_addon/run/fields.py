@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the settings ask for at each vertex of all that is solved at once.
+"""The settings of each vertex that is solved.
 
-Arrays are indexed by the `N` vertices that the solver is given: those of the members, one after
-the other, each with what its Mirror modifier adds.
+Arrays are indexed by the `N` vertices of the solver's input: those of the members, in order, each
+with those that its Mirror modifier adds.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ def cubeness(prepared: Prepared) -> float | np.ndarray:
 
 
 def orientation(prepared: Prepared) -> np.ndarray:
-    """Return the orientation, (3,3), or (N,3,3) where the objects' axes differ.
+    """Return the orientation, (3,3), or (N,3,3) if the objects' axes differ.
 
-    Beyond a plane of symmetry the cube is mirrored as well.
+    Beyond a plane of symmetry, the cube is also mirrored.
     """
     found = [orientations(member.whole, placement) for member, placement, _ in prepared.parts()]
     first = found[0][0]
-    # The rounding of world matrices is no difference.
+    # Ignore rounding errors of world matrices.
     if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in found):
         return first
     counts = [len(member.whole.source) for member in prepared.members]
@@ -45,7 +45,7 @@ def orientation(prepared: Prepared) -> np.ndarray:
 
 
 def targets(prepared: Prepared) -> np.ndarray:
-    """Return where the handles want the vertices, (N,3)."""
+    """Return the targets (N,3) of the vertices by the handles."""
     return np.concatenate(
         [
             placement.place(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keep on Floor: what stands on the ground before Cubify stands on it afterwards."""
+"""Keep on Floor: parts that stand on the ground before Cubify also do so afterwards."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -8,14 +8,14 @@ import numpy as np
 from ... import solver
 
 _STANDING = 0.01
-"""of the whole height: how far above the lowest point a part may begin that stands on the ground"""
+"""share of the total height that a standing part may begin above the lowest point"""
 
 
 def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) -> np.ndarray:
-    """Return positions (N,3) of a run, with each component that stands put back on its feet.
+    """Return positions (N,3) of a run, with each standing component moved back to its height.
 
-    The lowest point of a component that begins where the whole does keeps its height. Others stay
-    where they are, and so do those of which something is held.
+    The lowest point of a component that begins where the whole does keeps its height. Other
+    components do not move, and neither do those with held vertices.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What keeps its place as a whole while its surface becomes cubic: some handles, and the rest."""
+"""Groups that keep their place as a whole while their surface becomes cubic."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -15,12 +15,12 @@ from .object_frame import Placement
 
 @dataclass(frozen=True)
 class Hold:
-    """A group of vertices, and where it is asked to be."""
+    """A group of vertices, and its goal."""
 
     weights: np.ndarray
     """(N,) of all vertices that are solved"""
     matrix: np.ndarray
-    """(4,4), where they are solved"""
+    """(4,4), in the coordinates in which they are solved"""
 
 
 def holds_of(
@@ -28,8 +28,8 @@ def holds_of(
 ) -> list[Hold]:
     """Return all groups of an assembly.
 
-    What is far from moved handles is a group in each component of the solver that has such a
-    handle, and no other that stays: that anchors it already. Components without any float in their
+    The vertices far from moved handles are a group in each component with such a handle, unless
+    another handle stays in place and already anchors it. Components without handles float in
     place.
     """
     total, found = len(rest.input_positions), []
@@ -45,7 +45,7 @@ def holds_of(
 
 
 def _groups(member: Member, placement: Placement, component: np.ndarray) -> Iterator:
-    """Give weights of all that is solved of a member, and a matrix, for each group."""
+    """Yield the weights of all solved vertices of a member, and a matrix, for each group."""
     handle_of = member.of_whole(member.handle_of)
     handles = member.settings.handles
     into = placement.matrix
@@ -53,7 +53,7 @@ def _groups(member: Member, placement: Placement, component: np.ndarray) -> Iter
         if not handle.is_cubic:
             continue
         pose = np.reshape(handle.matrix, (4, 4))
-        # Beyond the plane of a Mirror modifier it does the same in the mirror.
+        # Beyond the plane of a Mirror modifier, the motion is mirrored.
         for is_there, reflection in member.whole.elements():
             weights = ((handle_of == number) & is_there).astype(np.float64)
             if weights.any():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One object of what is solved at once, read from Blender into plain arrays.
+"""One object of an assembly, read from Blender into plain arrays.
 
 `read_member` changes nothing.
 """
@@ -27,14 +27,14 @@ from .whole import Whole, modifier_reflections
 
 @dataclass(frozen=True)
 class Shape:
-    """What is read once from a mesh: the original shape and its virtual triangulation."""
+    """The data read once from a mesh: the original shape and its virtual triangulation."""
 
     original: np.ndarray
     """(n,3) float32 positions, object space"""
     triangles: np.ndarray
     """(m,3) int"""
     start: mesh_bridge.Start = "HERE"
-    """what it was to be read from, where the mesh was edited by hand since its last result"""
+    """which shape was read if the mesh was edited by hand since its last result"""
 
     def is_like(self, other: Shape) -> bool:
         """Return whether both are the same, bit for bit."""
@@ -60,19 +60,19 @@ class Member:
     name: str
     shape: Shape
     whole: Whole
-    """the shape with what its Mirror modifier adds"""
+    """the shape with the vertices that its Mirror modifier adds"""
     settings: Settings
     alone: Placement
     in_world: Placement | None
-    """None where it cannot be solved with others"""
+    """None if it cannot be solved with others"""
     handle_of: np.ndarray
     """(n,) int, the number of the handle that holds each vertex, or -1"""
     rest_weights: np.ndarray | None
-    """(n,) how much each vertex belongs to what is far from moved handles; None where all may go"""
+    """(n,) weights of the vertices far from moved handles; None if all may move"""
     map_weights: np.ndarray | float
     """(n,) factors of the cubeness, or 1"""
     seconds: float
-    """that reading it took"""
+    """time to read it"""
 
     @property
     def vertices(self):
@@ -101,9 +101,9 @@ class Member:
 
     @property
     def is_still(self):
-        """(n,) bool, the vertices that nothing asks to change.
+        """(n,) bool, the vertices that should not change.
 
-        Where the map is 0. Not where a handle is posed: then the rest is asked to follow.
+        Those where the map is 0. If a handle is posed, there are none: the rest should follow.
         """
         if any(handle.is_moved for handle in self.settings.handles):
             return np.zeros(self.vertices, dtype=bool)
@@ -113,9 +113,9 @@ class Member:
 def parts_of(
     members: Sequence[Member], placements: Sequence[Placement]
 ) -> Iterator[tuple[Member, Placement, slice]]:
-    """Give each member of an assembly with its placement and its part of the arrays.
+    """Yield each member of an assembly with its placement and its part of the arrays.
 
-    That begins with the vertices of the member; those that are only added follow.
+    The part begins with the vertices of the member, followed by added ones.
     """
     end = 0
     for member, placement in zip(members, placements, strict=True):
@@ -130,12 +130,12 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     ----------
     obj
     start : {"HERE", "ORIGINAL"}
-        What counts as original where the mesh was edited by hand since its last result.
+        Which shape is the original if the mesh was edited by hand since its last result.
 
     Raises
     ------
     CubicCraftError
-        The object cannot be used; the message names it and the cure.
+        The object cannot be used; the message names it and the remedy.
     """
     check_requirements()
     mesh_bridge.check_editable(obj)
@@ -157,14 +157,14 @@ def read_member(
     ----------
     obj, settings
     known : Member, optional
-        Of the same object: what has not changed since is taken from it. The shape never has.
+        Of the same object: unchanged data is reused. The shape has not changed.
     weights_changed : bool
-        The weights of vertex groups may have.
+        Whether the weights of vertex groups may have changed.
 
     Raises
     ------
     CubicCraftError
-        The object or a setting cannot be used; the message names the object and the cure.
+        The object or a setting cannot be used; the message names the object and the remedy.
     """
     begin = time.perf_counter()
     alone, in_world = placement_alone(obj, settings), placement_in_world(obj, settings)
@@ -194,7 +194,7 @@ def read_member(
 
 
 def _check_alone(name, placement, shape):
-    """Refuse a shape for itself, so that it does not spoil an assembly, which cannot tell whose."""
+    """Refuse an invalid shape here, because an assembly could not name the object."""
     try:
         check_mesh(placement.place(shape.original), shape.triangles)
     except solver.CubicCraftError as error:

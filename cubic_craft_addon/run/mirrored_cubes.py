@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cube beyond a plane of symmetry: the image of that on this side."""
+"""The cube beyond a plane of symmetry: the mirror image of the cube on this side."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ...solver.styles.cube import proper
 from .object_frame import Placement
 from .whole import Whole
 
-_ALIKE = 1e-5  # a turn by less makes no difference
+_ALIKE = 1e-5  # smaller rotations make no difference
 
 
 def orientations(whole: Whole, placement: Placement) -> np.ndarray:
     """Return the orientation of the cube for all vertices (1,3,3), or for each of them (N,3,3).
 
-    For all, where the cube is its own image about every plane.
+    One for all if the cube is its own image about every plane.
     """
     Q = placement.orientation
     turns = [np.eye(3)]
@@ -29,6 +29,6 @@ def orientations(whole: Whole, placement: Placement) -> np.ndarray:
 
 
 def _looks_alike(turn):
-    """Return whether a cube that is turned or mirrored so looks as before."""
+    """Return whether a cube looks the same after a rotation or reflection."""
     sizes = np.abs(turn)
     return np.minimum(sizes, np.abs(sizes - 1.0)).max() <= _ALIKE

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the coordinates of an object to the shape as it is seen, and to the frame of the cube."""
+"""From the coordinates of an object to its visible shape, and to the frame of the cube."""
 
 import math
 from dataclasses import dataclass
@@ -13,17 +13,17 @@ from ...solver import CubicCraftError
 from ...solver.styles.cube import proper
 from ..settings.values import Settings
 
-_SMALLEST_STRETCH = 1e-4  # relative; an object flatter than this is solved as if it were not scaled
+_SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
-_SMALLEST_TURN = 1e-6  # radians; a cube that is turned by less is taken as not turned
+_SMALLEST_TURN = 1e-6  # radians; smaller rotations of the cube are ignored
 
 
 @dataclass(frozen=True)
 class Placement:
-    """How an object stands in the coordinates that it is solved in.
+    """The placement of an object in the coordinates in which it is solved.
 
-    Those are its own, stretched as it is seen, where it is solved alone: nothing changes then while
-    it is moved or turned. Objects that are solved together meet in world space.
+    If it is solved alone, these are its own coordinates, stretched by its scale, which do not
+    change while it is moved or rotated. Objects that are solved together use world space.
     """
 
     linear: np.ndarray
@@ -42,17 +42,17 @@ class Placement:
 
     @property
     def is_mirrored(self):
-        """Whether triangles face the other way there."""
+        """Whether triangles are flipped there."""
         return bool(np.linalg.det(self.linear) < 0.0)
 
     @property
     def key(self):
-        """All of it, for comparisons bit for bit."""
+        """All values, for comparison bit for bit."""
         return self.shape_key, self.orientation.tobytes()
 
     @property
     def shape_key(self):
-        """All that decides where the vertices are."""
+        """All values that determine the positions of the vertices."""
         return self.linear.tobytes(), self.offset.tobytes()
 
     @property
@@ -63,26 +63,26 @@ class Placement:
         return matrix
 
     def place(self, points):
-        """Return points (n,3) of the object where it is solved, float64."""
+        """Return float64 points (n,3) in the coordinates in which the object is solved."""
         placed = points.astype(np.float64) @ self.linear.T
         return placed + self.offset if self.offset.any() else placed
 
     def read_back(self, placed):
-        """Return what `place` gave, or what has become of it, in object coordinates."""
+        """Return points from `place`, possibly moved, in object coordinates."""
         centred = placed - self.offset if self.offset.any() else placed
         return centred @ np.linalg.inv(self.linear).T
 
     def mirror(self, mirror):
-        """Return the Mirror of an object's coordinates in those that it is solved in."""
+        """Return a Mirror of object coordinates in those in which the object is solved."""
         linear = self.linear @ mirror.linear @ np.linalg.inv(self.linear)
         offset = self.linear @ mirror.offset + self.offset - linear @ self.offset
         return solver.Mirror(mirror.partner, linear, offset)
 
     def read_rotations_back(self, rotations):
-        """Return the rotations (n,3,3) of surroundings of vertices in object coordinates.
+        """Return the rotations (n,3,3) around vertices in object coordinates.
 
-        On an object that is scaled unevenly they are the nearest rotations to what happens to a
-        vertex's surroundings; they turn the offsets of shape keys, and must not distort them.
+        With non-uniform scale, they are the nearest rotations to the deformation around each
+        vertex; they rotate the offsets of shape keys and must not distort them.
         """
         if not np.array_equal(self.turn, np.eye(3)):
             rotations = self.turn.T @ rotations @ self.turn
@@ -94,7 +94,7 @@ class Placement:
 
 
 def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
-    """Return the placement of an object that is solved for itself: its coordinates, stretched.
+    """Return the placement of an object that is solved alone: its coordinates, stretched.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
 def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
     """Return the placement of an object in world space.
 
-    None where it has none: an object that is scaled flat is solved as if it were not scaled, and
+    None for an object that is scaled flat: it is solved without its scale, and
     would be in the wrong place beside others.
 
     Raises
@@ -169,7 +169,7 @@ def world_axes(obj: bpy.types.Object, settings: Settings):
 def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
     """Return the Euler angles (radians) that give the orientation, the inverse of the above.
 
-    Of the 24 that are the same for a cube, these are the smallest.
+    Of the 24 equivalent rotations of a cube, these are the smallest.
     """
     turn, _ = _turn_and_stretch(obj)
     axes = proper(_into_space(obj, settings, turn) @ orientation.T)
@@ -197,13 +197,13 @@ def _axes(settings):
 
 
 def _rounded(stretch):
-    """Drop the last digits, so that turning the object alone leaves the stretch bit for bit."""
+    """Drop the last digits, so that rotating the object keeps the stretch bit for bit."""
     unit = 10.0 ** (math.floor(math.log10(np.abs(stretch).max())) - _DIGITS)
     return np.round(stretch / unit) * unit + 0.0  # no negative zeros
 
 
 def _into_space(obj, settings, turn):
-    """Return the matrix from stretched object coordinates into what the angles are relative to."""
+    """Return the matrix from stretched object coordinates to the axes of the angles."""
     if settings.space == "OBJECT":
         return np.eye(3)
     if settings.space == "WORLD":
@@ -218,10 +218,10 @@ def _into_space(obj, settings, turn):
 
 
 def _without_right_angles(orientation):
-    """Return the identity where a cube looks as if it were not turned.
+    """Return the identity if the cube looks as if it were not rotated.
 
-    So an object that stands by a right angle, as imported files do, or is mirrored, gets the bits
-    of one that is not.
+    An object that is rotated by a right angle, as is common for imported files, or mirrored then
+    gives the same bits as one that is not.
     """
     is_like = np.allclose(orientation, np.round(orientation), rtol=0.0, atol=_SMALLEST_TURN)
     return np.eye(3) if is_like else orientation

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pipeline of what is solved at once: mesh bridge -> solver -> mesh bridge.
+"""The pipeline of an assembly: mesh bridge -> solver -> mesh bridge.
 
-`assembly.prepare` and `solve` change nothing, so that an exception or a cancel loses nothing;
-`write` does.
+`assembly.prepare` and `solve` change nothing, so that an exception or a cancellation loses nothing;
+only `write` makes changes.
 """
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
@@ -31,16 +31,16 @@ class Solution:
     rotations: np.ndarray
     """(n,3,3) float64 rotations of the vertices' surroundings, object space"""
     result: solver.Result
-    """of all that was solved with it"""
+    """of all objects that were solved with it"""
     setup_seconds: float
     vertices: int
-    """number of vertices of all objects that were solved at once"""
+    """number of vertices of all objects that were solved together"""
     objects: int = 1
-    """number of objects that were solved at once, this one included"""
+    """number of objects that were solved together, including this one"""
     matching: int | None = None
-    """number of vertices that have a mirror image, where Symmetry is asked for"""
+    """number of vertices that have a mirror image, with Symmetry"""
     start: mesh_bridge.Start = "HERE"
-    """what was solved where the mesh was edited by hand since its last result"""
+    """which shape was solved if the mesh was edited by hand since its last result"""
 
     @property
     def own_vertices(self):
@@ -54,7 +54,7 @@ class Solution:
 
     @property
     def total_seconds(self):
-        """Time that the artist has waited for it."""
+        """Time that the artist has waited."""
         return self.setup_seconds + self.seconds + self.result.compile_seconds
 
 
@@ -64,7 +64,7 @@ def start(prepared: Prepared) -> solver.Run:
     Raises
     ------
     CubicCraftError
-        A setting cannot be used, or the device is not there.
+        A setting is invalid, or the device is not available.
     """
     use_extension_folder()
     settings = prepared.settings
@@ -93,7 +93,7 @@ def solve(
     Raises
     ------
     CubicCraftError
-        As `start`, and where what the run had on a GPU is lost.
+        As `start`, and if the data of the run on a GPU is lost.
     """
     run = start(prepared)
     try:
@@ -104,9 +104,9 @@ def solve(
 
 
 def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: bool):
-    """Return positions and rotations, as in a Solution, that a run has come to so far.
+    """Return the current positions and rotations of a run, as in a Solution.
 
-    One pair for each member. The rotations take time, and are None unless they are asked for.
+    One pair per member. The rotations take time, and are None unless requested.
     """
     if with_rotations:
         return _read_back(prepared, *run.placed())
@@ -114,7 +114,7 @@ def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: boo
 
 
 def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
-    """Return what a run has come to, for each member; it cannot go on after that."""
+    """Return a Solution for each member; the run cannot be continued afterwards."""
     result = run.result()
     found = _read_back(prepared, result.positions, result.rotations)
     return tuple(
@@ -145,11 +145,11 @@ def write(
     ----------
     result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
     remember : callable
-        Called with the object that gets the cubic shape, before the step that cannot be taken back:
-        if it raises, or what follows, all meshes and objects are as they were before. What it has
-        done to the settings of an object that was there is for the caller to put back.
+        Called with the object that gets the cubic shape, before the step that cannot be undone:
+        if it or anything later raises, all meshes and objects are as they were before. The caller
+        must restore the settings of an existing object that it has changed.
     run : dict, optional
-        What to note on the mesh, a `LastRun`.
+        The note for the mesh, a `LastRun`.
 
     Returns
     -------
@@ -170,7 +170,7 @@ def write(
 
 
 def _read_back(prepared, positions, rotations):
-    """Return what the solver gives, for each member in its object's coordinates."""
+    """Return the results of the solver, for each member in its object's coordinates."""
     at_rest = prepared.setup.rest.input_positions
     if prepared.settings.floor:
         positions = kept_on_floor(prepared.setup, positions, prepared.placements[0].up)
@@ -180,7 +180,7 @@ def _read_back(prepared, positions, rotations):
     for member, placement, whole_part in prepared.parts():
         part = slice(whole_part.start, whole_part.start + member.vertices)
         own = placement.read_back(positions[part]).astype(np.float32)
-        # What the solver holds must not move by a rounding of the placement.
+        # Held vertices must not move by rounding errors of the placement.
         is_still = (positions[part] == at_rest[part]).all(axis=1) | prepared.is_idle
         own[is_still] = member.shape.original[is_still]
         turned = None if rotations is None else placement.read_rotations_back(rotations[part])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The run of what is solved at once, phase by phase: as Live goes through it, and a Cubify."""
+"""The run of an assembly, phase by phase, as in Live and Cubify."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -13,19 +13,19 @@ from .assembly import Prepared
 from .member import Member
 from .tasks import Task, key_of, prepare_all
 
-_FIRST_SHOWN = 2  # iterations; the first one moves nothing but handles
+_FIRST_SHOWN = 2  # iterations; the first one moves only handles
 
 
 class StepwiseRun:
-    """The run of an assembly, from its start to its end, again and again.
+    """The run of an assembly, which can be restarted.
 
-    It keeps no reference to Blender's data, which dies at every undo: the tasks are given anew to
+    It keeps no reference to Blender's data, which undo frees: the tasks are passed again to
     each call.
 
     Attributes
     ----------
     problems : list of str
-        Why there is no run, or which objects are not in it, to be shown to the artist.
+        Reasons why there is no run, or why objects are excluded, for display.
     prepared : Prepared or None
     """
 
@@ -42,11 +42,11 @@ class StepwiseRun:
 
     @property
     def is_asked_for(self):
-        """Whether it has tasks, even if they have come to nothing."""
+        """Whether it has tasks, even if they could not be started."""
         return self._key is not None
 
     def is_changed(self, tasks: Sequence[Task]) -> bool:
-        """Return whether the tasks ask for something else than what is being done."""
+        """Return whether the tasks differ from the current run."""
         return key_of(tasks) != self._key
 
     def restart(
@@ -61,7 +61,7 @@ class StepwiseRun:
             self._start()
 
     def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
-        """Start again if vertex groups that matter have other weights now, and tell if so."""
+        """Restart if weights of relevant vertex groups have changed; return whether they have."""
         before = self.prepared
         if before is None or not any(_looks_at_weights(task) for task in tasks):
             return False
@@ -89,7 +89,7 @@ class StepwiseRun:
             self.problems = [*self.problems, str(error)]
 
     def stop(self) -> None:
-        """Have nothing to do, and nothing to say."""
+        """Stop, without tasks and problems."""
         self._reset([])
         self._key = None
 
@@ -98,12 +98,12 @@ class StepwiseRun:
         self._intermediate_moment, self._intermediate = None, {}
 
     def forget(self) -> None:
-        """Let go of all arrays."""
+        """Release all arrays."""
         self.stop()
         self.prepared = None
 
     def member_of(self, uid: int) -> Member | None:
-        """Return what was read of an object, None if it does not take part."""
+        """Return the data read from an object, None if it does not take part."""
         members = self.prepared.members if self.prepared else ()
         return next((member for member in members if member.uid == uid), None)
 
@@ -111,7 +111,7 @@ class StepwiseRun:
 
     @property
     def is_working(self):
-        """Whether there is something left to compute."""
+        """Whether there is more to compute."""
         return self._run is not None and self._solutions is None
 
     @property
@@ -120,7 +120,7 @@ class StepwiseRun:
         return self._solutions is not None
 
     def advance(self) -> None:
-        """Do one phase of the solver. If it cannot go on, `problems` says why."""
+        """Do one phase of the solver. If it cannot continue, `problems` has the reason."""
         assert self._run is not None and self.prepared is not None
         try:
             if self._run.reason is None:
@@ -139,7 +139,7 @@ class StepwiseRun:
 
     @property
     def status(self):
-        """Lines for the artist, from long to short, and how far the run has come, from 0 to 1."""
+        """Status lines, from long to short, and the fraction done, from 0 to 1."""
         energy = self._run.stylization.energy if self._run else None
         if self._run is None or energy is None:
             is_coarse = self._run is not None and self._run.is_on_coarser_mesh
@@ -153,7 +153,7 @@ class StepwiseRun:
         text = f"{end}, {self.iteration} iterations"
         return (f"{text}, {energy_now}", text, end), 1.0
 
-    # -- what it has come to -----------------------------------------------------------------------
+    # -- current state ---------------------------------------------------------------------------
 
     def solution_of(self, uid: int) -> pipeline.Solution | None:
         """Return the result for an object, once the run has ended."""
@@ -161,15 +161,15 @@ class StepwiseRun:
 
     @property
     def moment(self):
-        """What tells states of the run that can be shown from each other, None if there is none."""
+        """Identifier of the state that can be shown, None if there is none."""
         if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):
-            return None  # what is seen stays until there is something better
+            return None  # keep the visible shape until there is a better one
         return self._run.iterations, self.is_done
 
     def intermediate_result(self, uid: int, with_rotations: bool):
-        """Return positions and rotations of an object at the present moment, None if not in it.
+        """Return current positions and rotations of an object, None if it does not take part.
 
-        The rotations take time, and may be None unless they are asked for.
+        The rotations take time, and may be None unless requested.
         """
         assert self._run is not None and self.prepared is not None
         if self._solutions is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What there is to solve: one task per mesh, or per new object. And how all results are written."""
+"""What to solve, as one task per mesh or new object, and how all results are written."""
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
@@ -31,7 +31,7 @@ _log = logging.getLogger(__name__)
 
 
 def run_of(solution: pipeline.Solution, settings: dict[str, Any]) -> LastRun:
-    """Return what there is to say about a solution that is going to be written."""
+    """Return the summary of a solution that is about to be written."""
     result = solution.result
     return LastRun(
         settings=settings,
@@ -65,7 +65,7 @@ class Task:
 
     @property
     def key(self):
-        """All that decides the solution beside the mesh; free of references to Blender's data."""
+        """Everything but the mesh that determines the solution; no references to Blender's data."""
         up = self._alone.up.tobytes() if self.settings.floor else b""
         return replace(self.settings, frame=None), self._reflections, up, self._alone.key
 
@@ -76,12 +76,12 @@ class Task:
 
     @property
     def run(self) -> LastRun:
-        """What there is to say about the solution, once it is solved."""
+        """The summary of the solution, once it is solved."""
         assert self.solution is not None
         return run_of(self.solution, what_matters(self.settings))
 
     def is_like(self, other: Task) -> bool:
-        """Return whether both have the same solution, each being solved alone."""
+        """Return whether both have the same solution if each is solved alone."""
         one, two = self._alone, other._alone
         return (
             self.mesh == other.mesh
@@ -98,8 +98,8 @@ def plan(
 ) -> tuple[list[Task], list[str]]:
     """Return the tasks, and the problems as texts.
 
-    A mesh that several objects share is one task, as the first of them stands; only new objects
-    can differ.
+    A mesh that several objects share is one task, with the transform of the first; only new
+    objects can differ.
     """
     tasks, problems = [], []
     unlike: dict[Task, list[str]] = {}
@@ -118,16 +118,16 @@ def plan(
 
 
 def _in_one_mesh(twin, names):
-    """Say that objects have the shape of another: in one sentence, for there may be hundreds."""
-    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and has taken its shape;'
+    """Report that objects share the shape of another, in one sentence for possibly hundreds."""
+    shares = f'{names[0]} shares its mesh with "{twin.obj.name}" and now has its shape;'
     if len(names) == 1:
-        return f"{shares} make it single-user for a shape of its own"
+        return f"{shares} make it single-user to give it its own shape"
     others = "another object" if len(names) == 2 else f"{len(names) - 1} others"
-    return f"{shares} so have {others}; make them single-user for shapes of their own"
+    return f"{shares} so do {others}; make them single-user to give them their own shapes"
 
 
 def key_of(tasks: Sequence[Task]) -> tuple:
-    """Return all that decides the solutions of an assembly beside the meshes."""
+    """Return everything except the meshes that determines the solutions of an assembly."""
     if len(tasks) == 1:
         return ((tasks[0].uid, tasks[0].key),)
     return tuple((task.uid, task.key_in_world) for task in tasks)
@@ -146,7 +146,7 @@ def prepare_all(
     ----------
     tasks
     known : mapping of int to Member, optional
-        What earlier runs have read, by the ``session_uid`` of the object.
+        Data from earlier runs, by the ``session_uid`` of the object.
     earlier, weights_changed
         As for `prepare` and `read_member`.
 
@@ -180,10 +180,10 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     summary : str
         Empty if nothing was written.
     problems : list of str
-        What was written before a failure stays and needs its undo step. Also that Taichi does not
-        work, once.
+        Meshes written before a failure stay and need their undo step. If Taichi does not work,
+        this is also reported, once.
     """
-    # All texts come before the first write: what follows a write must not fail.
+    # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
     runs = [task.run for task in tasks]
     written, problems = 0, new_taichi_warnings() if tasks else []
@@ -192,13 +192,13 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
             _write(overrides, task, run)
             written += 1
     except UNEXPECTED as error:
-        _log.exception("Writing a result failed")  # this object has been put back
+        _log.exception("Writing a result failed")  # this object has been restored
         reason = in_words(error)
-        problems.append(f"Writing failed ({reason}); what was not written yet is unchanged")
+        problems.append(f"Writing failed ({reason}); meshes that were not written are unchanged")
     if written == 1:
         return f"Cubified: {runs[0].status}", problems
     if written:
-        # What was solved at once has been waited for once.
+        # Objects that were solved together took their time only once.
         waits = {id(s.result): s.total_seconds for s in solutions[:written]}
         return f"Cubified {written} meshes in {sum(waits.values()):.2f} s", problems
     return "", problems

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a cubic shape is the one that the settings ask for."""
+"""Whether a cubic shape matches the settings."""
 
 from collections.abc import Iterable
 from dataclasses import fields
@@ -14,17 +14,17 @@ from ..object_properties import object_properties
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 
-# What computes, what is chosen anew for each run, and what a new mesh was made of.
+# The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}
 _LABELS = {"handles": "Handles", "map_group": "Cubeness Map", "map_invert": "Cubeness Map"}
 _ROUNDING = 1e-5  # of matrices, relative
 
 
 def what_matters(settings: Settings) -> dict[str, Any]:
-    """Return the settings that decide the shape as values that JSON can hold.
+    """Return the settings that determine the shape as values for JSON.
 
-    How the object itself stands is no setting: an artist who turns a finished sculpture wants it
-    turned, whatever the angles count from.
+    The transform of the object itself is not a setting: an artist who rotates a finished sculpture
+    wants it rotated, whatever the angles are relative to.
     """
     names = (field.name for field in fields(settings) if field.name not in _IGNORED)
     values = {name: getattr(settings, name) for name in names}
@@ -32,16 +32,16 @@ def what_matters(settings: Settings) -> dict[str, Any]:
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":
-        values["result"] = "MESH"  # as which it stands in the new object
+        values["result"] = "MESH"  # its name in the new object
     return values
 
 
 def changes_since(obj: bpy.types.Object, run: LastRun) -> list[str]:
-    """Return what the panel calls the settings of an object that differ from those of the run.
+    """Return the labels of the settings of an object that differ from those of the run.
 
-    Only what would change the shape counts. Cheap, as it runs at every redraw: weights that have
-    been painted since are not seen. Empty while the settings cannot be used at all, and where
-    results go to new objects, which leave this one as it is.
+    Only settings that would change the shape count. It is cheap because it runs at every redraw, so
+    it does not detect painted weights. Empty while the settings are invalid, and if
+    results go to new objects, which do not change this one.
     """
     try:
         settings = settings_of(obj)
@@ -50,7 +50,7 @@ def changes_since(obj: bpy.types.Object, run: LastRun) -> list[str]:
     if settings.result == "NEW_OBJECT":
         return []
     now, then = what_matters(settings), run.settings
-    # A version that did not have a setting yet says nothing of it.
+    # Older versions may not have noted a setting.
     names = [name for name in now if name in then and not _is_same(now[name], then[name])]
     return list(dict.fromkeys(_label(obj, name) for name in names))
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The whole of which an artist models a half: what the Mirror modifier adds is solved with it.
+"""The whole of a half-modelled mesh: the part that the Mirror modifier adds is solved with it.
 
-So its other half is there when links are looked for, and the seam lies in the middle of a surface,
-not at the border of one.
+The other half then exists when links are searched, and the seam lies in the middle of a surface,
+not at its border.
 """
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
@@ -16,7 +16,7 @@ import numpy as np
 
 from ... import solver
 
-_LEAST_TOLERANCE = 1e-6  # of the largest extent: nearer to the plane than this is in it
+_LEAST_TOLERANCE = 1e-6  # of the largest extent: vertices closer to the plane than this lie in it
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Reflection:
     offset: tuple[float, ...]
     """b"""
     tolerance: float
-    """vertices that are no further from their image are in the plane"""
+    """vertices at most this far from their image lie in the plane"""
 
     def mirror(self, partner: np.ndarray) -> solver.Mirror:
         """Return it with the partners (n,) of the vertices."""
@@ -46,11 +46,11 @@ class Reflection:
         return points @ np.reshape(self.linear, (3, 3)).T + self.offset
 
     def is_like(self, other):
-        """Return whether both reflect alike."""
+        """Return whether both are the same reflection."""
         return np.allclose(self.linear + self.offset, other.linear + other.offset)
 
     def commutes_with(self, other):
-        """Return whether it does not matter which comes first."""
+        """Return whether the order of both does not matter."""
         points = np.vstack([np.zeros(3), np.eye(3)])
         size = 1.0 + np.abs(self.offset).max() + np.abs(other.offset).max()
         apart = self.image(other.image(points)) - other.image(self.image(points))
@@ -65,7 +65,7 @@ def flip(axis: int) -> Reflection:
 
 
 def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
-    """Return what the first Mirror modifier of an object adds to its mesh, in the viewport.
+    """Return the reflections of the first Mirror modifier of an object, in the viewport.
 
     Not one that cuts the mesh first (Bisect), whose vertices lie on both sides.
     """
@@ -105,7 +105,7 @@ def _placed(reflection, place, tolerance):
 
 
 class Whole:
-    """A mesh with its reflections, and which of all its vertices are each other's images.
+    """A mesh with its reflections, and the vertices that are images of each other.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ class Whole:
         Object coordinates.
     triangles : (m,3) int array
     reflections : sequence of Reflection
-        What is added: the first is of the mesh, the second of both, and so on.
+        Reflections to add: the first of the mesh, the second of both, and so on.
     symmetry : sequence of bool
         About which axes of the object the mesh itself is to be symmetric.
 
@@ -155,7 +155,7 @@ class Whole:
         return np.linalg.norm(reflection.image(points) - points, axis=1) <= tolerance
 
     def _number(self, count):
-        """Give each image a number, and those that coincide the same one."""
+        """Assign a number to each image; those that coincide get the same number."""
         own = np.arange(count)
         self._numbers = np.empty((2 ** len(self.added), count), dtype=np.intp)
         self._numbers[0] = own
@@ -175,12 +175,12 @@ class Whole:
 
     @property
     def is_plain(self):
-        """Whether nothing is added and nothing has to stay symmetric."""
+        """Whether nothing is added and nothing must stay symmetric."""
         return not self.mirrored
 
     @cached_property
     def triangles(self):
-        """(M,3) int triangles of all of it."""
+        """(M,3) int triangles of the whole."""
         F, found = self._triangles, [self._triangles]
         for element in range(1, len(self._numbers)):
             images = self._numbers[element][F]
@@ -199,7 +199,7 @@ class Whole:
         return result
 
     def elements(self):
-        """Give, for each image of the mesh, which vertices (N,) it has, and its map (4,4)."""
+        """Yield the vertices (N,) and the map (4,4) of each image of the mesh."""
         for element in range(len(self._numbers)):
             matrix = np.eye(4)
             for bit, reflection in enumerate(self.added):
@@ -209,7 +209,7 @@ class Whole:
 
     @cached_property
     def own_partners(self):
-        """For each axis that was asked for, the partner (n,) of each vertex of the mesh."""
+        """For each requested axis, the partner (n,) of each vertex of the mesh."""
         points = self._original.astype(np.float64)
         tolerance = solver.MATCHING * self._size
         found = [
@@ -241,8 +241,8 @@ class Whole:
     def settle(self, positions, is_held):
         """Make new positions (n,3) float32 of the mesh exactly symmetric, in place.
 
-        What lies in the plane of a modifier stays as far from it as it was, which is what merges
-        the halves. Vertices that are held (n,) stay where they are.
+        Vertices in the plane of a modifier keep their distance from it, which merges the
+        halves. Held vertices (n,) do not move.
         """
         for reflection, is_inside in zip(self.added, self._is_inside, strict=True):
             inside = np.flatnonzero(is_inside & ~is_held)
@@ -263,7 +263,7 @@ class Whole:
 
     @property
     def matching(self):
-        """Number of vertices that have a partner about every axis that was asked for, or None."""
+        """Number of vertices that have a partner about every requested axis, or None."""
         if not self._asked:
             return None
         have = np.all([mirror.partner >= 0 for mirror in self.own_partners], axis=0)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A glimpse of the cube for a moment after it was turned, also where its overlay is off."""
+"""A brief view of the cube after it was rotated, even if its overlay is off."""
 
 import time
 
 import bpy
 
 SECONDS = 1.5
-"""that the cube stays in view"""
+"""seconds that the cube stays visible"""
 
 _until = 0.0
 
@@ -23,12 +23,12 @@ def on_turn(_properties, _context):
 
 
 def is_seen() -> bool:
-    """Return whether the cube has been turned just now."""
+    """Return whether the cube has just been rotated."""
     return time.monotonic() < _until
 
 
 def redraw_views() -> None:
-    """Have Blender draw all 3D viewports anew."""
+    """Redraw all 3D viewports."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -36,7 +36,7 @@ def redraw_views() -> None:
 
 
 def _end():
-    """Take the cube away, or come back when it is time."""
+    """Hide the cube, or return the time to wait."""
     remaining = _until - time.monotonic()
     if remaining > 0.0:
         return remaining

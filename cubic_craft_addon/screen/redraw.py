@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Have the panel drawn again, which Blender does by itself only for what the artist touches."""
+"""Redraw the panel, which Blender does by itself only after changes by the artist."""
 
 import bpy
 

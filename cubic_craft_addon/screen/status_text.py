@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn in Blender's status bar in place of its own text, while something of ours runs."""
+"""Text in Blender's status bar, instead of its own, while one of our operators runs."""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +18,7 @@ def show(draw: Callable[[Any, bpy.types.Context], None]) -> None:
 
 
 def hide() -> None:
-    """Give the status bar back."""
+    """Restore the status bar."""
     global _is_shown
     if _is_shown:
         _is_shown = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texts that fit the sidebar as it is: Blender cuts off what is too long, and wraps nothing."""
+"""Texts that fit the sidebar: Blender truncates long text and does not wrap it."""
 
 from collections.abc import Iterable
 
@@ -20,7 +20,7 @@ def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
     context : bpy.types.Context
         Of a panel that is being drawn.
     taken : float
-        What else is in the line, in widths of an icon.
+        Width of the other items in the line, in widths of an icon.
 
     Returns
     -------

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles and cubeness map go along when their vertex group is renamed.
+"""Handles and the cubeness map follow when their vertex group is renamed.
 
-Settings know a vertex group by its name, and Blender tells nobody what the old name was. So the
-names are compared after each update of an object: one that has changed while all others stayed in
-place is a rename. What is not clearly one is left alone, and the panel says what is missing.
+Settings refer to a vertex group by its name, and Blender does not report the old name. The
+names are therefore compared after each update of an object: one that has changed while all others
+stayed in place is a rename. Anything unclear is ignored, and the panel shows what is missing.
 
-A group that has got the name of our attribute gets another one first, before Blender acts
-on that (`mesh_bridge.set_groups_aside`).
+A group with the name of our attribute is first renamed, before Blender acts on the name
+(`mesh_bridge.set_groups_aside`).
 
 The names are kept in memory only. Renames are remembered, because an undo may bring the old name
 back into the settings: Blender has saved the step before we could follow.
@@ -19,7 +19,7 @@ from .. import mesh_bridge
 from ..object_properties import has_properties, object_properties
 
 _names: dict[str, tuple[str, ...]] = {}
-"""names of the vertex groups when the object was last looked at, by the object's full name"""
+"""last known names of the vertex groups, by the full name of the object"""
 _renames: dict[str, dict[str, str]] = {}
 """old name to new name, by the object's full name"""
 
@@ -68,7 +68,7 @@ def _follow(obj):
 
 
 def _rename(before, now):
-    """Return {old name: new name} if that is all that has changed, else nothing."""
+    """Return {old name: new name} if nothing else has changed, otherwise nothing."""
     if len(before) != len(now):
         return {}
     pairs = [(old, new) for old, new in zip(before, now, strict=True) if old != new]
@@ -77,7 +77,7 @@ def _rename(before, now):
 
 
 def _name_now(old, names, renames):
-    """Return what the vertex group `old` is called now; the same if that is not known."""
+    """Return the current name of the vertex group `old`; the same name if unknown."""
     new, steps = old, 0
     while new and new not in names and new in renames and steps < len(renames):
         new, steps = renames[new], steps + 1

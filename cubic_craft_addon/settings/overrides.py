@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings for several objects at once: what holds for all of them, and what each keeps.
+"""Settings for several objects at once: those that apply to all, and those that each keeps.
 
-Vertex groups and handles belong to the mesh: of several objects, each keeps its own unless it is
-told.
+Vertex groups and handles belong to the mesh: each of several objects keeps its own unless others
+are given.
 """
 
 from collections.abc import Mapping
@@ -31,13 +31,13 @@ class SettingsOverrides:
     """What the artist has chosen for all objects of a run."""
 
     values: Mapping[str, Any]
-    """of those in ALL that hold for all objects"""
+    """those of ALL that apply to all objects"""
     frame: bpy.types.Object | None = None
     handles: tuple[Handle, ...] | None = None
-    """in place of those of the objects"""
+    """instead of those of the objects"""
     poses: Mapping[int, Mapping[int, Pose]] = field(default_factory=dict)
-    """in place of those that handles have of themselves, by ``session_uid`` of the object and
-    number of the handle (`identify`)"""
+    """instead of the handles' own poses, by ``session_uid`` of the object and number of the handle
+    (`identify`)"""
 
     def settings_for(self, obj: bpy.types.Object) -> Settings:
         """Return the settings with which an object is to be cubified.
@@ -63,22 +63,22 @@ class SettingsOverrides:
 
     @property
     def is_of_what_is_seen(self) -> bool:
-        """Return whether new objects are made of what is seen, with the modifiers."""
+        """Return whether new objects are made with the modifiers applied."""
         values = self.values
         return values.get("result") == "NEW_OBJECT" and bool(values.get("with_modifiers"))
 
     def start_of(self, obj: bpy.types.Object) -> Start:
-        """Return what an object starts from where it was edited by hand since its last result."""
+        """Return what an object starts from if it was edited by hand since its last result."""
         return self.values.get("start", object_properties(obj).start)
 
     def remember_on(self, target: bpy.types.Object, settings: Settings) -> None:
-        """Keep what was used on the object that was made, so that its panel shows how."""
+        """Store the settings used on the new object, so that its panel shows them."""
         properties = object_properties(target)
         values = {name: value for name, value in self.values.items() if name != "start"}
         if settings.space == "FRAME":
             values["frame"] = settings.frame
         if settings.result == "NEW_OBJECT":
-            # A click on the new object is to change it, not to copy it again.
+            # A click on the new object should change it, not copy it again.
             values["result"] = "MESH"
             values["with_modifiers"] = False
         for name, value in values.items():
@@ -106,7 +106,7 @@ def find_frame(name: str, active: bpy.types.Object) -> bpy.types.Object | None:
         return None
     own = object_properties(active).frame
     if own is not None and own.name == name:
-        return own  # not by its name, which an object of a library may have as well
+        return own  # not by its name, which an object of a library may also have
     frame = bpy.data.objects.get(name)
     if frame is None:
         raise CubicCraftError(f'there is no object "{name}"; pick another frame')

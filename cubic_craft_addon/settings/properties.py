@@ -31,75 +31,75 @@ _SPACES = (
     (
         "OBJECT",
         "Object",
-        "The angles are relative to the object's own axes; it takes the cube along",
+        "The angles are relative to the object's own axes, so the cube rotates with the object",
     ),
     (
         "WORLD",
         "World",
-        "The angles are relative to the axes of the world, however the object turns",
+        "The angles are relative to the world axes, however the object is rotated",
     ),
     ("FRAME", "Frame", "The angles are relative to the axes of another object"),
 )
 _RESULTS = (
-    ("MESH", "Mesh", "Move the vertices of the mesh; Restore brings the original back"),
-    ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be dialled and keyed'),
-    ("NEW_OBJECT", "New Object", "Leave the object as it is and make a cubic copy of it"),
+    ("MESH", "Mesh", "Move the vertices of the mesh; Restore brings back the original"),
+    ("SHAPE_KEY", "Shape Key", 'Write a shape key "Cubic" that can be adjusted and animated'),
+    ("NEW_OBJECT", "New Object", "Make a cubic copy and leave the object unchanged"),
 )
 _TOGETHER = (
-    ("OFF", "Off", "Every part becomes cubic for itself, whatever it touches"),
-    ("PARTS", "Parts", "The parts of a mesh stay on each other, such as eyes in their sockets"),
+    ("OFF", "Off", "Each part becomes cubic on its own, whatever it touches"),
+    ("PARTS", "Parts", "The parts of a mesh stay together, such as eyes in their sockets"),
     (
         "SELECTION",
         "Selection",
-        "Also meshes that are selected together stay on each other, such as clothes on a body",
+        "Meshes that are selected together also stay together, such as clothes on a body",
     ),
 )
 _REFINEMENTS = (
     (
         "AUTO",
         "Auto",
-        "A coarse mesh is worked on as if it were finer, so that few vertices get as cubic as many;"
-        " it keeps its own vertices",
+        "Solve a coarse mesh as if it were finer, so that it becomes as cubic as a dense one; it"
+        " keeps its own vertices",
     ),
-    ("OFF", "Off", "The mesh is taken as it is"),
+    ("OFF", "Off", "Solve the mesh as it is"),
 )
 # The numbers are in files. 0 was Auto, which Blender reads as the default.
 _ROTATIONS = (
-    ("KEEP", "No", "No part turns or leans over as a whole: what stands upright stays upright", 1),
-    ("FREE", "Yes", "A part may turn by some degrees, and fits the cube a little better", 2),
+    ("KEEP", "No", "No part turns or leans as a whole: upright parts stay upright", 1),
+    ("FREE", "Yes", "A part may turn by some degrees, to fit the cube a little better", 2),
 )
 _DEVICES = (
-    ("AUTO", "Auto", "Taichi on the processor where it is installed, else NumPy"),
+    ("AUTO", "Auto", "Taichi on the processor if it is installed, otherwise NumPy"),
     ("CPU", "CPU", "Taichi on the processor"),
     ("GPU", "GPU", "Taichi on the graphics card"),
-    ("NUMPY", "NumPy", "Without Taichi: slower, runs everywhere"),
+    ("NUMPY", "NumPy", "Without Taichi: slower, but works everywhere"),
 )
 
 
 def _status(properties):
-    """Say it of the mesh, which other objects may show, too."""
+    """Return the status of the mesh, which several objects may share."""
     run = last_run(properties.id_data)
     return run.status if run else ""
 
 
 _STARTS = (
-    ("HERE", "From Here", "Start from the mesh as it is now; the former original is then lost"),
-    ("ORIGINAL", "From the Original", "Start from the original; what was edited since is lost"),
+    ("HERE", "From Here", "Start from the mesh as it is now; the previous original is lost"),
+    ("ORIGINAL", "From the Original", "Start from the original; edits made since are lost"),
 )
 _OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
 
 
 class StartProperty:
-    """Mixin of what the operator and the object share, but Live and presets have not.
+    """Mixin of the property that the operator and the object share, but not Live and presets.
 
-    Each object keeps its own, for one run: on a mesh that is edited once more, a click is to lose
-    nothing that was not asked for.
+    Each object keeps its own for one run: on a mesh that is edited again, a click must not discard
+    anything without being asked to.
     """
 
     start: EnumProperty(
         name="Start",
-        description="What Cubify and Live start from: the mesh was edited by hand since it was"
-        " cubified",
+        description="What Cubify and Live start from if the mesh was edited by hand since it"
+        " was cubified",
         items=_STARTS,
         default=Settings.start,
         options={"SKIP_SAVE"},
@@ -114,9 +114,9 @@ class RunProperties:
 
     cubeness: FloatProperty(
         name="Cubeness",
-        description="How strongly the surface turns toward the sides of the cube: 0 keeps it, 0.1"
-        " goes a third of the way, 0.4 most of it. More than the slider has, up to 10, can be"
-        " typed",
+        description="How strongly the surface turns toward the sides of the cube. 0 keeps the"
+        " shape, 0.1 moves it a third of the way, 0.4 most of it. You can type values beyond"
+        " the slider, up to 10",
         default=Settings.cubeness,
         min=0.0,
         max=10.0,
@@ -137,7 +137,7 @@ class RunProperties:
     )
     space: EnumProperty(
         name="Relative To",
-        description="What the rotation of the cube is relative to",
+        description="Axes that the rotation of the cube is relative to",
         items=_SPACES,
         default=Settings.space,
         options=_OPTIONS,
@@ -156,29 +156,29 @@ class RunProperties:
     )
     map_invert: BoolProperty(
         name="Invert",
-        description="Cubic where the vertex group is not",
+        description="Invert the influence of the vertex group",
         default=Settings.map_invert,
         options=_OPTIONS,
     )
     result: EnumProperty(
         name="Write To",
-        description="Where the cubic shape goes",
+        description="Where to write the cubic shape",
         items=_RESULTS,
         default=Settings.result,
         options=_OPTIONS,
     )
     with_modifiers: BoolProperty(
         name="With Modifiers",
-        description="Make the new object of what is seen: the modifiers are in its mesh, as if"
-        " they had been applied, also an Armature's pose. Without it, and in Live, the mesh below"
-        " the modifiers becomes cubic",
+        description="Apply the modifiers to the new object, including the pose of an Armature."
+        " When off, and in Live, the mesh without its modifiers becomes cubic",
         default=Settings.with_modifiers,
         options=_OPTIONS,
     )
     solidity: FloatProperty(
         name="Solidity",
         description="How firmly limbs, necks and walls keep their thickness, and bodies their"
-        " volume. 0 is a hollow skin, which may fold flat; more is less cubic",
+        " volume. At 0 the mesh is a hollow surface that may fold flat; higher values are"
+        " less cubic",
         default=Settings.solidity,
         min=0.0,
         max=10.0,
@@ -189,59 +189,59 @@ class RunProperties:
     )
     together: EnumProperty(
         name="Keep Together",
-        description="What moves along with what it touches: eyes with the head, buttons with the"
-        " coat",
+        description="What moves along with the parts it touches: eyes with the head, buttons with"
+        " the coat",
         items=_TOGETHER,
         default=Settings.together,
         options=_OPTIONS,
     )
     refine: EnumProperty(
         name="Refine",
-        description="How meshes of few vertices are treated",
+        description="How to solve meshes with few vertices",
         items=_REFINEMENTS,
         default=Settings.refine,
         options=_OPTIONS,
     )
     rotation: EnumProperty(
         name="Parts May Turn",
-        description="Whether parts stand as they do, or may turn as a whole to fit the cube."
-        " Parts with handles stand as their handles say",
+        description="Whether parts may turn as a whole to fit the cube. Parts with handles are not"
+        " affected",
         items=_ROTATIONS,
         default=Settings.rotation,
         options=_OPTIONS,
     )
     symmetry: BoolVectorProperty(
         name="Symmetry",
-        description="Halves that are mirror images about the object's origin stay so, exactly. A"
-        " Mirror modifier is followed without it",
+        description="Keep halves that mirror each other about the object's origin exactly"
+        " symmetric. A Mirror modifier does not need this",
         subtype="XYZ",
         default=Settings.symmetry,
         options=_OPTIONS,
     )
     hold_rest: BoolProperty(
         name="Hold the Rest",
-        description="Where no handle is pinned, what is far from handles that are moved stays where"
-        " it is, as a whole, and still becomes cubic. Off: it goes along",
+        description="Where no handle is pinned, keep regions far from the moved handles in place"
+        " as a whole; they still become cubic. When off, they move along",
         default=Settings.hold_rest,
         options=_OPTIONS,
     )
     floor: BoolProperty(
         name="Keep on Floor",
-        description="The lowest point keeps its height in the world; not of parts that handles or"
-        " the cubeness map hold",
+        description="Keep the lowest point at its height in the world, except for parts held by"
+        " handles or the cubeness map",
         default=Settings.floor,
         options=_OPTIONS,
     )
     device: EnumProperty(
         name="Device",
-        description="What computes",
+        description="Library and hardware to compute with",
         items=_DEVICES,
         default=Settings.device,
         options=_OPTIONS,
     )
     max_iterations: IntProperty(
         name="Max Iterations",
-        description="Stop after this many iterations, converged or not",
+        description="Stop after this many iterations, even if not converged",
         default=Settings.max_iterations,
         min=1,
         soft_max=5000,
@@ -249,8 +249,8 @@ class RunProperties:
     )
     tolerance: FloatProperty(
         name="Tolerance",
-        description="Stop when an iteration moves no vertex by more than this part of the largest"
-        " distance from the original, and the energy no longer falls",
+        description="Stop when an iteration moves no vertex by more than this fraction of the"
+        " largest distance from the original, and the energy no longer falls",
         default=Settings.tolerance,
         min=1e-9,
         max=1.0,
@@ -265,27 +265,27 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
     preset: preset_property()
     frame: PointerProperty(
         name="Frame",
-        description="Object whose axes are those of the cube",
+        description="Object whose axes the cube uses",
         type=bpy.types.Object,
     )
     handles: CollectionProperty(type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",
-        description="Number of the handle that the buttons are about",
+        description="Index of the handle that the buttons act on",
         min=0,
         options=set(),
     )
     is_target: BoolProperty(
         name="Target",
-        description="A handle follows this object, or once did",
+        description="A handle follows this object, or did so before",
     )
     is_made_target: BoolProperty(
         name="Made as Target",
-        description="This object was made to be followed by a handle, and goes with it",
+        description="This object was made for a handle and is removed with it",
     )
     status: StringProperty(
         name="Last Run",
-        description="What the run did that the mesh has its shape from",
+        description="Summary of the run that made the shape of the mesh",
         get=_status,
     )
 
@@ -293,7 +293,7 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
 def value_of(properties: Any, name: str) -> Any:
     """Return a property of a property group, or of an operator, as a plain value.
 
-    An enum that holds a number which has no item any more, from an older file, is at its default.
+    An enum with a number that no longer has an item, from an older file, has its default.
     """
     value = getattr(properties, name)
     if value == "" and isinstance(getattr(Settings, name, None), str):
@@ -308,7 +308,7 @@ def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None
     ----------
     obj
     handles : tuple of Handle, optional
-        In place of the object's own.
+        Instead of the object's own.
 
     Raises
     ------

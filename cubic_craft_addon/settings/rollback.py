@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Put the settings of objects back when the work that they belong to fails."""
+"""Restore the settings of objects if the work that they belong to fails."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -9,12 +9,12 @@ import bpy
 
 from ..object_properties import PROPERTY, has_properties, object_properties
 
-_DERIVED = ("preset",)  # what follows from the others: setting it would set them
+_DERIVED = ("preset",)  # derived from the others: setting it would set them
 
 
 @contextmanager
 def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
-    """Undo what the block did to the settings of all objects that show the meshes if it raises.
+    """Restore the settings of all objects that use the meshes if the block raises.
 
     Handles may change in it, but none may be added or removed.
     """
@@ -28,7 +28,7 @@ def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
 
 @contextmanager
 def settings_untouched(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
-    """Undo it in any case, as `settings_kept` does."""
+    """Restore them in any case, as `settings_kept` does."""
     before = _read_all(meshes)
     try:
         yield
@@ -61,7 +61,7 @@ def _groups(obj: bpy.types.Object) -> list[Any]:
 
 
 def _read(group: Any) -> dict[str, Any]:
-    """Return the properties of a group, save collections, as what can be assigned again."""
+    """Return the properties of a group, except collections, as values to assign again."""
     taken = {}
     for prop in group.bl_rna.properties:
         if prop.type != "COLLECTION" and not prop.is_readonly and prop.identifier not in _DERIVED:
@@ -80,7 +80,7 @@ def _put_back(group: Any, taken: dict[str, Any]) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """Copy what would change under our hands: vectors and matrices are views of the property."""
+    """Copy vectors and matrices, which are views of the property and would change."""
     if isinstance(value, str | int | float | bpy.types.ID | None):
         return value
     return value.copy() if hasattr(value, "copy") else tuple(value)

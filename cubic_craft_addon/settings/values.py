@@ -14,7 +14,7 @@ from ..mesh_bridge import Start
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """What the artist has chosen for one object. The defaults are those of the panel."""
+    """The settings of one object. The defaults are those of the panel."""
 
     cubeness: float = 0.4
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -24,18 +24,18 @@ class Settings:
     frame: bpy.types.Object | None = None
     """the object that is the FRAME"""
     handles: tuple[Handle, ...] = ()
-    """where they overlap, the first counts"""
+    """where they overlap, the first takes precedence"""
     map_group: str = ""
     """name of the vertex group that scales the cubeness, or empty"""
     map_invert: bool = False
     start: Start = "HERE"
-    """where to start a mesh that was edited by hand since its last result: HERE or ORIGINAL"""
+    """what a mesh starts from if it was edited by hand since its last result: HERE or ORIGINAL"""
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
     with_modifiers: bool = False
-    """the NEW_OBJECT is made of what is seen, in place of the bare mesh"""
+    """whether the NEW_OBJECT is made with the modifiers applied"""
     solidity: float = 0.1
-    """how far limbs, walls and the volume keep their thickness; 0 is a hollow skin"""
+    """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
     together: str = "SELECTION"
     """what follows its neighbours: OFF nothing, PARTS those of a mesh, SELECTION those of all"""
     refine: str = "AUTO"
@@ -43,11 +43,11 @@ class Settings:
     rotation: str = "KEEP"
     """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
     symmetry: tuple[bool, bool, bool] = (False, False, False)
-    """about which axes of the object halves stay mirror images"""
+    """axes of the object about which halves stay mirror images"""
     hold_rest: bool = True
-    """whether what is far from handles that are moved stays where it is"""
+    """whether regions far from moved handles stay in place"""
     floor: bool = False
-    """whether what stands on the ground keeps its height"""
+    """whether parts that stand on the ground keep their height"""
     device: str = "AUTO"
     """AUTO, CPU, GPU or NUMPY"""
     max_iterations: int = 1000
@@ -55,7 +55,7 @@ class Settings:
 
     @property
     def proxy(self) -> solver.ProxyOptions:
-        """What is asked of the mesh that is solved in place of the bare one."""
+        """The options of the proxy that is solved instead of the mesh."""
         return solver.ProxyOptions(
             solidity=self.solidity,
             together=self.together != "OFF",

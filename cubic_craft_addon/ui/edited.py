@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel says of a mesh that was edited by hand since it was cubified.
+"""The panel's message about a mesh that was edited by hand since it was cubified.
 
-To find that out takes too long for each redraw. So it is remembered until Blender says that some
-mesh has changed, or may have.
+The check takes too long for each redraw, so its result is kept until Blender reports that a
+mesh has changed, or may have changed.
 """
 
 import bpy
@@ -17,7 +17,7 @@ _known: dict[int, bool] = {}
 
 
 def draw(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """Offer what to start from, where the mesh of the object is edited; nothing while Live runs."""
+    """Offer what to start from if the mesh of the object was edited; nothing while Live runs."""
     if live.current() is not None or obj.mode not in ("OBJECT", "WEIGHT_PAINT"):
         return
     if not is_edited(mesh_bridge.mesh_of(obj)):
@@ -45,7 +45,7 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
 def _on_update(_scene, depsgraph):
     for update in depsgraph.updates:
         if update.is_updated_geometry:
-            # Also where the mesh itself is not named: our operator has changed the note.
+            # Also if the mesh itself is not named: our operator has changed the note.
             data = update.id.original
             mesh = data.data if isinstance(data, bpy.types.Object) else data
             if isinstance(mesh, bpy.types.Mesh):

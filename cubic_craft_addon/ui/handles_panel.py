@@ -43,7 +43,7 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
 
 def draw_switch(layout, obj):
-    """Draw the switch of all handles, which stands in the header of the section."""
+    """Draw the switch for all handles in the header of the section."""
     layout.use_property_split = False
     layout.prop(live.own_properties(obj), "use_handles", text="")
 
@@ -76,7 +76,7 @@ def draw(layout, obj):
     if properties.active_handle < len(handles):
         _draw_active(layout, obj, handles[properties.active_handle])
     if len(handles) > 1:
-        layout.label(text="Where they overlap, the first counts", icon="INFO")
+        layout.label(text="Where they overlap, the first wins", icon="INFO")
     layout.prop(live.shared_properties(obj), "hold_rest")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An overlay in the viewport: the cube that the active mesh is turned toward.
 
-The switch lies on the window manager, so that turning it leaves no undo step. The draw handler
+The switch is stored on the window manager, so that using it leaves no undo step. The draw handler
 exists only while the extension is registered.
 """
 
@@ -41,7 +41,7 @@ def lines_of(obj: bpy.types.Object):
     Raises
     ------
     CubicCraftError
-        The object's orientation is not defined, for want of a frame object.
+        The object's orientation is not defined, because it has no frame object.
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
@@ -70,7 +70,7 @@ def _draw():
     try:
         points, colors = lines_of(obj)
     except CubicCraftError:
-        return  # the panel says what is wrong
+        return  # the panel shows the problem
     shader = gpu.shader.from_builtin("POLYLINE_SMOOTH_COLOR")
     batch = batch_for_shader(shader, "LINES", {"pos": points.tolist(), "color": colors})
     gpu.state.blend_set("ALPHA")
@@ -89,8 +89,8 @@ def register():
     global _handle
     switch = BoolProperty(
         name="Show Cube",
-        description="Draw the cube that the active mesh is turned toward in the viewport, also"
-        " while it is not being turned",
+        description="Draw the cube of the active mesh in the viewport, even while it is not being"
+        " rotated",
         update=_redraw,
     )
     setattr(bpy.types.WindowManager, PROPERTY, switch)

@@ -19,7 +19,7 @@ from . import presets_panel as presets_panel
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
-_BOX = 2.0  # widths of an icon that a box and the icon in it take from a line
+_BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
 class CUBIC_PT_main(bpy.types.Panel):
@@ -155,17 +155,16 @@ _SECTIONS = (
 def _problem(context, obj):
     """Return what would make Cubify refuse the object, or an empty text."""
     if not is_mode_usable(context):
-        return ""  # the way out is offered in place of a message
+        return ""  # the panel offers the way out instead of a message
     try:
         check_requirements()
         mesh_bridge.check_usable(obj)
         object_handles(obj)
+        properties = object_properties(obj)
+        if properties.map_group:
+            mesh_bridge.vertex_group(obj, properties.map_group)
     except CubicCraftError as error:
         return str(error)
-    properties = object_properties(obj)
-    group = properties.map_group
-    if group and group not in obj.vertex_groups:
-        return f'"{obj.name}" has no vertex group "{group}"; pick another one'
     if properties.space == "FRAME" and properties.frame is None:
         return "No frame object is set; pick one or choose another space"
     return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of the preset that the settings are, to choose another one, and its buttons."""
+"""The picture of the current preset, to choose another one, and its buttons."""
 
 from typing import Any
 

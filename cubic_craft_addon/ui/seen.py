@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is seen and what becomes cubic: where they differ, the panel says so and offers both."""
+"""The visible mesh and the one that becomes cubic: if they differ, the panel offers both."""
 
 from typing import Any
 
@@ -9,12 +9,12 @@ from .. import job, live, mesh_bridge
 from ..object_properties import object_properties
 from . import job_progress as job_panel
 
-# Modifiers of which the mesh below says little, and those of which it does where it is fine.
+# Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
 _MAKING = {"ARRAY", "BOOLEAN", "MULTIRES", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY"}
 _MAKING |= {"WIREFRAME"}
 _ROUNDING = {"SUBSURF", "BEVEL"}
 _COARSE = 2000  # vertices
-_ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # groups of nodes that Blender itself brings
+_ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
 def can_be_seen(obj: bpy.types.Object) -> bool:
@@ -25,18 +25,18 @@ def can_be_seen(obj: bpy.types.Object) -> bool:
 
 
 def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """Say that what is seen is not what becomes cubic, and offer it; nothing where it is."""
+    """Show that the visible mesh is not the one that becomes cubic, and offer it."""
     properties = object_properties(obj)
     is_asked_for = properties.result == "NEW_OBJECT" and properties.with_modifiers
     if is_asked_for or live.current() or job.current() or not _that_matter(obj):
         return
     box = layout.box()
-    box.label(text="Modifiers are not seen", icon="INFO")
+    box.label(text="Modifiers are ignored", icon="INFO")
     _draw_button(box, "Cubify What You See")
 
 
 def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
-    """Draw the panel of an object that is no mesh: what can be seen becomes a new one."""
+    """Draw the panel of an object that is not a mesh: its visible mesh becomes a new object."""
     if obj is None or obj.type not in mesh_bridge.KINDS:
         layout.label(text="Select a mesh to make cubic", icon="INFO")
         return
@@ -55,7 +55,7 @@ def _draw_button(layout, text):
 
 
 def _that_matter(obj):
-    """Return the modifiers that show something else than the mesh, in the viewport."""
+    """Return the modifiers that make the visible mesh differ, in the viewport."""
     is_coarse = len(obj.data.vertices) < _COARSE
     return [
         modifier

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The line below the buttons, which says how things stand, and what unfolds under it.
+"""The status line below the buttons, and the details under it.
 
-It is the header of a section, so that it is there whatever there is to say, and nothing moves when
-that changes: how the last run went, what has changed since, how far Live has come, or how to get
-out of a mode in which nothing can be done.
+It is the header of a section, so that it is always present and nothing moves when it changes. It
+shows the outcome of the last run, what has changed since, the progress of Live, or how to leave a
+mode in which nothing can be done.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from . import job_progress as job_panel
 
 _SECTION = "CUBIC_PT_last_run"
 _ARROW, _ICON = 1.0, 1.0  # widths in units of an icon
-_COLUMN = 0.42  # of the width, for what is told
+_COLUMN = 0.42  # of the width, for the labels
 
 
 def draw(
@@ -29,7 +29,7 @@ def draw(
     run: LastRun | None,
     changes: list[str],
 ) -> None:
-    """Draw the line and, where it is unfolded, the last run in numbers.
+    """Draw the line and, if it is expanded, the details of the last run.
 
     Parameters
     ----------
@@ -37,9 +37,9 @@ def draw(
     layout : bpy.types.UILayout
         Of the whole panel.
     obj : bpy.types.Object
-        Whose mesh it is about.
+        The object with the mesh.
     run : LastRun or None
-        That the mesh has its shape from.
+        The run that made the shape of the mesh.
     changes : list of str
         Labels of the settings that have changed since.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Symmetry in the panel: the axes, and how much of the mesh is symmetric at all."""
+"""Symmetry in the panel: the axes, and how much of the mesh is symmetric."""
 
 from functools import lru_cache
 
@@ -10,7 +10,7 @@ from .. import mesh_bridge
 from ..run.whole import Whole, modifier_reflections
 
 _MOST_VERTICES = 200_000
-"""of larger meshes only the line of the last run tells, as counting would hold up the panel"""
+"""larger meshes are not counted, because that would slow down the panel"""
 _AXES = "XYZ"
 
 
@@ -25,7 +25,7 @@ def draw_symmetry(layout, obj, properties):
 
 
 def _says(obj, symmetry):
-    """Return what there is to say about the halves of an object, or an empty text."""
+    """Return the message about the halves of an object, or an empty text."""
     is_mirrored = bool(modifier_reflections(obj))
     if not any(symmetry):
         return "Follows the Mirror modifier" if is_mirrored else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operators on handles share: the mesh and the handle that they are about."""
+"""Shared by the operators on handles: the mesh and the active handle."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from .selection import poll_idle
 
 
 def poll_mesh(operator_class, context, modes=("OBJECT",)):
-    """Return whether there is a mesh whose handles can be changed, and say what is missing."""
+    """Return whether there is a mesh whose handles can be changed, and set the message if not."""
     if not poll_idle(operator_class):
         return False
     if context.mode not in modes:
@@ -29,7 +29,7 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
 
 
 def poll_handle(operator_class, context):
-    """Return whether there is an active handle, and say what is missing."""
+    """Return whether there is an active handle, and set the message if not."""
     if not poll_mesh(operator_class, context):
         return False
     if active_handle(panel_object(context)) is None:
@@ -50,7 +50,7 @@ def add_handle(obj, group):
     properties = object_properties(obj)
     handle = properties.handles.add()
     handle.group = group
-    identify(handle)  # now, so that no undo step from while Live runs is without it
+    identify(handle)  # now, so that all undo steps made while Live runs include it
     properties.active_handle = len(properties.handles) - 1
     return handle
 
@@ -61,7 +61,7 @@ def members(obj, handle):
     Raises
     ------
     CubicCraftError
-        There is no such vertex group, or none of its vertices weighs enough.
+        There is no such vertex group, or no vertex has enough weight.
     """
     found = mesh_bridge.group_weights(obj, handle.group) >= handle.threshold
     if not found.any():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Restore and Apply share: both work on meshes that hold something of ours."""
+"""Shared by Restore and Apply, which work on meshes with data of ours."""
 
 import logging
 
@@ -13,22 +13,22 @@ _log = logging.getLogger(__name__)
 
 
 def poll_originals(operator_class, context):
-    """Return whether a selected mesh holds something of ours that can be changed.
+    """Return whether a selected mesh has data of ours and can be changed.
 
-    Cheap, as it runs at every redraw.
+    It is cheap because it runs at every redraw.
     """
     objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_traces(obj.data)]
     if not objects:
-        operator_class.poll_message_set("The mesh has its original shape; Cubify it first")
+        operator_class.poll_message_set("The mesh has its original shape; cubify it first")
         return False
     return poll_any_usable(operator_class, objects)
 
 
 def for_each_original(operator, context, action, done):
-    """Call ``action(obj)`` once per selected mesh that holds something of ours, and report.
+    """Call ``action(obj)`` once per selected mesh with data of ours, and report.
 
-    The action changes the mesh as its last step, or not at all. It returns what else there is to
-    say, or an empty text.
+    The action changes the mesh as its last step, or not at all. It returns a remark,
+    or an empty text.
     """
     problems, names, remarks = [], [], []
     meshes = set()
@@ -43,7 +43,7 @@ def for_each_original(operator, context, action, done):
         except CubicCraftError as error:
             problems.append(str(error))
         except UNEXPECTED as error:
-            # This one has been put back; the others need their undo step.
+            # This one has been restored; the others need their undo step.
             _log.exception("%s failed", operator.bl_label)
             problems.append(f'"{obj.name}" is unchanged: {in_words(error)}')
         else:

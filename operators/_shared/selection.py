@@ -28,10 +28,10 @@ def selected_meshes(context):
 
 
 def poll_idle(operator_class):
-    """Return whether no Cubify runs, which what is done to its meshes would make worthless."""
+    """Return whether no Cubify runs, whose meshes must not be changed."""
     if job.current() is None:
         return True
-    operator_class.poll_message_set("Cubify is running; cancel it by Esc")
+    operator_class.poll_message_set("Cubify is running; press Esc to cancel it")
     return False
 
 
@@ -42,7 +42,7 @@ def panel_mesh(context) -> Any:
 
 
 def poll_panel_mesh(operator_class, context):
-    """Return whether the panel shows a mesh, and say what is missing."""
+    """Return whether the panel shows a mesh, and set the message if not."""
     if not poll_idle(operator_class):
         return False
     if panel_mesh(context) is None:
@@ -52,7 +52,7 @@ def poll_panel_mesh(operator_class, context):
 
 
 def selected_sources(context):
-    """Return the selected objects that are seen as meshes, the active one first.
+    """Return the selected objects with visible meshes, the active one first.
 
     If none is selected, those of `selected_meshes`, or the active one.
     """
@@ -65,7 +65,7 @@ def selected_sources(context):
 
 
 def poll_sources(operator_class, context):
-    """Return whether there is something that can be cubified, with or without its modifiers."""
+    """Return whether an object can be cubified, with or without its modifiers."""
     if not poll_work(operator_class, context):
         return False
     if any(seen.can_be_seen(obj) for obj in selected_sources(context)):
@@ -74,7 +74,7 @@ def poll_sources(operator_class, context):
 
 
 def poll_meshes(operator_class, context):
-    """Return whether there is a mesh to work on, and say what is missing."""
+    """Return whether there is a mesh to work on, and set the message if not."""
     if not poll_work(operator_class, context):
         return False
     if not selected_meshes(context):
@@ -84,7 +84,7 @@ def poll_meshes(operator_class, context):
 
 
 def poll_work(operator_class, context):
-    """Return whether meshes can be worked on now, whichever they are."""
+    """Return whether meshes can be changed now."""
     if not poll_idle(operator_class):
         return False
     if live.current() is not None:
@@ -97,14 +97,14 @@ def poll_work(operator_class, context):
 
 
 def poll_usable(operator_class, context):
-    """Return whether there is a mesh that can be cubified, and say what is wrong with the first."""
+    """Return whether a mesh can be cubified, and set the message of the first one if not."""
     return poll_meshes(operator_class, context) and poll_any_usable(
         operator_class, selected_meshes(context)
     )
 
 
 def poll_any_usable(operator_class, objects):
-    """Return whether one of the objects can be used, and say what is wrong with the first."""
+    """Return whether one of the objects can be used, and set the message of the first if not."""
     problems = []
     for obj in objects:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors that nobody has foreseen: one line for the artist, the traceback for the console."""
+"""Unexpected errors: one line for the artist, the traceback for the console."""
 
 import functools
 import logging
@@ -11,9 +11,9 @@ _log = logging.getLogger(__name__)
 
 
 def reporting(execute):
-    """Wrap `execute` of an operator, which changes nothing where it raises, to report what it does.
+    """Wrap `execute` of an operator, which changes nothing if it raises, to report the exception.
 
-    Without it Blender would show the artist a traceback.
+    Otherwise Blender would show the artist a traceback.
     """
 
     @functools.wraps(execute)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts that are boxes already, however they stand.
+"""Parts that are already boxes, in any orientation.
 
-A box that stands askew is as cubic as a shape can be: only turned. Where parts keep their rotation
-it cannot turn to the cube, and the cubic term would skew it. So each such part, also an L or a
-stair, is given a cube of its own, along its own sides.
+A rotated box is as cubic as a shape can be; it is just not aligned. If parts keep their rotation,
+it cannot turn to the cube, and the cubic term would skew it. So each such part, including an L
+shape or a staircase, gets its own cube, along its own sides.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ SHARE = 0.999
 
 
 def box_frames(V, F, part):
-    """Return the frame (n,3,3) along the sides of each part, zero where it is no box.
+    """Return the frame (n,3,3) along the sides of each part, zero if it is not a box.
 
     None if there is no such part. The rows of a frame are its axes.
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a surface has no normal: in sharp creases and corners.
+"""Sharp creases and corners, where a surface has no normal.
 
 The normal of a vertex in the edge of a box lies between its two sides, and the cubic term would
 turn it toward one of them: a box, which is cubic already, would lose its edges. So the crease is
-silent, and its area is given to the vertices beside it, which know the normal of one side each.
+ignored, and its area is given to the vertices beside it, which each have the normal of one side.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ _LEAST = 0.5  # smoothness of the corners of a triangle, together, that can spea
 
 
 def cubic_shares(V, F, C, areas):
-    """Return the area (n,) for which the normal of each vertex speaks, in parts of its own.
+    """Return the area (n,) represented by the normal of each vertex, relative to its own area.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def cubic_shares(V, F, C, areas):
 
 
 def smoothness(V, F, C):
-    """Return how much the normal of each vertex means, (n,), from 0 in a crease to 1.
+    """Return how meaningful the normal of each vertex is, (n,), from 0 in a crease to 1.
 
     The normals of the triangles are weighted by their angles at the vertex, so that the result does
     not depend on how the sides of a box are triangulated.
@@ -63,9 +63,9 @@ def smoothness(V, F, C):
 
 
 def mute_edges(V, F, C, edge_of, count):
-    """Return which of `count` edges lie in one side, but between two vertices of its creases.
+    """Return which of `count` edges lie within a side but join two vertices of its creases.
 
-    A narrow side whose vertices are all in its creases has nobody who knows its normal.
+    A narrow side whose vertices are all in its creases has no vertex with its normal.
 
     Parameters
     ----------
@@ -88,9 +88,9 @@ def mute_edges(V, F, C, edge_of, count):
 def _angles(cotangents):
     """Return angles in radians, to a hundred-thousandth.
 
-    By arithmetic alone: how NumPy rounds an arctangent depends on where its arrays lie in memory,
-    and a second run is to have the same bits. Abramowitz and Stegun, "Handbook of Mathematical
-    Functions", 1964, 4.4.49.
+    By arithmetic alone: NumPy's rounding of an arctangent depends on the memory alignment of its
+    arrays, and a second run must have the same bits. Abramowitz and Stegun, "Handbook of
+    Mathematical Functions", 1964, 4.4.49.
     """
     size = np.abs(cotangents)
     x = np.minimum(size, 1.0) / np.maximum(size, 1.0)  # the tangent of what is left to 45 degrees

@@ -18,7 +18,7 @@ def edges_of(start, end, n):
     edges : (e,2) int array
         Each edge once, the lower end first, in ascending order.
     number : (h,) int array
-        Which of them each of those given is.
+        The index of each given edge among them.
     """
     lower, upper = np.minimum(start, end), np.maximum(start, end)
     order, is_new = ordered_pairs(lower, upper, n)
@@ -32,8 +32,8 @@ def faces_at_edges(F, n):
     """Return pairs (k,) and (k,) of triangles that have an edge in common.
 
     F : (m,3) int array
-        Triangles between n vertices. Edges from a vertex to itself are no edges; of more than two
-        triangles at one edge, each is paired with the next.
+        Triangles between n vertices. Edges from a vertex to itself are ignored; if an edge has more
+        than two triangles, each is paired with the next.
     """
     start, end = F.ravel(), F[:, [1, 2, 0]].ravel()
     order, is_new = ordered_pairs(np.minimum(start, end), np.maximum(start, end), n)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The way from the vertices of the input to those that are solved, and back."""
+"""The map from the vertices of the input to those that are solved, and back."""
 
 from dataclasses import dataclass
 
@@ -10,23 +10,23 @@ import numpy as np
 class InputMap:
     """How `n` solved vertices come from the `N` vertices of the input.
 
-    First some vertices of the input become one, then midpoints are added, then all are put in
-    another order.
+    First, some vertices of the input are merged, then midpoints are added, then all are
+    reordered.
     """
 
     group: np.ndarray
-    """(N,) int which welded vertex each vertex of the input has become; -1 for loose ones"""
+    """(N,) int welded vertex of each vertex of the input; -1 for loose ones"""
     first: np.ndarray
-    """(w,) int vertex of the input from which each welded vertex has its position"""
+    """(w,) int vertex of the input that gives each welded vertex its position"""
     parents: np.ndarray
-    """(n-w,2) int between which two of those before it each midpoint lies"""
+    """(n-w,2) int the two earlier vertices that each midpoint lies between"""
     rounds: np.ndarray
-    """(r+1,) int where in `parents` each round of midpoints begins, and the end"""
+    """(r+1,) int index in `parents` where each round of midpoints begins, and the end"""
     order: np.ndarray | None = None
-    """(n,) int which of them each solved vertex is; None for the same order"""
+    """(n,) int index of each solved vertex among them; None for the same order"""
 
     def ordered(self, order):
-        """Return the map to the same vertices in another order (n,)."""
+        """Return the map with its solved vertices in another order (n,)."""
         return InputMap(self.group, self.first, self.parents, self.rounds, order)
 
     @property
@@ -36,11 +36,11 @@ class InputMap:
 
     @property
     def source(self):
-        """(n,) int a vertex of the input that stands for each solved vertex."""
+        """(n,) int a vertex of the input that represents each solved vertex."""
         return self._with_midpoints(self.first, lambda one, other: one)
 
     def place(self):
-        """Return the vertices of the input that are solved, and which solved vertex each is."""
+        """Return the vertices of the input that are solved, and the solved vertex of each."""
         used = np.flatnonzero(self.group >= 0)
         welded = self.group[used]
         if self.order is None:
@@ -63,7 +63,7 @@ class InputMap:
     def spread_mask(self, mask):
         """Return where a mask (N,) holds at the solved vertices (n,).
 
-        At a welded vertex it does if it holds for any of those that it was made of, at a midpoint
+        At a welded vertex, it holds if it does for any merged vertex; at a midpoint,
         if it does at both ends.
         """
         welded = np.zeros(len(self.first), dtype=bool)

@@ -11,7 +11,7 @@ with the barycentric coordinates of the point. In the normalisation of `spokes_a
 
     L += W/3 c c',    H[k,l] += w_k d c_l,    W = sum_k w_k
 
-so that neither step, nor the proof that the energy falls, knows of links.
+so that links change neither the steps nor the proof that the energy falls.
 """
 
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Links:
-    """`k` links between up to four vertices each; what is not used has coefficient 0."""
+    """`k` links between up to four vertices each; unused ones have the coefficient 0."""
 
     vertices: np.ndarray
     """(k,4) int"""
@@ -34,11 +34,11 @@ class Links:
         return len(self.vertices)
 
     def scaled(self, factor):
-        """Return the same links with other weights; none for a factor of 0."""
+        """Return the links with scaled weights; none for a factor of 0."""
         return replace(self, weights=factor * self.weights) if factor > 0.0 else no_links()
 
     def mapped(self, number):
-        """Return the links between the vertices that number (n,) maps theirs to."""
+        """Return the links with their vertices mapped by number (n,)."""
         return replace(self, vertices=number[self.vertices])
 
     def joined(self, other):
@@ -50,7 +50,7 @@ class Links:
         )
 
     def pairs(self):
-        """Return pairs (p,2) of vertices that connect all that is linked."""
+        """Return pairs (p,2) of vertices that connect everything that is linked."""
         used = self.coefficients[:, 1:] != 0.0
         first = np.broadcast_to(self.vertices[:, :1], used.shape)
         return np.stack([first[used], self.vertices[:, 1:][used]], axis=1)
@@ -104,7 +104,7 @@ def links_between(i, j, weights):
 def links_to_triangles(i, corners, barycentric, weights):
     """Return links from vertices i (k,) to points of triangles with corners (k,3).
 
-    Half of the weight (k,) is that of the vertex, half is shared by the corners by their
+    Half of the weight (k,) belongs to the vertex, half to the corners, by their
     barycentric coordinates (k,3).
     """
     return Links(

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links between parts that lie near each other, so that they stay together.
+"""Links between parts that are close together, so that they stay so.
 
-From a vertex the nearest point on any other part is linked, by the triangle that it lies in. As it
+From a vertex, the nearest point on any other part is linked, through its triangle. As it
 is the nearest one, no third part lies between. A link is accepted
 
-- where parts touch, lie in each other or almost touch: within `CONTACT`;
+- where parts touch, intersect or almost touch: within `CONTACT`;
 - within `LAYER`, where one part lies over the other like a shirt on a body: both face the same way,
-  and the link is upright on them.
+  and the link is perpendicular to them.
 
-Both are measured by the parts, not by all that has been selected: two characters at opposite ends
-of a scene are as near to their clothes as one alone. What is further apart, or merely lies side by
-side at a distance, is not linked; and vertices of one part never are, however near its fingers lie.
+Both are measured by the parts, not by the selection: two characters at opposite ends
+of a scene are as close to their clothes as one alone. Parts that are farther apart, or side by
+side at a distance, are not linked; and vertices of one part never are, however close its fingers.
 """
 
 import numpy as np
@@ -24,13 +24,13 @@ CONTACT = 0.01
 LAYER = 0.03
 """of the largest extent of the larger part..."""
 OF_SMALLER = 20.0
-"""...or of this many times that of the smaller one, if that is less: a ground may be endless"""
+"""...or of this multiple of that of the smaller one, if that is less: a ground may be endless"""
 SAMPLES = 30_000
-"""about as many vertices are linked"""
+"""approximate number of linked vertices"""
 LEAST_WEIGHT = 1e-4
-"""Parts that hang together by less, as those without area do, are no single one."""
+"""Parts connected by less, such as those without area, do not count as a single part."""
 
-_CANDIDATES = 6  # triangles, by their middle, among which the nearest is looked for
+_CANDIDATES = 6  # triangles, by their centers, among which the nearest is searched
 _UPRIGHT = 0.7  # cosine between a link within LAYER and the normal of the triangle
 _PARALLEL = 0.5  # cosine between the normals of layers
 
@@ -87,8 +87,8 @@ def _near_others(points, label, count, reach):
 def _nearest_middles(V, chosen, part, middles, face, corners, reach):
     """Return pairs of a vertex and a triangle of another part that may be the nearest.
 
-    Two different numbers differ in at least one bit. So for each bit the vertices of parts that
-    have it are compared with the triangles of parts that do not, and the other way round.
+    Two different numbers differ in at least one bit, so for each bit, the vertices of parts that
+    have it are compared with the triangles of parts that do not, and vice versa.
     """
     of_vertex, of_face = part[chosen], part[corners[face, 0]]
     vertices, triangles = [], []
@@ -133,7 +133,7 @@ def _nearest_triangles(V, corners, i, triangle):
 
 
 def _is_accepted(V, corners, normals, part, i, triangle, d):
-    """Return which links there shall be; see the module."""
+    """Return which links to create; see the module."""
     both = extents(V, part)[np.stack([part[i], part[corners[triangle, 0]]])]
     smaller, larger = both.min(axis=0), both.max(axis=0)
     distance = np.linalg.norm(d, axis=1)

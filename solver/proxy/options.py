@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked of a proxy."""
+"""The options of a proxy."""
 
 from dataclasses import dataclass
 
@@ -10,20 +10,34 @@ from ..errors import CubicCraftError
 
 @dataclass(frozen=True, kw_only=True)
 class ProxyOptions:
-    """How a surface is prepared. `rest_mesh` without any of this is the energy of the paper.
+    """How to prepare a surface for the solver.
+
+    The defaults are those of the extension. `PAPER` turns everything off.
 
     Raises
     ------
     CubicCraftError
         The solidity is negative or not finite.
+
+    See Also
+    --------
+    rest_mesh : Builds the proxy with these options.
+
+    Examples
+    --------
+    >>> from solver import PAPER, ProxyOptions
+    >>> ProxyOptions()
+    ProxyOptions(solidity=0.1, together=True, refine=True)
+    >>> ProxyOptions(solidity=0.0, together=False, refine=False) == PAPER
+    True
     """
 
     solidity: float = 0.1
-    """how far limbs, walls and volume keep their thickness; 0 is a hollow skin"""
+    """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
     together: bool = True
-    """vertices at one place are one, and parts that lie near each other are linked"""
+    """whether to merge vertices at the same place and to link parts that are close together"""
     refine: bool = True
-    """coarse meshes are split, creases have no normal, and boxes stay boxes"""
+    """whether to split coarse meshes, ignore the normals of creases and preserve boxes"""
 
     def __post_init__(self):
         if not (np.isfinite(self.solidity) and self.solidity >= 0.0):
@@ -31,4 +45,4 @@ class ProxyOptions:
 
 
 PAPER = ProxyOptions(solidity=0.0, together=False, refine=False)
-"""the energy of the paper: nothing but the skin as it is given"""
+"""the energy of the paper, on the surface exactly as it is given"""

@@ -13,20 +13,20 @@ FINENESS = 40
 FINEST = 1000
 """edges along the largest extent of all; smaller parts are not split further"""
 BUDGET = 8000
-"""vertices that a mesh may be split to,..."""
+"""largest number of vertices after splitting,..."""
 FOR_EACH_PART = 200
-"""...and so many more for each of its parts,..."""
+"""...plus this number for each of its parts,..."""
 MOST = 16_000
-"""...but no more than this..."""
+"""...up to this number..."""
 GROWTH = 1.2
-"""...or this many times its own, if that is more"""
+"""...or this multiple of its own, if that is more"""
 OVERDRAFT = 1.5
-"""times the budget, at most, with the vertices of narrow sides"""
-_STEP = 0.6  # of the longest edge, relative to its bound: a round splits what is longer
+"""multiple of the budget, at most, with the vertices of narrow sides"""
+_STEP = 0.6  # of the longest edge, relative to its bound: a round splits longer edges
 
 
 def longest_edges(V, F, part):
-    """Return how long the edges of each part may be: (p,) lengths.
+    """Return the maximum edge length of each part, (p,).
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def _edges(V, F, bound):
 
 
 def _closed(is_split, ratio, edge_of):
-    """Let the longest edge of each triangle be split if any of its edges is."""
+    """Mark the longest edge of each triangle to be split if any of its edges is."""
     longest = edge_of[np.arange(len(edge_of)), ratio[edge_of].argmax(axis=1)]
     while True:
         wanted = longest[is_split[edge_of].any(axis=1)]

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Choose vertices evenly over a surface, each to stand for the area around it."""
+"""Choose vertices evenly over a surface, each to represent the area around it."""
 
 import numpy as np
 
 PER_PART = 12
-"""cells along the largest extent of a part, at least: what is small in its scene has links, too"""
+"""minimum cells along the largest extent of a part: small parts of a scene have links, too"""
 
 
 def surface_samples(V, normals, areas, part, is_candidate, count):
-    """Return about `count` vertices, or all of them where there are no more.
+    """Return about `count` vertices, or all of them if there are no more.
 
-    One of each cell of a grid is taken, and of each direction that the surface faces in it, so that
-    both sides of a thin wall have their own. Parts have samples of their own.
+    One is taken from each cell of a grid and each direction that the surface faces there, so that
+    both sides of a thin wall have their own. Parts have separate samples.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def surface_samples(V, normals, areas, part, is_candidate, count):
     chosen : (k,) int array
         Vertices.
     area : (k,) array
-        The area that each stands for.
+        The area that each represents.
     """
     rows = np.flatnonzero(is_candidate)
     spacing = np.sqrt(areas[rows].sum() / max(min(count, len(rows)), 1))

@@ -15,7 +15,7 @@ from .weld import weld
 
 @dataclass(frozen=True)
 class Surface:
-    """What is solved in place of the input, without its loose vertices."""
+    """The surface that is solved instead of the input, without its loose vertices."""
 
     input_map: InputMap
     box: UnitBox

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links to the other side of a part, so that limbs, walls and necks keep their thickness.
+"""Links to the opposite side of a part, so that limbs, walls and necks keep their thickness.
 
-From a vertex the largest ball inside the surface that touches it there also touches the other side.
+For a vertex, the largest ball inside the surface that touches it also touches the opposite side.
 It is found by shrinking (Ma, Bae and Choi, "3D medial axis point approximation using nearest
 neighbors and the normal field", 2012): the vertex nearest to the centre of a ball gives the radius
 of the next one.
@@ -30,22 +30,22 @@ LEAST_ANGLE = np.radians(90.0)
 STRENGTH = 1.8
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
-"""about as many vertices are linked; each stands for the area around it"""
+"""approximate number of linked vertices; each represents the area around it"""
 MOST_POINTS = 200_000
 """that the balls are measured against"""
 MOST_HOLES = 0.25
 """of the area of a part; more is an open sheet. A teapot without its lid is none, a bowl is"""
 MOST_FAULTS = 0.05
-"""share of edges at which triangles disagree, or are more than two"""
+"""share of edges with inconsistent triangles, or more than two"""
 
 _ROUNDS = 12
-_INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball all are, and none is found soon
+_INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball, all are equally near
 _FACING = 0.9  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
 def thickness_links(V, F, normals, areas, part):
-    """Return links of solidity 1 to the other side.
+    """Return links of solidity 1 to the opposite side.
 
     Parameters
     ----------
@@ -76,11 +76,11 @@ def thickness_links(V, F, normals, areas, part):
 
 
 def _opposite(V, normals, part, chosen, points):
-    """Return the vertices whose balls end at another side, and where they do."""
+    """Return the vertices whose balls end at an opposite side, and those at which they end."""
     # parts are kept apart by a coordinate of their own
     place = np.column_stack([V, 10.0 * part]) if part.any() else V
     end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
-    if len(points) > len(chosen):  # what comes near the end is found among a tenth of the points
+    if len(points) > len(chosen):  # a tenth of the points is enough to approach the end
         _shrink(place, normals, chosen, chosen, end, radius)
     _shrink(place, normals, chosen, points, end, radius)
     has_end = end >= 0
@@ -91,7 +91,7 @@ def _shrink(place, normals, chosen, points, end, radius):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
     end : (c,) int array
-        The vertex that each ball ends at, -1 while it is none of another side.
+        The vertex that each ball ends at, -1 while there is none on an opposite side.
     radius : (c,) array
     """
     tree = KDTree(place[points], balanced_tree=False, compact_nodes=False)
@@ -119,7 +119,7 @@ def _shrink(place, normals, chosen, points, end, radius):
 
 
 def _are_facing(V, normals, i, j):
-    """Return where the normals at both ends point away from the other end."""
+    """Return where the normals at both ends point away from each other."""
     d = V[j] - V[i]
     least = _FACING * np.linalg.norm(d, axis=1)
     return ((normals[j] * d).sum(axis=1) > least) & (-(normals[i] * d).sum(axis=1) > least)
@@ -128,8 +128,8 @@ def _are_facing(V, normals, i, j):
 def outward_sign(V, F, part):
     """Return for each part 1 if its normals point outward, -1 if inward, 0 if it has no inside.
 
-    Holes are closed by triangles to the middle of their borders, parts that are mostly hole, or
-    whose triangles do not agree, have no inside.
+    Holes are closed by triangles to the center of their borders. Parts that are mostly hole, or
+    whose triangles are inconsistent, have no inside.
     """
     count = int(part.max(initial=-1)) + 1
     corners = F.astype(np.int64)

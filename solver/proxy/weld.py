@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make vertices at one place one, so that seams of a file are no borders of the surface."""
+"""Merge vertices at the same place, so that seams of a file are no borders of the surface."""
 
 import numpy as np
 
@@ -7,14 +7,14 @@ from ..components import components
 from .edges import faces_at_edges
 
 TOLERANCE = 1e-6
-"""of the largest extent; what is nearer is at one place..."""
+"""of the largest extent; closer vertices are at the same place..."""
 OF_EDGES = 0.01
-"""...unless that is more than this part of the edges of the finest part: a ring in a landscape"""
+"""...unless that is more than this share of the edges of the finest part: a ring in a landscape"""
 _BITS = 21  # for each coordinate in a key; the tolerance of 1e-6 needs 20
 
 
 def weld(V, F):
-    """Return which vertices are one, and the triangles between them.
+    """Return which vertices are merged, and the triangles between them.
 
     Parameters
     ----------
@@ -26,14 +26,14 @@ def weld(V, F):
     Returns
     -------
     group : (n,) int array
-        Number of the welded vertex of each; they are numbered by their first vertex.
+        Index of the welded vertex of each, in the order of their first vertices.
     first : (w,) int array
-        The first vertex of each. Parts that only share a vertex, not an edge, stay apart: an eye
+        The first vertex of each. Parts that share only a vertex, not an edge, stay separate: an eye
         would hang on it as on a hinge.
     F : (k,3) int array
-        Triangles between welded vertices. Those that have collapsed are left out, and of those with
-        the same corners one is left: else the normals of a leaf that was modelled as two coincident
-        sheets would cancel out.
+        Triangles between welded vertices. Collapsed ones are removed, and of those with
+        the same corners, only one is kept: otherwise the normals of a leaf modelled as two
+        coincident sheets would cancel out.
     """
     tolerance = _tolerance(V, F)
     label = _joined(_least_of_cell(V / tolerance + 0.5), _least_of_cell(V / tolerance))
@@ -48,9 +48,9 @@ def weld(V, F):
 
 
 def _of_one_part(label, F):
-    """Split what is at one place by the parts that share edges; return new numbers (n,)."""
+    """Split vertices at one place by the parts that share edges; return new indices (n,)."""
     one, other = faces_at_edges(label[F], len(label))
-    # triangles that share an edge are of one part, and so are those that shared a vertex before
+    # triangles that share an edge belong to one part, and so do those that shared a vertex before
     nodes = len(F) + len(label)
     at = np.stack([np.repeat(np.arange(len(F)), 3), len(F) + F.ravel()], axis=1)
     pairs = np.concatenate([np.stack([one, other], axis=1), at])
@@ -61,7 +61,7 @@ def _of_one_part(label, F):
 
 
 def _tolerance(V, F):
-    """Return how near vertices have to be to be one."""
+    """Return the largest distance of vertices to be merged."""
     count, part = components(F, len(V))
     length = np.linalg.norm(V[F[:, 1]] - V[F[:, 0]], axis=1)
     owner = part[F[:, 0]]

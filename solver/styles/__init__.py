@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface is to become: the problem of the local step, and how it is solved.
+"""Target shapes: the problem of the local step, and its solution.
 
-Today the cube: its problem is in ``local_problem``, solved by ``active_set`` and, from any start,
-by ``admm``; ``cube`` has what else is special about it.
+Currently the cube: its problem is in ``local_problem``, solved by ``active_set`` and, from any
+start, by ``admm``; ``cube`` has everything else that is specific to it.
 """

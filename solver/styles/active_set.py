@@ -11,7 +11,7 @@ the active axes, those with x_k = 0. With it R is stationary for
     -tr(R (S - lam n (Q's)')),
 
 an orthogonal Procrustes problem. What is active hardly changes from one iteration to the next, so
-s is kept beside R, and each step is one of these (Nocedal and Wright, "Numerical Optimization",
+s is stored with R, and each step is one of these (Nocedal and Wright, "Numerical Optimization",
 2nd edition, chapter 18, equality-constrained Newton steps with least-squares multipliers):
 
 - two active axes: the normal lies on the third, and the best turn about it has a closed form;
@@ -24,8 +24,8 @@ Where neither happens and the step was small, R is a certified local minimiser, 
 the step. What is not certified (starts that are far off, degenerate or mirrored S) is left to the
 ADMM of `admm.py`.
 
-Beside an ADMM with a warm start and a relative tolerance of 1e-5, this takes 1.4 to 3 steps in
-place of 6 to 18 Newton steps, and a local step is 2.2 to 2.8 times faster (bunny and armadillo,
+Compared with an ADMM with a warm start and a relative tolerance of 1e-5, this takes 1.4 to 3 steps
+instead of 6 to 18 Newton steps, and a local step is 2.2 to 2.8 times faster (bunny and armadillo,
 cubeness 0.2; horse, 0.4). No objective lies above that of an ADMM with a tolerance of 1e-10 by more
 than 2e-12 of its size, where before a quarter to two thirds did so by more than 1e-9. On these
 meshes nothing is left to the ADMM.

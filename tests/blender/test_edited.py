@@ -168,4 +168,4 @@ def test_restore_takes_back_an_edit_as_well():
     edit(obj)
     said = reports_of(bpy.ops.cubic_craft.restore)
     assert position_of(obj.data).tobytes() == before.tobytes()
-    assert "Restored Suzanne; what was edited since Cubify is gone (Ctrl-Z brings it back)" in said
+    assert "Restored Suzanne; edits made since Cubify are lost (Ctrl-Z brings them back)" in said

@@ -46,7 +46,7 @@ def test_add_takes_the_active_group_then_the_others():
     click(bpy.ops.cubic_craft.handle_add)
     assert groups() == [RIGHT, LEFT]
     assert obj.cubic_craft.active_handle == 1
-    with pytest.raises(RuntimeError, match="Every vertex group has a handle"):
+    with pytest.raises(RuntimeError, match="Every vertex group already has a handle"):
         bpy.ops.cubic_craft.handle_add()
     bpy.ops.ed.undo()
     assert groups() == [RIGHT]
@@ -57,7 +57,7 @@ def test_add_takes_the_active_group_then_the_others():
 def test_add_refuses_a_group_that_is_not_there_or_has_a_handle():
     add_posable()
     bpy.ops.cubic_craft.handle_add(group=LEFT)
-    with pytest.raises(RuntimeError, match='"Left" has a handle already'):
+    with pytest.raises(RuntimeError, match='"Left" already has a handle'):
         bpy.ops.cubic_craft.handle_add(group=LEFT)
     with pytest.raises(RuntimeError, match='"Body" has no vertex group "Ear"'):
         bpy.ops.cubic_craft.handle_add(group="Ear")

@@ -106,7 +106,7 @@ def test_while_it_runs_the_buttons_say_so(start):
         bpy.ops.cubic_craft.handle_pin_selection,
     ):
         assert not operator.poll()
-    with pytest.raises(RuntimeError, match="Cubify is running; cancel it by Esc"):
+    with pytest.raises(RuntimeError, match="Cubify is running; press Esc to cancel it"):
         cubify()
     assert bpy.ops.cubic_craft.cubify_cancel() == {"FINISHED"}
     assert watched.reason == ""

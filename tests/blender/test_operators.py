@@ -175,7 +175,7 @@ def test_the_object_that_differs_from_its_twin_is_named():
     bpy.context.view_layer.update()
     select(first, twin)
     report = reports_of(cubify)
-    assert '"Twin" shares its mesh with "First" and has taken its shape; make it single' in report
+    assert '"Twin" shares its mesh with "First" and now has its shape; make it single' in report
 
 
 def test_objects_that_differ_from_their_twin_are_named_at_once():
@@ -189,7 +189,7 @@ def test_objects_that_differ_from_their_twin_are_named_at_once():
     select(first, *twins)
     report = reports_of(cubify)
     assert report.count("shares its mesh") == 1
-    assert '"Twin 0" shares its mesh' in report and "so have 2 others" in report
+    assert '"Twin 0" shares its mesh' in report and "so do 2 others" in report
 
 
 def test_a_new_object_shows_how_it_was_made_and_is_changed_by_the_next_click():

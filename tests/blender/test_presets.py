@@ -109,9 +109,9 @@ def test_saving_again_replaces_and_removing_leaves_the_settings(files, monkey):
 
 
 def test_ours_can_neither_be_replaced_nor_removed(files, monkey):
-    with pytest.raises(RuntimeError, match='"Cubic" comes with CubicCraft'):
+    with pytest.raises(RuntimeError, match='"Cubic" is included with CubicCraft'):
         bpy.ops.cubic_craft.preset_add(name="Cubic")
-    with pytest.raises(RuntimeError, match="Choose a preset of your own first"):
+    with pytest.raises(RuntimeError, match="Choose one of your own presets first"):
         bpy.ops.cubic_craft.preset_remove()
     assert [preset.identifier for preset in files.presets()] == OURS
 

@@ -82,7 +82,7 @@ def test_a_linked_result_is_seen_and_left_alone_beside_a_local_mesh(tmp_path):
         cubify()
     for operator in (bpy.ops.cubic_craft.restore, bpy.ops.cubic_craft.apply):
         assert not operator.poll()
-        with pytest.raises(RuntimeError, match=r"poll\(\).*'Suzanne' has mesh data linked from"):
+        with pytest.raises(RuntimeError, match=r'poll\(\).*"Suzanne" has mesh data linked from'):
             operator()
 
 

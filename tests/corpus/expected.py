@@ -53,8 +53,8 @@ REFUSED = {
     "no_triangles.stl": ["without faces"],
     "without_area.stl": ["without faces"],
     "text_cut.stl": ["cannot be read"],
-    "index_too_large.usda": ["names vertex 99", "only 8"],
-    "index_negative.usda": ["names vertex -1", "only 8"],
+    "index_too_large.usda": ["refers to vertex 99", "only 8"],
+    "index_negative.usda": ["refers to vertex -1", "only 8"],
     "index_too_large.gltf": ["cannot be read", "out of bounds"],
     "cut.gltf": ["cannot be read"],
 }

@@ -26,7 +26,7 @@ def texts():
 
 def test_messages_are_those_of_the_program():
     guide = (ROOT / "docs" / "user_guide.md").read_text(encoding="utf-8")
-    section = guide.split("## When something is wrong")[1]
+    section = guide.split("## Troubleshooting")[1]
     messages = re.findall(r"^\| \*(.+?)\* \|", section, re.MULTILINE)
     assert len(messages) > 10
     for message in messages:

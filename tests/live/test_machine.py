@@ -48,7 +48,7 @@ def test_every_ending_puts_back_first_and_cleans_up_last(state, event):
 
 @pytest.mark.parametrize(
     ("event", "word"),
-    [(Event.NOTHING_LEFT, "take back"), (Event.MODE_LEFT, "mode"), (Event.LOST, "gone")],
+    [(Event.NOTHING_LEFT, "undo"), (Event.MODE_LEFT, "mode"), (Event.LOST, "gone")],
 )
 @pytest.mark.parametrize("state", RUNNING)
 def test_endings_that_nobody_asked_for_are_told(state, event, word):

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The data of a mesh as arrays and back, without a thought about what it is for."""
+"""The data of a mesh as arrays and back, whatever its purpose."""

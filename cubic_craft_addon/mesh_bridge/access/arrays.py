@@ -24,7 +24,7 @@ def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
         The mesh is in Edit Mode, where the attribute does not exist.
     """
     if mesh.is_editmode:
-        raise CubicCraftError(f"Mesh '{mesh.name}' is in Edit Mode: go back to Object Mode first")
+        raise CubicCraftError(f'Mesh "{mesh.name}" is in Edit Mode: go back to Object Mode first')
     flat = np.empty(3 * len(mesh.vertices), np.float32)
     if len(flat):  # a mesh without vertices may have no such attribute
         _position_of(mesh).data.foreach_get("vector", flat)
@@ -47,7 +47,7 @@ def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        The key does not fit the mesh, as scripts may leave it.
+        The key does not fit the mesh, which scripts may cause.
     """
     check_fits(mesh, key)
     flat = np.empty(3 * len(key.points), np.float32)
@@ -61,11 +61,11 @@ def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     Raises
     ------
     CubicCraftError
-        It has not, as scripts may leave it.
+        It does not fit, which scripts may cause.
     """
     if len(key.points) != len(mesh.vertices):
         raise CubicCraftError(
-            f"Shape key '{key.name}' of mesh '{mesh.name}' has {len(key.points)} points for "
+            f'Shape key "{key.name}" of mesh "{mesh.name}" has {len(key.points)} points for '
             f"{len(mesh.vertices)} vertices: delete the shape key first"
         )
 
@@ -76,11 +76,11 @@ def write_key(key: bpy.types.ShapeKey, positions: np.ndarray) -> None:
 
 
 def mark_moved(mesh: bpy.types.Mesh) -> None:
-    """Tell Blender that positions of the mesh have changed.
+    """Notify Blender that positions of the mesh have changed.
 
-    ``foreach_set`` tells nobody, and ``mesh.update()`` would leave the cached triangulation and
-    bounding box of the old shape behind. Setting one single coordinate drops all caches, tags the
-    mesh for evaluation and redraws; that it is set to what it is makes no difference.
+    ``foreach_set`` notifies nobody, and ``mesh.update()`` would keep the cached triangulation and
+    bounding box of the old shape. Setting a single coordinate, even to the same value, drops all
+    caches, tags the mesh for evaluation and redraws.
     """
     if mesh.vertices:
         first = mesh.vertices[0]
@@ -111,7 +111,7 @@ def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _position_of(mesh: bpy.types.Mesh) -> bpy.types.FloatVectorAttribute:
-    """Look the ``position`` attribute up."""
+    """Look up the ``position`` attribute."""
     attribute = mesh.attributes["position"]
     assert isinstance(attribute, bpy.types.FloatVectorAttribute)
     return attribute

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Our point attributes on a mesh, added and removed without disturbing the artist's.
+"""Our point attributes on a mesh, added and removed without affecting the artist's.
 
 Adding or removing an attribute shifts the others inside Blender's list, and Blender remembers
 the active one by its place in that list. It also frees the RNA pointers to all of them, so none
 may be kept across a call to these functions.
 
-Vertex groups are attributes to Blender, too, and a group may get the name of one of ours (see
-`group_names`). Asked for an attribute of that name, Blender may take the group. So attributes are
-made and removed under a name that nothing else has.
+To Blender, vertex groups are attributes too, and a group may get the name of one of our attributes
+(see `group_names`). Blender may then return the group for that name. Attributes are therefore
+created and removed under a unique name.
 """
 
 import re
@@ -20,8 +20,8 @@ import numpy as np
 
 from ....solver.errors import CubicCraftError
 
-# Point attributes called so, or so with one of the endings, are ours, also where Blender has
-# brought them along from another mesh, by joining for one.
+# Point attributes with these names, or with one of the endings, are ours, even if Blender has
+# copied them from another mesh, for example by joining.
 ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
 LIVE = "cubic_craft_live"
@@ -32,7 +32,7 @@ _NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
 
 
 def is_our_name(name: str) -> bool:
-    """Return whether we call attributes so."""
+    """Return whether a name is one of our attribute names."""
     return _NAMES.fullmatch(name) is not None
 
 
@@ -53,12 +53,12 @@ def check_names(mesh: bpy.types.Mesh) -> None:
     Raises
     ------
     CubicCraftError
-        A UV map, a color attribute or another attribute of the artist's is called so.
+        A UV map, a color attribute or another attribute of the artist has such a name.
     """
     for attribute in mesh.attributes:
         if is_our_name(attribute.name) and not _is_ours(attribute):
             raise CubicCraftError(
-                f"Mesh '{mesh.name}' has an attribute '{attribute.name}' that is not CubicCraft's "
+                f'Mesh "{mesh.name}" has an attribute "{attribute.name}" that is not CubicCraft\'s '
                 "own: rename or remove it first (Object Data > UV Maps, Color Attributes or "
                 "Attributes)"
             )
@@ -98,7 +98,7 @@ def read_attribute(mesh: bpy.types.Mesh, name: str, size: int) -> np.ndarray | N
 
     Returns
     -------
-    (n,size) numpy float32 array, or None where there is no such attribute of that kind
+    (n,size) numpy float32 array, or None if there is no such attribute of that kind
     """
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.domain != "POINT":
@@ -115,7 +115,7 @@ def read_attribute(mesh: bpy.types.Mesh, name: str, size: int) -> np.ndarray | N
 
 @contextmanager
 def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
-    """Keep the active attribute the same one, although its place in the list changes."""
+    """Keep the same attribute active although its place in the list changes."""
     place = mesh.attributes.active_index or 0
     name = mesh.attributes[place].name if 0 <= place < len(mesh.attributes) else ""
     try:
@@ -126,10 +126,10 @@ def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
 
 
 def _is_ours(attribute: bpy.types.Attribute) -> bool:
-    """Return whether an attribute that is called as ours are is one of them."""
+    """Return whether an attribute with one of our names is ours."""
     return attribute.domain == "POINT" and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
 
 
 def _free_name() -> str:
-    """Make up a name that neither attribute nor vertex group has."""
+    """Return a name that no attribute or vertex group has."""
     return uuid.uuid4().hex

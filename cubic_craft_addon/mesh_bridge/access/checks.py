@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects can be cubified at all: refusals that name the object and the cure."""
+"""Checks whether objects can be cubified: refusals that name the object and the remedy."""
 
 import bpy
 import numpy as np
@@ -23,28 +23,28 @@ def check_editable(obj: bpy.types.Object) -> None:
 
 
 def check_usable(obj: bpy.types.Object) -> None:
-    """Check all of `check_editable` that is cheap enough for each redraw: no coordinates.
+    """Do the checks of `check_editable` that are cheap enough for each redraw: no coordinates.
 
     Raises
     ------
     CubicCraftError
         Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
-        vertices, no faces, shape keys that do not fit, or something in the way of our note or
+        vertices, no faces, shape keys that do not fit, or a name conflict with our note or
         attributes.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
     if obj.mode == "SCULPT":
         # Sculpt Mode keeps its own copy of what it edits.
-        raise CubicCraftError(f"'{obj.name}' is in Sculpt Mode: go back to Object Mode first")
-    if obj.users_scene and not obj.visible_get():  # one in no scene is ours, see `make_seen`
-        raise CubicCraftError(f"'{obj.name}' is hidden: show it and its collection first")
+        raise CubicCraftError(f'"{obj.name}" is in Sculpt Mode: go back to Object Mode first')
+    if obj.users_scene and not obj.visible_get():  # objects in no scene are ours, see `make_seen`
+        raise CubicCraftError(f'"{obj.name}" is hidden: show it and its collection first')
     if len(mesh.vertices) < 3:
         raise CubicCraftError(
-            f"'{obj.name}' has fewer than 3 vertices: add geometry with faces first"
+            f'"{obj.name}" has fewer than 3 vertices: add geometry with faces first'
         )
     if not mesh.polygons:
-        raise CubicCraftError(f"'{obj.name}' has no faces: fill some in Edit Mode first")
+        raise CubicCraftError(f'"{obj.name}" has no faces: fill some in Edit Mode first')
     for key in mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ():
         check_fits(mesh, key)
     check_note(mesh)
@@ -57,17 +57,17 @@ def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
     Raises
     ------
     CubicCraftError
-        The object is of another kind.
+        The object is not a mesh.
     """
     if not isinstance(obj.data, bpy.types.Mesh):
         raise CubicCraftError(
-            f"'{obj.name}' is not a mesh: select a mesh or convert it (Object > Convert > Mesh)"
+            f'"{obj.name}" is not a mesh: select a mesh or convert it (Object > Convert > Mesh)'
         )
     return obj.data
 
 
 def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
-    """Check that what is written to the mesh stays there; `name` is what the artist sees.
+    """Check that changes to the mesh persist; `name` is used in the message.
 
     Blender itself does not object to writes to linked data and only loses them on saving.
 
@@ -78,15 +78,15 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     """
     if is_linked(mesh):
         raise CubicCraftError(
-            f"'{name}' has mesh data linked from another file: make it local first "
+            f'"{name}" has mesh data linked from another file: make it local first '
             "(Object > Relations > Make Local)"
         )
     if mesh.is_editmode:
-        raise CubicCraftError(f"'{name}' is in Edit Mode: go back to Object Mode first")
+        raise CubicCraftError(f'"{name}" is in Edit Mode: go back to Object Mode first')
 
 
 def is_linked(mesh: bpy.types.Mesh) -> bool:
-    """Return whether the mesh is linked or overridden data: what is written to it does not stay."""
+    """Return whether the mesh is linked or overridden data, to which changes do not persist."""
     return mesh.library is not None or mesh.override_library is not None or not mesh.is_editable
 
 
@@ -96,17 +96,17 @@ def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
     Raises
     ------
     CubicCraftError
-        Naming the shape and the first vertex that is wrong.
+        The message names the shape and the first wrong vertex.
     """
     shapes = {"": read_position(mesh)}
     if mesh.shape_keys is not None:
         shapes |= {
-            f" in shape key '{key.name}'": read_key(mesh, key) for key in mesh.shape_keys.key_blocks
+            f' in shape key "{key.name}"': read_key(mesh, key) for key in mesh.shape_keys.key_blocks
         }
     for where, positions in shapes.items():
         broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
         if len(broken):
             raise CubicCraftError(
-                f"'{name}' has coordinates that are not finite{where} (vertex {broken[0]}, "
+                f'"{name}" has coordinates that are not finite{where} (vertex {broken[0]}, '
                 f"the first of {len(broken)}): delete those vertices in Edit Mode first"
             )

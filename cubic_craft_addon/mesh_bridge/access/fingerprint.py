@@ -24,6 +24,6 @@ def fingerprint(positions: np.ndarray) -> str:
 def fingerprint_of_values(positions: np.ndarray) -> str:
     """Hash the values of a shape: `fingerprint`, but -0 is 0.
 
-    Edit Mode turns -0 into 0 in many shape keys, which is no edit of the artist.
+    Edit Mode turns -0 into 0 in many shape keys, which is not an edit by the artist.
     """
     return fingerprint(positions + np.float32(0))

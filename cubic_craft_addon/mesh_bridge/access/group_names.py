@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertex groups that are called as our attributes are.
+"""Vertex groups with the names of our attributes.
 
-To Blender they are attributes of one name. Blender 5.2 keeps only the group when it writes a mesh
-back on leaving Edit Mode, or joins meshes, and drops our attribute with the original.
+To Blender, both are attributes of the same name. When Blender 5.2 leaves Edit Mode or joins meshes,
+it keeps only the group and drops our attribute with the original.
 """
 
 import itertools
@@ -14,10 +14,10 @@ from .checks import is_linked
 
 
 def set_groups_aside(obj: bpy.types.Object) -> None:
-    """Give vertex groups on a mesh with our attributes a number, if they are called so.
+    """Append a number to vertex groups with the names of our attributes on the mesh.
 
-    It does what Blender does with attributes of the same name. Works in Edit Mode, too. Cheap: it
-    may be called after each update of the object.
+    This is what Blender does with attributes of the same name. It also works in Edit Mode. It is
+    cheap enough to be called after each update of the object.
 
     Parameters
     ----------

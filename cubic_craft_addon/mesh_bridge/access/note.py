@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Our note on a mesh: one custom property that says what we wrote.
+"""Our note on a mesh: one custom property that describes what we wrote.
 
 It is JSON text, because custom properties cannot hold lists of texts, with some of these parts:
 
@@ -13,10 +13,10 @@ It is JSON text, because custom properties cannot hold lists of texts, with some
     a preview is on: what ``"mesh"`` says, of the shape shown last. An empty ``fingerprint`` is of
     a shape that is just being written.
 ``"run"``
-    beside ``"mesh"`` or ``"key"``: the ``settings`` that the result was made with, and how the run
-    went. What it means is for `cubic_craft_addon.last_run` to say.
+    besides ``"mesh"`` or ``"key"``: the ``settings`` that the result was made with, and the outcome
+    of the run, see `memory.last_run`.
 
-A property of that name which is anything else is not ours, and is never changed.
+A property of that name with any other value is not ours and is never changed.
 """
 
 import json
@@ -49,7 +49,7 @@ _KEY_PART = {"name": str, "fingerprint": str, "base": str, "offsets": list, "mad
 
 
 def read_note(mesh: bpy.types.Mesh) -> dict[str, Any]:
-    """Read the note; empty where there is none, or something of that name that is not ours."""
+    """Read the note; empty if there is none, or if the property is not ours."""
     text = mesh.get(NOTE)
     if not isinstance(text, str):
         return {}
@@ -63,12 +63,12 @@ def read_note(mesh: bpy.types.Mesh) -> dict[str, Any]:
 
 
 def write_note(mesh: bpy.types.Mesh, note: dict[str, Any]) -> None:
-    """Write the note, or take it away where nothing is left to say.
+    """Write the note, or remove it if it is empty.
 
     Raises
     ------
     CubicCraftError
-        As `check_note`, where there is something to write.
+        As `check_note`, if there is something to write.
     """
     if note:
         check_note(mesh)
@@ -83,17 +83,17 @@ def check_note(mesh: bpy.types.Mesh) -> None:
     Raises
     ------
     CubicCraftError
-        A custom property of that name is somebody else's.
+        A custom property of that name is not ours.
     """
     if NOTE in mesh and not read_note(mesh):
         raise CubicCraftError(
-            f"Mesh '{mesh.name}' has a custom property '{NOTE}' that is not CubicCraft's own: "
+            f'Mesh "{mesh.name}" has a custom property "{NOTE}" that is not CubicCraft\'s own: '
             "rename or remove it first (Object Data > Custom Properties)"
         )
 
 
 def _is_ours(note: dict[str, Any]) -> bool:
-    """Return whether a note says only what we write, so that nobody else must check it."""
+    """Return whether a note is valid, so that no other code must check it."""
     if not note or not note.keys() <= {"mesh", "key", "live", "run"}:
         return False
     for part in (note[name] for name in ("mesh", "live") if name in note):
@@ -110,5 +110,5 @@ def _is_ours(note: dict[str, Any]) -> bool:
 
 
 def _fits(part: Any, types: dict[str, Any]) -> bool:
-    """Return whether a part of a note has the entries that it should have."""
+    """Return whether a part of a note has the required entries."""
     return isinstance(part, dict) and all(isinstance(part.get(n), t) for n, t in types.items())

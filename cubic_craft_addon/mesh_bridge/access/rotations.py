@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rotation matrices to stored quaternions and back, for many vertices at once.
 
-Offsets of shape keys are turned forth and back by the *stored* rotations, so that both ways are
-inverse to each other also after the .blend was saved.
+Offsets of shape keys are rotated and rotated back by the *stored* rotations, so that both are
+inverse to each other even after the .blend was saved.
 """
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What of the solver's arrays is written: rounded, checked, and nothing moved needlessly."""
+"""The solver's arrays prepared for writing: rounded and checked, with no needless changes."""
 
 import bpy
 import numpy as np
@@ -12,11 +12,11 @@ from .shapes import Shapes, carry
 def rounded_for_storage(
     mesh: bpy.types.Mesh, positions: np.ndarray, base: np.ndarray, loose: np.ndarray
 ) -> np.ndarray:
-    """Round positions to what is stored; vertices that stay, or are loose, keep their bits.
+    """Round positions for storage; unmoved and loose vertices keep their bits.
 
     Parameters
     ----------
-    mesh : the mesh that they are for, which the messages name
+    mesh : their mesh, named in messages
     positions : (n,3) numpy array, object space
     base : (n,3) numpy float32 array, the original positions
     loose : (n,) numpy bool array, see `loose_vertices`
@@ -44,11 +44,11 @@ def rounded_for_storage(
 def rotations_for_storage(
     mesh: bpy.types.Mesh, rotations: np.ndarray, loose: np.ndarray
 ) -> np.ndarray:
-    """Round rotations to what is stored; vertices in no face do not turn.
+    """Round rotations for storage; vertices in no face do not turn.
 
     Parameters
     ----------
-    mesh : the mesh that they are for, which the messages name
+    mesh : their mesh, named in messages
     rotations : (n,3,3) numpy array
     loose : (n,) numpy bool array
 
@@ -79,7 +79,7 @@ def carry_finite(
     """
     carried = carry(original, base, rotations)
     for name, points in carried.keys.items():
-        check_shape(mesh, points, base.shape, f"shape key '{name}'")
+        check_shape(mesh, points, base.shape, f'shape key "{name}"')
     return carried
 
 
@@ -89,15 +89,15 @@ def check_shape(mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...],
     Raises
     ------
     CubicCraftError
-        Naming `what` is wrong with it.
+        The message names the array, `what`.
     """
     if np.shape(array) != shape:
         raise CubicCraftError(
-            f"The result does not fit mesh '{mesh.name}': its {what} have the shape "
+            f'The result does not fit mesh "{mesh.name}": its {what} have the shape '
             f"{np.shape(array)} instead of {shape}; cubify it again"
         )
     if not np.isfinite(array).all():
         raise CubicCraftError(
-            f"The result for mesh '{mesh.name}' is not finite in its {what}: nothing was written; "
+            f'The result for mesh "{mesh.name}" is not finite in its {what}: nothing was written; '
             "try a smaller cubeness, or clean up degenerate faces (Mesh > Clean Up)"
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All shapes of a mesh at once: its positions and its shape keys, and how keys are carried."""
+"""All shapes of a mesh: its positions and shape keys, and how keys follow the base."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ class Shapes:
 
     @property
     def base(self) -> np.ndarray:
-        """The shape that counts: the reference key where there are shape keys."""
+        """The effective shape: the reference key if there are shape keys."""
         return self.position if self.reference is None else self.keys[self.reference]
 
 
@@ -38,7 +38,7 @@ def read_shapes(mesh: bpy.types.Mesh, skip: bpy.types.ShapeKey | None = None) ->
 
 
 def assembled(mesh: bpy.types.Mesh, position: np.ndarray, keys: dict[str, np.ndarray]) -> Shapes:
-    """Make Shapes of arrays and of what the mesh says about its shape keys of these names."""
+    """Make Shapes from arrays, with the relations of the mesh's shape keys of these names."""
     if mesh.shape_keys is None:
         return Shapes(position, {}, None, {})
     reference = mesh.shape_keys.reference_key.name
@@ -62,7 +62,7 @@ def carry(
     rotations: np.ndarray,
     known: Mapping[str, np.ndarray] | None = None,
 ) -> Shapes:
-    """Move the base and take every shape key along.
+    """Move the base, and every shape key with it.
 
     Each key keeps its offset from the key that it is relative to, turned by the rotation of its
     vertex. Where nothing moves and nothing turns, a key keeps its bits.
@@ -73,7 +73,7 @@ def carry(
     base : (n,3) numpy float32 array, the new base; also the new ``position``, because Blender
         itself keeps that equal to the reference key
     rotations : (n,3,3) numpy float64 array
-    known : names of keys whose new points are known already, to those points
+    known : dict from names of keys to their new points, if already known
 
     Returns
     -------
@@ -107,7 +107,7 @@ def carried(
     (n,3) numpy float32 array; the bits of `key` where nothing moves and nothing turns
     """
     offset = key.astype(np.float64) - other
-    with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
+    with np.errstate(over="ignore"):  # infinities are refused when the result is written
         turned = (new_other + np.einsum("nij,nj->ni", matrices, offset)).astype(np.float32)
     unturned = (matrices == np.eye(3)).all(axis=(1, 2))
     unmoved = unturned & (new_other == other).all(axis=1)
@@ -117,8 +117,8 @@ def carried(
 def _ordered(relative: Mapping[str, str], reference: str) -> dict[str, str]:
     """Sort keys so that each comes after the key that it is relative to.
 
-    A key in a circle (relative to itself, for one), or relative to a key that is left out, is
-    taken as relative to the reference.
+    A key in a cycle (for example relative to itself), or relative to an omitted key, is
+    treated as relative to the reference.
     """
     ordered: dict[str, str] = {}
     pending = dict(relative)

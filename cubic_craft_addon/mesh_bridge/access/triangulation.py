@@ -26,14 +26,14 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        A face names a vertex that is not there. Some importers let such faces into a mesh, and
-        triangulating them would read memory that is not the mesh's.
+        A face refers to a vertex that does not exist. Some importers create such faces, and
+        triangulating them would read memory outside the mesh.
     """
     corners = corner_vertices(mesh)
     wrong = corners[(corners < 0) | (corners >= len(positions))]
     if len(wrong):
         raise CubicCraftError(
-            f"A face of mesh '{mesh.name}' names vertex {wrong[0]}, but there are only"
+            f'A face of mesh "{mesh.name}" refers to vertex {wrong[0]}, but there are only'
             f" {len(positions)}: repair it (mesh.validate() in the Python console) or import it"
             " again"
         )

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What we keep on a mesh: its original, what we wrote, and what has become of both since."""
+"""The data that we keep on a mesh: its original and our result, recognised after changes."""

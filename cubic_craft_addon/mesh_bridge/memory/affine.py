@@ -11,7 +11,7 @@ _ROUNDING = 2.0**-24  # of float32, relative
 _MARGIN = 16.0  # several transforms in a row, each of a few roundings
 _FLAT = 3e-7  # extent relative to the largest one, below which a shape says nothing about it
 _SAMPLES = 256  # of four vertices each: one is without those moved by hand, if these are half
-_SOME = 4096  # vertices, of large meshes, that tell of all
+_SOME = 4096  # vertices of a large mesh that represent all
 _LEAST_SHARE = 0.125  # of the vertices, that must agree on how all have been transformed
 _GOOD_PART = 0.25  # of the distances, that a map may leave where no vertices agree
 
@@ -27,29 +27,29 @@ class Affine:
     is_flattened: bool = False
     """the shape that it was found by has lost an extent, which this map keeps"""
     is_unique: bool = True
-    """more vertices agree on it than are needed to find one"""
+    """more vertices agree on it than are needed to find a map"""
     is_solid: bool = True
     """the shapes that it was found by lack no extent"""
 
     @property
     def is_identity(self) -> bool:
-        """Whether it leaves all points where they are, to the bit."""
+        """Whether it leaves all points unchanged, bit for bit."""
         return np.array_equal(self.linear, np.eye(3)) and not self.offset.any()
 
     def moved(self, points: np.ndarray) -> np.ndarray:
         """Map (n,3) points; float32, the same bits for the identity."""
         if self.is_identity:
             return points
-        with np.errstate(over="ignore"):  # whoever writes the result refuses infinities
+        with np.errstate(over="ignore"):  # infinities are refused when the result is written
             return (points @ self.linear.T + self.offset).astype(np.float32)
 
     def agrees(self, before: np.ndarray, after: np.ndarray, slack: float = 1.0) -> np.ndarray:
-        """Tell of which points it is what has moved them, up to the rounding of float32.
+        """Return which points it has moved, up to the rounding of float32.
 
         Parameters
         ----------
         before, after : (n,3) numpy arrays
-        slack : times the rounding
+        slack : factor of the rounding
 
         Returns
         -------
@@ -64,8 +64,8 @@ IDENTITY = Affine(np.eye(3), np.zeros(3))
 def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
     """Find the affine map that has moved all vertices, up to the rounding of float32.
 
-    Where the vertices lie in a plane, on a line, or in one point, many maps do. Then the extents
-    that they lack are scaled by the mean of the others, and not mirrored.
+    If the vertices lie in a plane, on a line or in one point, there are many such maps. Then the
+    missing extents are scaled by the mean of the others, and not mirrored.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
 
     Returns
     -------
-    Affine, or None where there is none
+    Affine, or None if there is none
     """
     if np.array_equal(before, after):
         return IDENTITY
@@ -81,7 +81,7 @@ def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
         return None
     some = _some(len(before))
     if len(some) < len(before):
-        # Of large meshes a part will do, and what it says holds for all or for none.
+        # Of a large mesh, a sample is enough: its map is that of all vertices or of none.
         found = _fit_all(before[some], after[some])
         if found is None or (found.is_solid and not found.agrees(before, after, 4.0).all()):
             return None
@@ -103,7 +103,7 @@ def _some(count: int) -> np.ndarray:
 
 
 def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
-    """Find how a mesh has been transformed of which vertices have been moved by hand as well.
+    """Find how a mesh was transformed if some vertices were also moved by hand.
 
     Parameters
     ----------
@@ -112,8 +112,8 @@ def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
     Returns
     -------
     Affine
-        The map of the most vertices; where hardly two of them agree, the one that comes close to
-        all, or the identity.
+        The map of most vertices; if hardly any two agree, the one that fits all best,
+        or the identity.
     """
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return IDENTITY
@@ -144,9 +144,9 @@ def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
 
 
 def _plain(found: Affine, before: np.ndarray, after: np.ndarray) -> Affine:
-    """Round a map to one that Blender can have applied, of zeros and float32, where it agrees.
+    """Round a map to zeros and float32 values, as Blender may have applied it, if they agree.
 
-    Then halves that were mirror images, to the bit, are so after it.
+    Halves that were mirror images bit for bit then remain so.
     """
     linear, offset = found.linear, found.offset
     least = 2 * _ROUNDING * np.abs(linear).max()
@@ -188,9 +188,9 @@ def _agrees(
 
 
 def _completed(linear: np.ndarray, before: np.ndarray, after: np.ndarray, extents: int) -> Affine:
-    """Give the map the extents that it lacks; what it does to the vertices stays."""
+    """Complete the map in the missing extents; its effect on the vertices does not change."""
     U, scales, Vt = np.linalg.svd(linear)
-    # What was scaled to nothing is a rounding away from it.
+    # An extent that was scaled to zero is only a rounding error from it.
     is_there = (scales > 4 * _FLAT * scales[0]) & (np.arange(3) < extents)
     if not is_there.all():
         mean = np.exp(np.log(scales[is_there]).mean()) if is_there.any() else 1.0

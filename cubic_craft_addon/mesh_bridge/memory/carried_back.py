@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shape keys under a result, back to where they were before it."""
+"""Shape keys under a result, carried back to their shapes before it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ _MARGIN = 32.0
 
 @dataclass(frozen=True)
 class _Turned:
-    """Ways back for the offsets of shape keys, each (n,3,3)."""
+    """Maps that carry the offsets of shape keys back, each (n,3,3)."""
 
     with_mesh: np.ndarray
-    """for those that have been transformed with the mesh"""
+    """for keys that were transformed with the mesh"""
     alone: np.ndarray
-    """for those that were kept while the base was transformed under them, as Edit Mode does"""
+    """for keys that were kept while the base was transformed, as in Edit Mode"""
 
 
 def carry_back(
@@ -34,17 +34,17 @@ def carry_back(
 ) -> dict[str, np.ndarray]:
     """Return the points that all shape keys had before a result, transformed with the mesh since.
 
-    What the artist has done to them stays: they are carried with their offsets. Those of which
-    that gives what is stored, up to rounding, get what is stored.
+    Edits of the artist are kept: the keys are carried with their offsets. If the result equals the
+    stored points up to rounding, the stored points are used.
 
     Parameters
     ----------
     present : the shapes, with shape keys
-    recognised : what has become of the vertices
+    recognised : the state of the vertices
     base : (n,3) numpy float32 array, the original base, transformed
     quaternions : (n,4) numpy float32 array or None, the rotations that the result was written with
-    known : names of keys that are to get their stored points, to these
-    stored : names of keys, the reference among them, to their stored points
+    known : dict from names of keys to the stored points that they get
+    stored : dict from names of keys, including the reference, to their stored points
 
     Returns
     -------
@@ -94,7 +94,7 @@ def _ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: in
 
 
 def _sizes(points: np.ndarray, back: np.ndarray) -> np.ndarray:
-    """Return what the rounding of each offset is relative to, as it comes back."""
+    """Return the magnitudes that the rounding of each carried offset is relative to."""
     return np.abs(points).max(initial=0.0) * (1.0 + np.abs(back).sum(axis=2).max(axis=1))
 
 
@@ -103,7 +103,7 @@ def _is_near(points: np.ndarray, target: np.ndarray, reach: np.ndarray) -> np.nd
 
 
 def _is_flattened(recognised: Recognised, count: int) -> np.ndarray:
-    """Tell whose offsets have lost an extent, so that they cannot be carried back."""
+    """Return whose offsets have lost an extent, so that they cannot be carried back."""
     is_flattened = np.zeros(count, bool)
     for part in recognised.parts:
         is_flattened[part.rows] = part.map.is_flattened

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Our shape key: made, found again, removed.
 
-The artist may rename it, dial it, key it and drive it. It is found by its points, under any name.
-With other points than we wrote it is the artist's, whatever it is called: it is never changed or
-removed again. Only where Blender itself has moved it along with an edited Basis, or transformed it
-with the whole mesh, it stays ours. For the latter its points, and those of Basis, lie in attributes
-as we wrote them.
+The artist may rename it, change its value, animate it and drive it. It is found by its points,
+under any name. With points other than those we wrote, it is the artist's, whatever its name: it is
+never changed or removed again. It only remains ours if Blender itself has moved it with an edited
+Basis, or transformed it with the whole mesh. For the latter, attributes hold its points and those
+of Basis as we wrote them.
 """
 
 from collections.abc import Callable
@@ -41,13 +41,13 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
     def is_shifted(points: np.ndarray) -> bool:
         return same_offsets(offset_sums(points, base), noted["offsets"])
 
-    # While Basis is as it was, nothing has moved the key but the artist.
+    # While Basis is unchanged, only the artist can have moved the key.
     is_base_moved = fingerprint_of_values(base) != noted["base"]
     tests = (is_written, is_shifted, _transformed(mesh, base)) if is_base_moved else (is_written,)
     for is_ours in tests:
         for key in keys:
             points = read_key(mesh, key)
-            is_fresh = np.array_equal(points, base)  # as every new key is: its name must tell
+            is_fresh = np.array_equal(points, base)  # as every new key does: its name must decide
             if is_ours(points) and (key.name == noted["name"] or not is_fresh):
                 return key
     return None
@@ -56,11 +56,11 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
 def write_cubic_key(
     obj: bpy.types.Object, positions: np.ndarray, key: bpy.types.ShapeKey | None
 ) -> None:
-    """Write positions to our shape key, which is made where it is missing.
+    """Write positions to our shape key, which is created if it is missing.
 
-    `key` is what `find_cubic_key` found before anything was written. It keeps its value, its range,
-    and what drives it. One that the artist has edited is no longer ours and stays; the note forgets
-    it for the new one.
+    `key` is what `find_cubic_key` found before anything was written. It keeps its value, range
+    and drivers. A key that the artist has edited is no longer ours and is kept; the note then
+    refers to the new one.
     """
     mesh = mesh_of(obj)
     note = read_note(mesh)
@@ -87,7 +87,7 @@ def write_cubic_key(
 
 
 def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray], bool]:
-    """Return a test whether points are the key, transformed as Basis has been."""
+    """Return a function that tests whether points are the key, transformed as Basis was."""
     written, written_base = read_attribute(mesh, KEY, 3), read_attribute(mesh, _BASE, 3)
     if written is None or written_base is None:
         return lambda points: False
@@ -96,10 +96,10 @@ def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray
 
 
 def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
-    """Remove our shape key, and Basis where we made it and no other key needs it.
+    """Remove our shape key, and Basis if we made it and no other key needs it.
 
     `key` is what `find_cubic_key` found before anything was written: it compares the key with
-    the base. Removing it is the last that is done, as it cannot be taken back.
+    the base. Removing it is the last step, because it cannot be undone.
     """
     for name in our_attributes(mesh, (KEY,)):
         remove_attribute(mesh, name)
@@ -110,7 +110,7 @@ def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> No
         return
     shape_keys = mesh.shape_keys
     assert shape_keys is not None
-    # With Basis alone Blender takes it for no shape key at all.
+    # Blender treats a mesh with Basis alone like one without shape keys.
     is_all_ours = noted["made_basis"] and len(shape_keys.key_blocks) == 2
     remove_keys(mesh, [key, shape_keys.reference_key] if is_all_ours else [key])
 
@@ -119,7 +119,7 @@ def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
     """Remove shape keys with their drivers, on every object of the mesh.
 
     The active shape key is remembered per object, by number, and Blender corrects that of one
-    object only. So the key is removed through a passing object, and all are corrected alike.
+    object only. So the key is removed through a temporary object, and all are corrected alike.
     """
     for key in keys:
         shape_keys = mesh.shape_keys
@@ -127,7 +127,7 @@ def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
         place = shape_keys.key_blocks.find(key.name)
         active = {obj: obj.active_shape_key_index for obj in bpy.data.objects if obj.data == mesh}
         animation = shape_keys.animation_data
-        if animation is not None:  # Blender 4.2 would leave them behind, pointing nowhere
+        if animation is not None:  # Blender 4.2 would keep them, without a target
             path = key.path_from_id() + "."
             for driver in [d for d in animation.drivers if d.data_path.startswith(path)]:
                 animation.drivers.remove(driver)

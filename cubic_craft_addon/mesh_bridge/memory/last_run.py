@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The run that a mesh has its cubic shape from, as it is noted on the mesh itself.
+"""The run that made the cubic shape of a mesh, as noted on the mesh itself.
 
-All that is shown about a result comes from here, and not from an object: of several that share the
-mesh each has settings of its own, but the shape was made with one set of them. So it goes with the
-shape into copies, files and undo steps.
+All displayed information about a result comes from here, not from an object: each object that
+shares the mesh has its own settings, but the shape was made with one set of them. The note follows
+the shape into copies, files and undo steps.
 """
 
 from dataclasses import dataclass
@@ -21,13 +21,13 @@ class LastRun:
     settings: dict[str, Any]
     """what matters to the shape, see `up_to_date.what_matters`"""
     vertices: int
-    """of all objects that were solved at once"""
+    """of all objects that were solved together"""
     objects: int
     iterations: int
     energy: float
     converged: bool
     seconds: float
-    """that the artist has waited for it"""
+    """time that the artist has waited"""
     device: str
     matching: int | None = None
     """vertices of the mesh that have a mirror image, None without symmetry"""
@@ -36,7 +36,7 @@ class LastRun:
 
     @property
     def status(self) -> str:
-        """All of it in one line."""
+        """The summary in one line."""
         of_what = f" of {self.objects} objects" if self.objects > 1 else ""
         if self.matching is not None:
             of_what += f", {self.matching:,} of {self.own_vertices:,} match"
@@ -48,15 +48,15 @@ class LastRun:
 
 
 def note_run(mesh: bpy.types.Mesh, run: dict[str, Any] | None) -> None:
-    """Note the run, a LastRun as a dict, beside the result that has just been written, if any."""
+    """Note the run, a LastRun as a dict, with the result that has just been written, if any."""
     if run is not None:
         write_note(mesh, read_note(mesh) | {"run": run})
 
 
 def last_run(obj: bpy.types.Object) -> LastRun | None:
-    """Return the run that the object's mesh has its shape from, None if it has no result.
+    """Return the run that made the shape of the object's mesh, None if it has no result.
 
-    Cheap: it reads no positions, and so does not see that the artist has edited them since.
+    It is cheap because it reads no positions, so it does not detect edits by the artist.
     """
     mesh = obj.data
     if not isinstance(mesh, bpy.types.Mesh):

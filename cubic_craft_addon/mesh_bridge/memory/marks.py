@@ -2,9 +2,9 @@
 """Marks on the vertices that we have written: which of them still have an original.
 
 Blender joins attributes with the meshes, copies and removes them with the vertices, and mixes them
-for vertices in between. A mark is three whole numbers: a small one that tells results apart, the
-place of the vertex, and the number of vertices. So vertices that nobody has cubified have no mark
-(zeros), a joined part counts from 0 again, and what was made in between has a broken mark, or one
+for vertices in between. A mark is three integers: a small one that identifies the result, the
+index of the vertex, and the number of vertices. Vertices that were never cubified have no mark
+(zeros), a joined part counts from 0 again, and vertices in between have a broken mark, or one
 out of order.
 """
 
@@ -12,8 +12,8 @@ import hashlib
 
 import numpy as np
 
-_RESULTS = 4095  # so few that mixing equal numbers rounds to the same again
-_PLACES = 2**24  # so many that float32 holds each
+_RESULTS = 4095  # so few that mixing equal numbers gives the same number
+_PLACES = 2**24  # as many as float32 represents exactly
 
 
 def make_marks(original: np.ndarray, written: np.ndarray) -> np.ndarray:
@@ -43,7 +43,7 @@ def groups(marks: np.ndarray) -> list[np.ndarray]:
 
 
 def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
-    """Split the vertices of a result where their order begins anew.
+    """Split the vertices of a result where their order restarts.
 
     Returns
     -------
@@ -58,5 +58,5 @@ def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndar
 
 
 def is_complete(marks: np.ndarray, run: np.ndarray) -> bool:
-    """Return whether a run is of all vertices of its result."""
+    """Return whether a run contains all vertices of its result."""
     return np.float32(len(run)) == marks[run[0], 2]

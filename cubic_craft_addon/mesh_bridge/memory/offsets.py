@@ -3,7 +3,7 @@
 
 Editing Basis in Edit or Sculpt Mode shifts the other keys by the same, rounded to float32: their
 offsets from Basis stay, but not to the bit, so a hash cannot tell. A few sums of all offsets,
-each under signs of its own, stay nearly the same, and change when any single point is edited.
+each with its own signs, stay nearly the same, and change when any single point is edited.
 """
 
 import hashlib
@@ -42,7 +42,7 @@ def same_offsets(one: list[float], other: list[float]) -> bool:
 
 
 def _signs(size: int) -> np.ndarray:
-    """Make up signs, the same ones in every version of Python and NumPy: they meet in files."""
+    """Return signs that are the same in all versions of Python and NumPy, as files rely on them."""
     row = -(-size // 8)
     noise = hashlib.shake_128(b"cubic craft").digest(_SUMS * row)
     bits = np.unpackbits(np.frombuffer(noise, np.uint8)).reshape(_SUMS, 8 * row)

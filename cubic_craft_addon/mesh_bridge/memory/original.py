@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The original of a mesh that we have written to: kept, found again, or given up.
+"""The original of a mesh that we have written to: stored, recognised, or discarded.
 
-The original lies in point attributes of the mesh, so it is saved, copied, joined and undone with
-it, and beside it what we wrote. Where the base is that, be it transformed as a whole or in parts,
-the original is transformed alike. Where vertices have been moved by hand, the artist has the choice
-to start from there or from the original (`Start`).
+The original is stored in point attributes of the mesh, together with our result, so it is saved,
+copied, joined and undone with the mesh. If the base is our result, possibly transformed as a whole
+or in parts, the original is transformed alike. If vertices have been moved by hand, the artist can
+choose to start from there or from the original (`Start`).
 """
 
 from typing import Any, Literal
@@ -31,7 +31,7 @@ from .marks import make_marks
 from .recognition import UNCHANGED, Recognised, recognise
 
 Start = Literal["HERE", "ORIGINAL"]
-"""what a mesh starts from that was edited by hand since we wrote it: its shape, or the original"""
+"""what a mesh that was edited by hand since our result starts from: its shape or the original"""
 
 _POSITION = f"{ORIGINAL}.position"  # only where it is not equal to the base
 _WRITTEN = f"{ORIGINAL}.written"
@@ -39,7 +39,7 @@ _MARK = f"{ORIGINAL}.mark"
 
 
 def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Read the shape that counts: the reference key's points, or without keys the positions.
+    """Read the effective shape: the points of the reference key, or the positions without keys.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarray:
-    """Read the base as it was before we wrote to it, or as it is where it is not ours.
+    """Read the base as it was before we wrote to it, or as it is if it is not ours.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarra
 
 
 def has_original(mesh: bpy.types.Mesh | None) -> bool:
-    """Return whether the mesh holds our result that `restore` can take back.
+    """Return whether the mesh holds a result of ours that `restore` can undo.
 
     It compares the positions (2 ms per 100 000 vertices, more where they have changed). False where
     there is no mesh, or one that cannot be read, as in Edit Mode.
@@ -87,9 +87,9 @@ def has_original(mesh: bpy.types.Mesh | None) -> bool:
 
 
 def starts_here(mesh: bpy.types.Mesh, start: Start = "HERE") -> bool:
-    """Return whether what we wrote to the mesh is what the next result starts from.
+    """Return whether the next result starts from our result on the mesh.
 
-    So it is where the mesh was edited by hand since. False where we have written nothing.
+    True if the mesh was edited by hand since. False if we have written nothing.
     """
     return has_stored(mesh) and _start_of(mesh, start) is None
 
@@ -109,7 +109,7 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
 
 
 def recognise_result(mesh: bpy.types.Mesh) -> Recognised | None:
-    """Find out what has become of the result on the mesh; None where it has no original."""
+    """Recognise the result on the mesh; None if it has no original."""
     if not has_stored(mesh):
         return None
     base = _base(mesh)
@@ -130,7 +130,7 @@ def has_stored(mesh: bpy.types.Mesh) -> bool:
 
 
 def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
-    """Read all shapes as they were before we wrote to them, our own shape key left out.
+    """Read all shapes as they were before we wrote to them, without our own shape key.
 
     Shape keys that are still as we wrote them get their original bits, also under another name.
     Those that the artist has added or edited since are carried back onto the original.
@@ -162,7 +162,7 @@ def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
 def store_original(
     mesh: bpy.types.Mesh, original: Shapes, written: Shapes, quaternions: np.ndarray
 ) -> None:
-    """Store the original in attributes of the mesh and write it down in the note.
+    """Store the original in attributes of the mesh and describe it in the note.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def store_original(
 
 
 def drop_stored(mesh: bpy.types.Mesh) -> None:
-    """Remove the stored original, valid or stale, and the run; the shapes stay as they are."""
+    """Remove the stored original, valid or stale, and the run; the shapes do not change."""
     for name in our_attributes(mesh):
         remove_attribute(mesh, name)
     note = read_note(mesh)
@@ -198,7 +198,7 @@ def drop_stored(mesh: bpy.types.Mesh) -> None:
 
 
 def _start_of(mesh: bpy.types.Mesh, start: Start) -> Recognised | None:
-    """Return what has become of the result, where its original is what is asked for."""
+    """Return the recognised result if its original is requested."""
     recognised = recognise_result(mesh)
     is_left = recognised is not None and recognised.is_edited and start == "HERE"
     return None if is_left else recognised
@@ -228,23 +228,23 @@ def _known_keys(
 
 
 def _base(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Read the shape that counts, whatever it holds."""
+    """Read the effective shape without checks."""
     position = read_position(mesh)
     return position if mesh.shape_keys is None else read_key(mesh, mesh.shape_keys.reference_key)
 
 
 def _stored_base(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Read the base that `recognise_result` has found to be there."""
+    """Read the base as found by `recognise_result`."""
     values = read_attribute(mesh, ORIGINAL, 3)
     assert values is not None
     return values
 
 
 def _finite(positions: np.ndarray, mesh: bpy.types.Mesh) -> np.ndarray:
-    """Pass positions on that are finite."""
+    """Return the positions if they are finite."""
     if not np.isfinite(positions).all():
         raise CubicCraftError(
-            f"Mesh '{mesh.name}' has coordinates that are not finite: "
+            f'Mesh "{mesh.name}" has coordinates that are not finite: '
             "delete those vertices in Edit Mode first"
         )
     return positions

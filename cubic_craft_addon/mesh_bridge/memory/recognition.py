@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What has become of vertices that we have written: transformed, joined, removed, or moved."""
+"""Recognition of vertices that we have written: transformed, joined, removed, or moved."""
 
 from dataclasses import dataclass
 
@@ -8,12 +8,12 @@ import numpy as np
 from .affine import IDENTITY, Affine, consensus, fit
 from .marks import groups, is_complete, runs
 
-_MOST_RUNS = 256  # more come of cutting faces up, not of joining meshes
+_MOST_RUNS = 256  # more result from cutting faces, not from joining meshes
 
 
 @dataclass(frozen=True)
 class Part:
-    """Vertices that have been transformed alike."""
+    """Vertices that were transformed alike."""
 
     rows: np.ndarray | slice
     map: Affine
@@ -21,20 +21,20 @@ class Part:
 
 @dataclass(frozen=True)
 class Recognised:
-    """Where the vertices are that we have written; those in no part have no original."""
+    """The vertices that we have written; those in no part have no original."""
 
     parts: tuple[Part, ...]
     is_edited: bool
-    """some are not where transforming the parts has brought them"""
+    """whether some are not where transforming the parts would have moved them"""
 
     @property
     def is_whole(self) -> bool:
-        """Whether it is one mesh, as it was written."""
+        """Whether it is a single mesh, as it was written."""
         return isinstance(self.parts[0].rows, slice)
 
     @property
     def is_in_place(self) -> bool:
-        """Whether it is one mesh that has not been transformed."""
+        """Whether it is a single mesh that was not transformed."""
         return self.is_whole and self.parts[0].map.is_identity
 
     def moved(self, stored: np.ndarray, elsewhere: np.ndarray) -> np.ndarray:
@@ -51,7 +51,7 @@ UNCHANGED = Recognised((Part(slice(None), IDENTITY),), is_edited=False)
 
 
 def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Recognised | None:
-    """Find out what has become of a result.
+    """Recognise a result.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Re
 
     Returns
     -------
-    Recognised, or None where there are vertices of which nobody can tell what their original is
+    Recognised, or None if the original of some vertices cannot be determined
     """
     parts: list[Part] = []
     is_edited = False
@@ -85,7 +85,7 @@ def _rows(part: Part) -> np.ndarray:
 def _recognise_group(
     marks: np.ndarray, written: np.ndarray, present: np.ndarray, rows: np.ndarray
 ) -> Recognised | None:
-    """Do so for vertices that are of one result, or of several copies of it."""
+    """Do this for the vertices of one result, or of several copies of it."""
     at_once = fit(written[rows], present[rows])
     if at_once is not None:
         return Recognised((Part(rows, at_once),), at_once.is_flattened)
@@ -106,7 +106,7 @@ def _recognise_group(
             between = np.concatenate([between, run])
             continue
         parts.append(Part(run, own))
-    # Vertices in between belong to the part that they have been moved with.
+    # Vertices in between belong to the part with which they were moved.
     for place, part in enumerate(parts):
         agrees = part.map.agrees(written[between], present[between])
         parts[place] = Part(np.concatenate([_rows(part), between[agrees]]), part.map)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes that are shown for a while, and taken back by what lies on the mesh itself."""
+"""Shapes that are shown temporarily, and reverted from data on the mesh itself."""

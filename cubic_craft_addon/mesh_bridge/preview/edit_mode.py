@@ -15,30 +15,30 @@ from ..access.shapes import Shapes, assembled
 
 
 class EditedMesh:
-    """A mesh in Edit Mode; not to be kept after the mode may have been left."""
+    """A mesh in Edit Mode; valid only while the mode cannot have been left."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self._mesh = mesh
         self._bm = bmesh.from_edit_mesh(mesh)
         self._names = mesh.shape_keys.key_blocks.keys() if mesh.shape_keys is not None else []
         self._co = _vectors([vertex.co[:] for vertex in self._bm.verts])
-        # By place: a layer keeps its name when the artist renames its shape key.
+        # By index: a layer keeps its name when the artist renames its shape key.
         self._layers = self._bm.verts.layers.shape.values()
         self._points = [_vectors([v[layer][:] for v in self._bm.verts]) for layer in self._layers]
         self._active = self._find_active()
 
     def read_shapes(self) -> Shapes:
-        """Read all shapes; ``position``, which is not there in Edit Mode, is that of the base.
+        """Read all shapes; ``position``, which does not exist in Edit Mode, is that of the base.
 
         Raises
         ------
         CubicCraftError
-            The layers are not those of the shape keys, as scripts may leave them.
+            The layers are not those of the shape keys, which scripts may cause.
         """
         if not self._names:
             return assembled(self._mesh, self._co, {})
         if len(self._layers) != len(self._names):
-            raise CubicCraftError(f"Mesh '{self._mesh.name}' has shape keys without layers")
+            raise CubicCraftError(f'Mesh "{self._mesh.name}" has shape keys without layers')
         keys = dict(zip(self._names, self._points, strict=True))
         keys[self._names[self._active]] = self._co
         return assembled(self._mesh, keys[self._mesh.shape_keys.reference_key.name], keys)
@@ -57,15 +57,15 @@ class EditedMesh:
         bmesh.update_edit_mesh(self._mesh, loop_triangles=True, destructive=False)
 
     def read_attribute(self, name: str) -> np.ndarray | None:
-        """Read a point attribute of vectors, or None where there is no such one."""
+        """Read a point attribute of vectors, or None if there is none."""
         layer = self._bm.verts.layers.float_vector.get(name)
         return None if layer is None else _vectors([v[layer][:] for v in self._bm.verts])
 
     def _find_active(self) -> int:
-        """Find the place of the shape key that ``co`` is.
+        """Find the index of the shape key that ``co`` is.
 
-        Only objects tell which one it is. Of several in Edit Mode with this mesh, the one counts
-        whose active key has been where ``co`` is.
+        Only objects know which one it is. Of several in Edit Mode with this mesh, the one whose
+        active key was at ``co`` is used.
         """
         places = [
             obj.active_shape_key_index or 0
@@ -79,5 +79,5 @@ class EditedMesh:
 
 
 def _vectors(items: list) -> np.ndarray:
-    """Make an (n,3) float32 array of coordinates; as floats of Python they have kept their bits."""
+    """Make an (n,3) float32 array of coordinates; Python floats keep their bits."""
     return np.array(items, np.float32).reshape(-1, 3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Take a preview back from what lies on the mesh alone, wherever that mesh has come from."""
+"""End a preview with the data on the mesh alone, wherever the mesh comes from."""
 
 from collections.abc import Collection
 from typing import Any
@@ -17,7 +17,7 @@ from .moved import take_along
 from .store import drop_live_part, marked, remove_live_attributes, shapes_before, write_live_part
 
 _ended_in_edit_mode: dict[str, dict[str, Any]] = {}
-"""parts "live" of the note by the fingerprint of what was shown
+"""the "live" part of the note by the fingerprint of the shape shown
 
 Ended in Edit Mode, a preview is no longer in the note, but still in the mesh outside, and in the
 undo steps of Edit Mode: entering it pushes one with the preview still on. An undo to such a step,
@@ -27,26 +27,26 @@ steps, this lasts until Blender ends.
 
 
 def has_preview(mesh: bpy.types.Mesh | None) -> bool:
-    """Return whether a preview is on the mesh. Cheap: it reads no positions."""
+    """Return whether a preview is on the mesh. It is cheap: it reads no positions."""
     return isinstance(mesh, bpy.types.Mesh) and "live" in read_note(mesh)
 
 
 def end_preview(mesh: bpy.types.Mesh) -> bool:
-    """Put all shapes back as they were before the preview, to the bit; works in Edit Mode too.
+    """Restore all shapes from before the preview, bit for bit; also works in Edit Mode.
 
-    An artist who has edited the base since keeps that shape. Edit Mode itself makes 0 of -0 in
+    If the artist has edited the base since, that shape is kept. Edit Mode itself turns -0 into 0 in
     shape keys, and moves the `position` attribute onto the reference key.
 
     Returns
     -------
-    Whether there was a preview to end. Linked meshes stay as they are.
+    Whether there was a preview to end. Linked meshes are not changed.
     """
     if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
         return False
     edited = EditedMesh(mesh) if mesh.is_editmode else None
     try:
         present = edited.read_shapes() if edited else read_shapes(mesh)
-    except CubicCraftError:  # a script has left shape keys that do not fit: not what we showed
+    except CubicCraftError:  # a script has left shape keys that do not fit: not our preview
         present = None
     part = read_note(mesh).get("live") or _part_of_undone(present)
     if not part:
@@ -65,14 +65,14 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
             edited.write_shapes(before)
         else:
             write_shapes(mesh, before)
-    # First the note: what is left of a preview without it does no harm.
+    # First the note: without it, the rest of a preview does no harm.
     drop_live_part(mesh)
     remove_live_attributes(mesh)
     return True
 
 
 def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
-    """End the preview on every mesh of the file but some.
+    """End the preview on every mesh of the file except some.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
 
 
 def _part_of_undone(present: Shapes | None) -> dict[str, Any] | None:
-    """Find the part of the note by the shape that is there; None where we have not shown it."""
+    """Find the part of the note by the current shape; None if we have not shown it."""
     if present is None:
         return None
     return _ended_in_edit_mode.get(fingerprint_of_values(present.base))

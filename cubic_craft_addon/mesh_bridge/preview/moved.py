@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh that the artist transforms while something is shown on it: what lies under it goes along.
+"""A mesh that the artist transforms during a preview: the data under the preview follows.
 
-Blender keeps the undo step of an operator before it tells anybody of the operator. So that step has
-the transformed shape over a note and attributes of before, and whoever goes back to it has to find
-the transform once more. The note knows what was shown by its fingerprint only; so the shape itself
-is remembered here, as long as undo steps can ask for it.
+Blender stores the undo step of an operator before it notifies handlers. That step therefore has the
+transformed shape with the earlier note and attributes, and going back to it requires finding the
+transform again. The note has only the fingerprint of the shape shown, so the shape itself is kept
+here, as long as undo steps may need it.
 """
 
 from typing import Any
@@ -17,27 +17,27 @@ from ..access.shapes import Shapes
 from ..memory.affine import fit
 from .store import marked, move_live, write_live_part
 
-_MOST = 64  # remembered at once; Blender keeps 32 undo steps unless it is told otherwise
+_MOST = 64  # shapes kept; Blender keeps 32 undo steps by default
 
 _shown: dict[str, np.ndarray] = {}
-"""what was shown when a mesh was transformed, by fingerprint, the latest last"""
+"""the shape shown when a mesh was transformed, by fingerprint, the latest last"""
 
 
 def take_along(
     mesh: bpy.types.Mesh, part: dict[str, Any], present: Shapes, shown: np.ndarray | None = None
 ) -> dict[str, Any] | None:
-    """Transform what is stored under a preview as the artist has transformed what is shown.
+    """Transform the data stored under a preview as the artist has transformed the visible mesh.
 
     Parameters
     ----------
     mesh : with a preview on it, in Object Mode
-    part : the part "live" of its note
-    present : the shapes that are there now
-    shown : (n,3) numpy array, what was shown last, if that is known
+    part : the "live" part of its note
+    present : the current shapes
+    shown : (n,3) numpy array, the shape shown last, if known
 
     Returns
     -------
-    The part "live" that is on the mesh now; None where all vertices have not been moved alike, and
+    The "live" part that is on the mesh now; None if not all vertices were moved alike, and
     nothing has changed.
     """
     known = _shown.get(part["fingerprint"], shown)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Show intermediate shapes on a mesh while a modal operator runs.
 
-What they overwrite lies on the mesh (`store`), from where `end_preview` takes it back. A modifier
-would overwrite nothing, but it cannot show what Cubify writes on a mesh with Multires, or one that
-its parent deforms: `test_preview_by_modifier` shows it.
+The shapes they overwrite are stored on the mesh (see `store`); `end_preview` restores them. A
+modifier would overwrite nothing, but it cannot show what Cubify writes to a mesh that has Multires
+or is deformed by its parent: see `test_preview_by_modifier`.
 """
 
 from dataclasses import replace
@@ -28,25 +28,25 @@ from .store import marked, store_live, write_live_part
 
 
 class Preview:
-    """A preview on one mesh, from its making until `end_preview`.
+    """A preview on one mesh, from its creation until `end_preview`.
 
-    It holds plain arrays and texts only. Blender frees meshes at undo, so the mesh is handed in
-    anew at each call.
+    It holds only plain arrays and texts. Undo frees meshes, so the mesh is passed again to each
+    call.
     """
 
     def __init__(self, mesh: bpy.types.Mesh, start: Start = "HERE") -> None:
-        """Store on the mesh what is there now; one that is on already is ended first.
+        """Store the current shapes on the mesh; an existing preview is ended first.
 
         Parameters
         ----------
         mesh
-        start : what the run starts from where the mesh was edited by hand since the last result
+        start : what the run starts from if the mesh was edited by hand since the last result
 
         Raises
         ------
         CubicCraftError
-            A mesh that cannot be written, or something in the way of our note or attributes; the
-            mesh is then as it was before.
+            A mesh that cannot be written, or a name conflict with our note or attributes; the
+            mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
         check_note(mesh)
@@ -63,7 +63,7 @@ class Preview:
 
     @property
     def needs_rotations(self) -> bool:
-        """Whether there are shape keys to be carried along."""
+        """Whether there are shape keys that follow the base."""
         return bool(self._original.relative)
 
     def show(
@@ -71,47 +71,47 @@ class Preview:
     ) -> None:
         """Show a shape on the mesh, as `write_mesh` would write it.
 
-        Our own shape key shows it too, so that the picture is the same whatever its value is.
+        Our own shape key also shows it, so that the picture does not depend on its value.
 
         Parameters
         ----------
-        mesh : the mesh, or what has become of it after an undo; in Object Mode
-        positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+        mesh : the mesh, or its replacement after an undo; in Object Mode
+        positions : (n,3) numpy array, object space; ignored for vertices in no face
         rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
-            turn, or no shape keys need them
+            rotate, or no shape keys need them
 
         Raises
         ------
         CubicCraftError
             Wrong number of vertices, values that are not finite, a mesh that cannot be written,
-            or one without this preview. The mesh is then as it was before.
+            or one without this preview. The mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh)
         base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
         shown = self._with_keys(mesh, base, rotations)
         finished = marked(part, shown)
-        # Should writing fail half-way, `end_preview` must not take the mixture for an edit.
+        # If writing fails half-way, `end_preview` must not mistake the mixture for an edit.
         write_live_part(mesh, marked(part, None))
         write_shapes(mesh, shown)
         write_live_part(mesh, finished)
         self._shown = shown.base
 
     def take_along(self, mesh: bpy.types.Mesh) -> bool:
-        """Transform what was there before as the artist has transformed what is shown.
+        """Transform the stored shapes as the artist has transformed the visible mesh.
 
-        Where the origin was set, or a transform applied, all vertices have been moved alike.
-        `end_preview` would take the shape that is shown for one that was made by hand.
+        If the origin was set, or a transform applied, all vertices have been moved alike.
+        `end_preview` would mistake the visible shape for one that was made by hand.
 
         Returns
         -------
-        Whether the preview is to be ended and begun anew; so also with other shape keys.
+        Whether the preview must be ended and restarted, which is also so with other shape keys.
         """
         part = read_note(mesh).get("live")
         if part is None or LIVE not in mesh.attributes or mesh.is_editmode:
             return False
         if _key_names(mesh) != self._keys or len(mesh.vertices) != len(self._loose):
-            return True  # what is there before is known from the mesh itself
+            return True  # the shapes before are stored on the mesh itself
         try:
             present = read_shapes(mesh)
         except CubicCraftError:
@@ -126,7 +126,7 @@ class Preview:
     def _with_keys(
         self, mesh: bpy.types.Mesh, base: np.ndarray, rotations: np.ndarray | None
     ) -> Shapes:
-        """Add what all shape keys are to the base that is to be shown."""
+        """Add all shape keys to the base to be shown."""
         original = self._original
         if original.reference is None:
             return Shapes(base, {}, None, {})
@@ -144,7 +144,7 @@ class Preview:
         return replace(shown, keys=shown.keys | {self._cubic_key: base})
 
     def _part_on(self, mesh: bpy.types.Mesh) -> dict[str, Any]:
-        """Return the part "live" of the note, once what would be overwritten lies on the mesh."""
+        """Return the "live" part of the note, once the shapes to be overwritten are stored."""
         part = read_note(mesh).get("live")
         if (
             part is None
@@ -153,7 +153,7 @@ class Preview:
             or _key_names(mesh) != self._keys
         ):
             raise CubicCraftError(
-                f"Mesh '{mesh.name}' has changed while a preview was on it: start again"
+                f'Mesh "{mesh.name}" has changed while a preview was on it: start again'
             )
         return part
 

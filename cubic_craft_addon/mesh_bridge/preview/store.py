@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a preview overwrites: kept on the mesh itself, and worked out again from there.
+"""The shapes that a preview overwrites: stored on the mesh itself, and recovered from there.
 
-It lies in point attributes and the part "live" of the note, as the original of a result does. So
-an undo step, an autosave or a copy of the mesh, taken while a preview is on, brings along what is
-needed to take the preview back, and no Python object has to outlive it.
+They are in point attributes and in the "live" part of the note, like the original of a result. An
+undo step, an autosave or a copy of the mesh made during a preview therefore includes everything
+needed to end the preview, and no Python object has to outlive it.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ POSITION = f"{LIVE}.position"  # only where it is not equal to the base
 
 def store_live(mesh: bpy.types.Mesh, present: Shapes) -> None:
     """Store all shapes of a mesh that has no preview on it; nothing is stored if that fails."""
-    remove_live_attributes(mesh)  # strays, which joining meshes brings along
+    remove_live_attributes(mesh)  # leftovers from joining meshes
     try:
         add_attribute(mesh, LIVE, present.base)
         if present.position.tobytes() != present.base.tobytes():
@@ -47,7 +47,7 @@ def store_live(mesh: bpy.types.Mesh, present: Shapes) -> None:
 
 
 def move_live(mesh: bpy.types.Mesh, moved: Callable[[np.ndarray], np.ndarray]) -> None:
-    """Move all that is stored, by a function from points (n,3) to points."""
+    """Apply a function from points (n,3) to points to all stored data."""
     for name in our_attributes(mesh, (LIVE,)):
         values = read_attribute(mesh, name, 3)
         if values is not None:
@@ -56,17 +56,17 @@ def move_live(mesh: bpy.types.Mesh, moved: Callable[[np.ndarray], np.ndarray]) -
 
 
 def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:
-    """Say in the part "live" of the note what is on the mesh.
+    """Describe in the "live" part of the note what is on the mesh.
 
     Parameters
     ----------
-    part : the part that is there, which says where everything is stored
-    shown : the shapes that are on the mesh; None while they are being written: whatever is there
-        counts as shown
+    part : the current part, which tells where everything is stored
+    shown : the shapes on the mesh; None while they are being written, when any shape counts as
+        shown
 
     Returns
     -------
-    A new part "live".
+    A new "live" part.
     """
     if shown is None:
         return {
@@ -87,19 +87,19 @@ def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:
 
 
 def write_live_part(mesh: bpy.types.Mesh, part: dict[str, Any]) -> None:
-    """Replace the part "live" of the note."""
+    """Replace the "live" part of the note."""
     write_note(mesh, read_note(mesh) | {"live": part})
 
 
 def drop_live_part(mesh: bpy.types.Mesh) -> None:
-    """Take the part "live" out of the note; the others stay as they are."""
+    """Remove the "live" part of the note; the others do not change."""
     note = read_note(mesh)
     note.pop("live", None)
     write_note(mesh, note)
 
 
 def remove_live_attributes(mesh: bpy.types.Mesh) -> None:
-    """Remove the attributes of a preview, also in Edit Mode."""
+    """Remove the attributes of a preview; also works in Edit Mode."""
     for name in our_attributes(mesh, (LIVE,)):
         remove_attribute(mesh, name)
 
@@ -107,19 +107,19 @@ def remove_live_attributes(mesh: bpy.types.Mesh) -> None:
 def shapes_before(
     present: Shapes, part: dict[str, Any], read: Callable[[str], np.ndarray | None]
 ) -> Shapes | None:
-    """Work out the shapes that were there before the preview.
+    """Recover the shapes from before the preview.
 
-    A shape key that the artist has edited or added since is carried onto the base before.
+    A shape key that the artist has edited or added since is carried onto the earlier base.
 
     Parameters
     ----------
-    present : the shapes that are there now
-    part : the part "live" of the note
-    read : reads the (n,3) values of one of our attributes, None where there is none
+    present : the current shapes
+    part : the "live" part of the note
+    read : reads the (n,3) values of one of our attributes, None if there is none
 
     Returns
     -------
-    Shapes, or None where the base is the artist's own: it is not what was shown
+    Shapes, or None if the base is the artist's own, not the shape shown
     """
     if part["fingerprint"] not in ("", fingerprint_of_values(present.base)):
         return None
@@ -137,9 +137,9 @@ def shapes_before(
 def _known_keys(
     present: Shapes, part: dict[str, Any], read: Callable[[str], np.ndarray | None]
 ) -> dict[str, np.ndarray]:
-    """Find the points before of the shape keys that are as they were shown, and renamed ones."""
+    """Find the earlier points of unchanged shape keys, including renamed ones."""
     by_name = {entry["name"]: entry for entry in part["keys"]}
-    # Only of names that are gone: a new key may show the same shape as one of ours.
+    # Only for names that are gone: a new key may have the same shape as one of ours.
     gone = {e["fingerprint"]: e for e in part["keys"] if e["name"] not in present.keys}
     known = {}
     for name in present.relative:

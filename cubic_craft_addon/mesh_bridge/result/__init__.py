@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results written, all or nothing, and taken back."""
+"""Results: written, all or nothing, and restored."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write a result to a copy of the object; the source stays as it is, bit for bit."""
+"""Write a result to a copy of the object; the source does not change, bit for bit."""
 
 from collections.abc import Callable
 from typing import Any
@@ -25,8 +25,8 @@ def write_new_object(
     """Copy an object with its mesh and write a result to the copy's mesh.
 
     The copy is named "<name> Cubic", lies in the collections of the source, and is selected and
-    active in its place, unless that is in Weight Paint or another mode: one can leave it only
-    while the object is active. It holds the original of the source, so it can be restored.
+    active in its place, unless the source is in Weight Paint or another mode, which can be left
+    only while it is active. It holds the original of the source, so it can be restored.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ def write_new_object(
     positions : (n,3) numpy array, object space
     rotations : (n,3,3) numpy array
     prepare : called with the new object once it has the result, before it takes the place of `obj`
-    run : what to note of the run (see `note`)
-    start : what the result was made from where the mesh was edited by hand since the last one
+    run : the note of the run (see `note`)
+    start : what the result was made from if the mesh was edited by hand since the last one
 
     Returns
     -------
@@ -44,7 +44,7 @@ def write_new_object(
     Raises
     ------
     CubicCraftError
-        As `write_mesh`. Whatever is raised, there is then no new object.
+        As `write_mesh`. After any exception, there is no new object.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -53,7 +53,7 @@ def write_new_object(
     new_mesh, new = mesh.copy(), obj.copy()
     assert new_mesh is not None and new is not None
     try:
-        new.data = new_mesh  # first, so that its active shape key follows when ours is removed
+        new.data = new_mesh  # first, so that its active shape key is adjusted when ours is removed
         write_mesh(new_mesh, positions, rotations, run, start)
         new_mesh.name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
@@ -68,7 +68,7 @@ def write_new_object(
 
 
 def link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
-    """Link the new object to the collections of the old one, as far as they can be changed."""
+    """Link the new object to those collections of the old one that can be changed."""
     collections = [c for c in obj.users_collection if c.is_editable and not c.override_library]
     for collection in collections or [bpy.context.scene.collection]:
         # Copying a rigid body has linked the copy to their collection already.
@@ -77,14 +77,14 @@ def link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
 
 
 def select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
-    """Select the new object and make it active instead of the old one, where the view has it.
+    """Select the new object and make it active instead of the old one, if it is in the view layer.
 
-    Not where the active object is in another mode than Object Mode: it would be stuck there.
+    Not if the active object is in a mode other than Object Mode: it would be stuck there.
     """
     active = bpy.context.view_layer.objects.active
     is_free = obj.mode == "OBJECT" and (active is None or active.mode == "OBJECT")
     try:
-        new.select_set(is_free)  # a copy starts as selected as its source
+        new.select_set(is_free)  # a copy has the selection state of its source
         if is_free:
             obj.select_set(False)
     except RuntimeError:  # none of its collections is in this view layer

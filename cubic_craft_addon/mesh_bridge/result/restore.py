@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Take our results back, or let them stand and forget where they came from."""
+"""Restore the original, or keep the result and discard the original."""
 
 import bpy
 
@@ -15,27 +15,27 @@ from .rollback import all_or_nothing
 
 
 def restore(obj: bpy.types.Object) -> None:
-    """Give a mesh its original bits back and remove everything of ours from it.
+    """Restore the original bits of a mesh and remove all our data from it.
 
-    Where the mesh has been transformed since, as a whole or in parts, so is the original. Where it
-    has been edited by hand, that is lost.
+    If the mesh has been transformed since, as a whole or in parts, so is the original. Edits by
+    hand are lost.
 
     Raises
     ------
     CubicCraftError
-        Nothing to restore, or a mesh that cannot be written; it is then as it was before.
+        Nothing to restore, or a mesh that cannot be written, which is then unchanged.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
     end_preview(mesh)
     if not has_original(mesh):
         if has_traces(mesh):
-            how = " so that its original cannot be told any more" if has_stored(mesh) else ""
+            how = " so that its original can no longer be determined" if has_stored(mesh) else ""
             raise CubicCraftError(
-                f"'{obj.name}' has been edited since it was cubified{how}, and its present shape "
-                "is the original now: Apply removes what is left of the former one"
+                f'"{obj.name}" has been edited since it was cubified{how}, and its current shape '
+                "is now the original: Apply removes the remains of the previous one"
             )
-        raise CubicCraftError(f"'{obj.name}' has no original to restore: cubify it first")
+        raise CubicCraftError(f'"{obj.name}" has no original to restore: cubify it first')
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, "ORIGINAL")
     with all_or_nothing(mesh):
@@ -45,9 +45,9 @@ def restore(obj: bpy.types.Object) -> None:
 
 
 def has_traces(mesh: bpy.types.Mesh | None) -> bool:
-    """Return whether we have left anything on the mesh, valid or stale.
+    """Return whether the mesh has any data of ours, valid or stale.
 
-    Cheap: it reads no positions. False where there is no mesh.
+    It is cheap: it reads no positions. False if there is no mesh.
     """
     if not isinstance(mesh, bpy.types.Mesh):
         return False
@@ -55,14 +55,14 @@ def has_traces(mesh: bpy.types.Mesh | None) -> bool:
 
 
 def discard_original(mesh: bpy.types.Mesh) -> None:
-    """Keep the shape and remove everything else of ours, valid or stale.
+    """Keep the shape and remove all other data of ours, valid or stale.
 
-    The shape key "Cubic" stays. Of a preview that has been left on, nothing is kept.
+    The shape key "Cubic" is kept; a leftover preview is not.
 
     Raises
     ------
     CubicCraftError
-        A mesh that cannot be written; it is then as it was before.
+        A mesh that cannot be written, which is then unchanged.
     """
     check_writable(mesh, mesh.name)
     end_preview(mesh)

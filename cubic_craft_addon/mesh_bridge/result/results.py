@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write a result to the mesh itself or to a shape key.
 
-Either always starts from the original and takes the place of an earlier result of ours. All is
+Both always start from the original and replace an earlier result of ours. Everything is
 computed and checked before the first write.
 """
 
@@ -31,21 +31,21 @@ def write_mesh(
     run: dict[str, Any] | None = None,
     start: Start = "HERE",
 ) -> None:
-    """Write a result to the mesh: the base moves and the shape keys are carried along.
+    """Write a result to the mesh: the base moves and the shape keys follow.
 
     Parameters
     ----------
     mesh : a mesh in Object Mode
-    positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
+    positions : (n,3) numpy array, object space; ignored for vertices in no face
     rotations : (n,3,3) numpy array, the local rotation of each vertex
-    run : what to note of the run (see `note`)
-    start : what the result was made from where the mesh was edited by hand since the last one
+    run : the note of the run (see `note`)
+    start : what the result was made from if the mesh was edited by hand since the last one
 
     Raises
     ------
     CubicCraftError
         Wrong number of vertices, values that are not finite, a mesh that cannot be written, or
-        something in the way of our note or attributes. The mesh is then as it was before.
+        a name conflict with our note or attributes. The mesh is then unchanged.
     """
     check_writable(mesh, mesh.name)
     check_names(mesh)
@@ -75,21 +75,21 @@ def write_shape_key(
     Parameters
     ----------
     obj : an object with a mesh, in Object Mode
-    positions : (n,3) numpy array, object space; vertices in no face stay whatever it says
-    run : what to note of the run (see `note`)
-    start : what the result was made from where the mesh was edited by hand since the last one
+    positions : (n,3) numpy array, object space; ignored for vertices in no face
+    run : the note of the run (see `note`)
+    start : what the result was made from if the mesh was edited by hand since the last one
 
     Raises
     ------
     CubicCraftError
         Wrong number of vertices, values that are not finite, absolute shape keys, or a mesh that
-        cannot be written. The mesh is then as it was before.
+        cannot be written. The mesh is then unchanged.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
     if mesh.shape_keys is not None and not mesh.shape_keys.use_relative:
         raise CubicCraftError(
-            f"'{obj.name}' has absolute shape keys, among which a key cannot be dialled: switch on "
+            f'"{obj.name}" has absolute shape keys, which have no value to adjust: enable '
             "Relative (Object Data > Shape Keys) or choose another result"
         )
     end_preview(mesh)

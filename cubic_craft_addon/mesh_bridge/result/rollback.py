@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Write all or nothing: put a mesh back when writing to it fails half-way."""
+"""Write all or nothing: restore a mesh if writing to it fails half-way."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,8 +16,8 @@ from ..memory.cubic_key import remove_keys
 def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Undo what the block did to the mesh if it raises.
 
-    It covers the positions, the points of shape keys, shape keys added, our attributes and
-    the note. It cannot bring removed shape keys back: remove those last.
+    It covers the positions, the points of shape keys, added shape keys, our attributes and
+    the note. It cannot restore removed shape keys: remove those last.
     """
     state = _State(mesh)
     try:
@@ -28,7 +28,7 @@ def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
 
 
 class _State:
-    """What `all_or_nothing` puts back."""
+    """The state that `all_or_nothing` restores."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh

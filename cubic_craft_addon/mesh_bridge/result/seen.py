@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is seen of an object, with its modifiers, as a mesh object of its own; the source stays.
+"""The visible mesh of an object, with its modifiers, as a new object; the source is kept.
 
-Until it is written it is in no scene. Texts, curves, surfaces and metaballs become meshes this way.
+It is in no scene until it is written. Texts, curves, surfaces and metaballs also become meshes.
 """
 
 from collections.abc import Callable
@@ -18,21 +18,21 @@ from .new_object import link_beside, select_instead
 from .results import write_mesh
 
 KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-"""types of objects that are seen as meshes"""
+"""types of objects with a visible mesh"""
 
 _PLAIN_PARENTS = ("OBJECT", "BONE", "VERTEX", "VERTEX_3")
 
 
 def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
-    """Return a new mesh object with the mesh that is seen of another, in no scene yet.
+    """Return a new object with the visible mesh of another, in no scene yet.
 
-    It has materials, UVs, vertex groups and attributes as far as the evaluated mesh has them, the
-    place of the source, and no modifiers and shape keys: they are in it.
+    It has the materials, UVs, vertex groups and attributes of the evaluated mesh and the transform
+    of the source, but no modifiers and shape keys, which are already applied.
 
     Raises
     ------
     CubicCraftError
-        Nothing with faces is seen of the object; no new object is left then.
+        The object has no visible faces; no new object is left then.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     try:
@@ -40,7 +40,7 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
             obj.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
         )
     except RuntimeError as error:
-        raise CubicCraftError(f'"{obj.name}" is not seen as a mesh') from error
+        raise CubicCraftError(f'"{obj.name}" cannot be evaluated as a mesh') from error
     if not mesh.polygons:
         bpy.data.meshes.remove(mesh)
         raise CubicCraftError(
@@ -54,7 +54,7 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 def remove_seen(new: bpy.types.Object) -> None:
-    """Remove what `make_seen` has made."""
+    """Remove an object made by `make_seen`."""
     mesh = mesh_of(new)
     bpy.data.objects.remove(new)
     bpy.data.meshes.remove(mesh)
@@ -68,19 +68,19 @@ def write_seen(
     prepare: Callable[[bpy.types.Object], None],
     run: dict[str, Any] | None,
 ) -> bpy.types.Object:
-    """Write a result to what `make_seen` has made, and show that beside the source.
+    """Write a result to an object made by `make_seen`, and show it beside the source.
 
     Parameters
     ----------
     new, source : bpy.types.Object
-        The source is None where it was deleted in the meantime.
+        The source is None if it was deleted in the meantime.
     positions, rotations, prepare, run
         As for `write_new_object`.
 
     Raises
     ------
     CubicCraftError
-        As `write_mesh`. Whatever is raised, there is then no new object.
+        As `write_mesh`. After any exception, there is no new object.
     """
     try:
         write_mesh(mesh_of(new), positions, rotations, run)
@@ -98,7 +98,7 @@ def write_seen(
 
 
 def _forget_ours(mesh: bpy.types.Mesh) -> None:
-    """Remove what evaluating has brought along of an earlier result: it is of another mesh."""
+    """Remove evaluated data of an earlier result, which belongs to another mesh."""
     for name in our_attributes(mesh):
         remove_attribute(mesh, name)
     if read_note(mesh):
@@ -112,7 +112,7 @@ def _copy(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
     new.modifiers.clear()
     new.active_shape_key_index = 0
     new.show_only_shape_key = False
-    if new.parent_type not in _PLAIN_PARENTS:  # deforms as well, which is in the mesh
+    if new.parent_type not in _PLAIN_PARENTS:  # also deforms, which is already in the mesh
         new.parent_type = "OBJECT"
     return new
 

@@ -209,5 +209,5 @@ def test_one_lost_part_is_no_original(bridge, error):
     edited.to_mesh(one.data)
     edited.free()
     assert not bridge.has_original(one.data)
-    with pytest.raises(error, match="cannot be told"):
+    with pytest.raises(error, match="can no longer be determined"):
         bridge.restore(one)

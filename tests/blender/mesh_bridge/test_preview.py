@@ -162,7 +162,7 @@ def test_refused_before_anything_is_written(bridge, error, keyed_monkey, spoil):
     original = snapshot_object(keyed_monkey)
     preview = show_some(bridge, mesh)
     before = snapshot_object(keyed_monkey)
-    with pytest.raises(error, match="'Monkey'"):
+    with pytest.raises(error, match='"Monkey"'):
         preview.show(mesh, *spoil(*cubic_like(position_of(mesh))))
     assert differences(before, snapshot_object(keyed_monkey)) == []
     bridge.end_preview(mesh)

@@ -27,14 +27,14 @@ def test_copy_of_a_cubified_object_can_be_restored(bridge, monkey):
 
 def test_nothing_to_restore(bridge, error, monkey):
     before = snapshot_object(monkey)
-    with pytest.raises(error, match=f"'{monkey.name}'.*cubify it first"):
+    with pytest.raises(error, match=f'"{monkey.name}".*cubify it first'):
         bridge.restore(monkey)
     assert differences(before, snapshot_object(monkey)) == []
 
 
 def test_restore_of_no_mesh(bridge, error):
     empty = bpy.data.objects.new("Hook", None)
-    with pytest.raises(error, match="'Hook' is not a mesh"):
+    with pytest.raises(error, match='"Hook" is not a mesh'):
         bridge.restore(empty)
 
 

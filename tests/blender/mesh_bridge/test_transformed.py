@@ -353,7 +353,7 @@ def test_results_of_the_first_version(bridge, error, monkey):
         if is_moved:
             apply_all(monkey, scale=(2, 2, 2))
             assert not bridge.has_original(mesh)
-            with pytest.raises(error, match=r"edited since .* cannot be told"):
+            with pytest.raises(error, match=r"edited since .* can no longer be determined"):
                 bridge.restore(monkey)
             cubify(bridge, monkey)
             assert bridge.has_original(mesh)

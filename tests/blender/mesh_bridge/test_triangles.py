@@ -82,5 +82,5 @@ def test_nothing_is_left_behind(bridge, monkey):
 def test_a_vertex_that_is_not_there_is_refused(bridge, error, size, vertex):
     mesh = mesh_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [range(size)])
     mesh.loops.foreach_set("vertex_index", np.array([*range(size - 1), vertex], np.int32))
-    with pytest.raises(error, match=f"'Cut' names vertex {vertex}, but there are only 4"):
+    with pytest.raises(error, match=f'"Cut" refers to vertex {vertex}, but there are only 4'):
         bridge.triangles(mesh, bridge.read_positions(mesh))

@@ -29,5 +29,5 @@ def test_empty_group(bridge, cube):
 @pytest.mark.parametrize("name", ["Missing", "map", ""])
 def test_missing_group(bridge, error, cube, name):
     cube.vertex_groups.new(name="Map")
-    with pytest.raises(error, match=f"'Cube' has no vertex group '{name}': add one"):
+    with pytest.raises(error, match=f'"Cube" has no vertex group "{name}"; pick another'):
         bridge.group_weights(cube, name)

@@ -258,7 +258,7 @@ def test_absolute_keys_are_refused(bridge, error, keyed_monkey):
     mesh.shape_keys.use_relative = False
     before = snapshot_object(keyed_monkey)
     positions = result_of(bridge, mesh)[0]
-    with pytest.raises(error, match=r"'Suzanne' has absolute shape keys.*switch on Relative"):
+    with pytest.raises(error, match=r'"Suzanne" has absolute shape keys.*enable Relative'):
         bridge.write_shape_key(keyed_monkey, positions)
     assert differences(before, snapshot_object(keyed_monkey)) == []
     mesh.shape_keys.use_relative = True
