@@ -3,21 +3,21 @@
 
 from dataclasses import dataclass
 
-from . import scaling, startup
+from . import defaults, solver_alone
 from .best_energies import BestEnergies
-from .defaults import SETTINGS
-from .isolated import call
-from .machine import machine_line
-from .made_meshes import made_meshes
-from .meshes import known_meshes
-from .scaled_meshes import scaled_meshes
+from .find_best import find_best
+from .machine import isolated, machine_line
+from .meshes import known_meshes, made_meshes, scaled_meshes
+from .phases import phases
+from .race import race
+from .startup import startup
 
-PARTS = ("ten", "race", "phases", "scaling", "defaults", "startup")
 LARGE = 10_000
 """vertices from which the peers run only once"""
 LARGE_SCALING = 50_000
 """vertices from which a size is measured only once"""
-PHASES_CUBENESS = DEFAULTS_CUBENESS = 0.4
+CUBENESS = solver_alone.CUBENESS
+"""of all parts but the race"""
 COARSE = 2000
 """vertices up to which Live is measured with the defaults"""
 
@@ -67,146 +67,119 @@ QUICK = Plan(
 )
 
 
-def measure(plan, folder, cache, parts, say):
-    """Measure and return the results by part; parts that are left out are empty.
+def measure(plan, folder, parts, say):
+    """Measure and return the results by part; those that are left out are empty.
 
-    Parameters
-    ----------
-    plan : Plan
-        Meshes that are not there are left out.
-    folder, cache : Path
-        Of the meshes as they are, and as they are kept.
-    parts : collection of str
-        Some of PARTS.
-    say : callable
-        Is told what is being measured, in one line.
+    Meshes of the plan that are not in the folder are left out, too. `say` is told what is being
+    measured, in one line.
     """
-    meshes = known_meshes(folder, cache)
-    best = BestEnergies()
-    cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
+    meshes = known_meshes(folder)
     results = {"machine": machine_line(), "runs": plan.runs}
-    results |= {part: [] for part in PARTS} | {"startup": {}}
-    if "ten" in parts:
-        for name in plan.ten:
-            if name in meshes:
-                say(f"ten iterations: {name}")
-                results["ten"].append(_ten(meshes[name], plan.runs))
-    if "race" in parts:
-        for mesh, cubeness in cases:
-            say(f"to the best shape: {mesh.name} {cubeness}")
-            results["race"].append(_race(mesh, cubeness, plan, best))
-    if "phases" in parts:
-        for mesh in dict.fromkeys(mesh for mesh, _ in cases):
-            say(f"phases: {mesh.name}")
-            figures = call("phases", "phases", path=str(mesh.path), cubeness=PHASES_CUBENESS)
-            results["phases"].append(_head(mesh, PHASES_CUBENESS) | figures)
-    if "scaling" in parts:
-        for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
-            say(f"scaling: {mesh.vertices:,} vertices")
-            results["scaling"].append(_one_size(mesh, plan, best))
-    if "defaults" in parts:
-        results["defaults"] = _all_defaults(plan, meshes, cache, say)
-    if "startup" in parts:
-        say("start-up")
-        results["startup"] = startup.startup(plan.runs)
+    for part, measured in PARTS.items():
+        results[part] = list(measured(plan, meshes, say)) if part in parts else []
     return results
 
 
-def renew_best_energies(plan, folder, cache, seconds, only, say):
-    """Look long for lower energies than those known, and keep them.
+def _ten(plan, meshes, say):
+    for mesh in _there(plan.ten, meshes):
+        say(f"ten iterations: {mesh.name}")
+        figures = isolated(solver_alone.ten_iterations, source=mesh.source, runs=plan.runs)
+        yield {"mesh": mesh.name, "vertices": mesh.vertices, **figures}
+
+
+def _race(plan, meshes, say):
+    best = BestEnergies()
+    for mesh, cubeness in _cases(plan, meshes):
+        say(f"to the best shape: {mesh.name} {cubeness}")
+        peer_runs = plan.runs if mesh.vertices < LARGE else 1
+        head = _head(mesh, cubeness)
+        yield head | isolated(
+            race,
+            path=mesh.path,
+            cubeness=cubeness,
+            best=best.get(*head.values()),
+            runs=plan.runs,
+            plain_runs=peer_runs,
+            pymeshlab_runs=peer_runs if (mesh.name, cubeness) in plan.pymeshlab else 0,
+        )
+
+
+def _phases(plan, meshes, say):
+    for mesh in dict.fromkeys(mesh for mesh, _ in _cases(plan, meshes)):
+        say(f"phases: {mesh.name}")
+        yield _head(mesh) | isolated(phases, path=mesh.path, cubeness=CUBENESS)
+
+
+def _scaling(plan, meshes, say):
+    best = BestEnergies()
+    for mesh in scaled_meshes(meshes.get("bunny"), plan.max_vertices):
+        say(f"scaling: {mesh.vertices:,} vertices")
+        runs = plan.runs if mesh.vertices < LARGE_SCALING else 1
+        head = _head(mesh)
+        figures = isolated(solver_alone.one_size, path=mesh.path, runs=runs)
+        yield head | {"best": best.get(*head.values())} | figures
+
+
+def _defaults(plan, meshes, say):
+    for mesh in (*_there(plan.defaults, meshes), *made_meshes(plan.fineness)):
+        say(f"with the defaults: {mesh.name}")
+        case = {"path": mesh.path, "cubeness": CUBENESS}
+        figures = isolated(defaults.side_by_side, **case, runs=plan.runs)
+        ticks = isolated(defaults.ticks, **case) if mesh.vertices <= COARSE else []
+        yield _head(mesh) | figures | {"ticks": ticks}
+    largest = scaled_meshes(meshes.get("bunny"), plan.max_vertices)[-1]
+    say(f"with the defaults: {largest.name}, {largest.vertices:,} vertices")
+    case = {"path": largest.path, "cubeness": CUBENESS}
+    alone = {name: [isolated(defaults.alone, **case, name=name)] for name in defaults.SETTINGS}
+    yield _head(largest) | alone | {"ticks": []}
+
+
+def _startup(plan, meshes, say):
+    say("start-up")
+    yield startup(plan.runs)
+
+
+PARTS = {
+    "ten": _ten,
+    "race": _race,
+    "phases": _phases,
+    "scaling": _scaling,
+    "defaults": _defaults,
+    "startup": _startup,
+}
+
+
+def renew_best_energies(plan, folder, seconds, only, say):
+    """Look long for lower energies than those known, and keep them; see `find_best`.
 
     Parameters
     ----------
-    plan, folder, cache, say
-        As in `measure`; meshes above the plan's ``max_vertices`` are left out.
-    seconds : float
-        See `find_best`.
     only : sequence of str
         If there are any, cases whose "mesh vertices cubeness" begins with one of them.
     """
-    meshes = known_meshes(folder, cache)
-    cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
-    for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
-        if all(mesh.vertices != known.vertices for known, _ in cases):
-            cases.append((mesh, scaling.CUBENESS))
-    best = BestEnergies()
+    meshes = known_meshes(folder)
+    sizes = scaled_meshes(meshes.get("bunny"), plan.max_vertices)
+    best, known = BestEnergies(), {mesh.vertices for mesh, _ in _cases(plan, meshes)}
+    cases = _cases(plan, meshes) + [(m, CUBENESS) for m in sizes if m.vertices not in known]
     for mesh, cubeness in cases:
+        case = mesh.name, mesh.vertices, cubeness
         name = f"{mesh.name} {mesh.vertices} {cubeness:g}"
-        is_wanted = not only or name.startswith(tuple(only))
-        if mesh.vertices > plan.max_vertices or not is_wanted:
+        if mesh.vertices > plan.max_vertices or not name.startswith(tuple(only) or ""):
             continue
-        known = best.get(mesh.name, mesh.vertices, cubeness)
-        arguments = {"path": str(mesh.path), "cubeness": cubeness, "seconds": seconds}
-        energy, found_by = call("find_best", "find_best", **arguments)
-        is_new = best.offer(mesh.name, mesh.vertices, cubeness, energy, found_by)
+        before = best.get(*case)
+        energy, found_by = isolated(find_best, path=mesh.path, cubeness=cubeness, seconds=seconds)
+        is_new = best.offer(*case, energy=energy, found_by=found_by)
         end = f"new, {found_by}" if is_new else "no better"
-        say(f"{name}: known {known}, found {energy:.7f}: {end}")
+        say(f"{name}: known {before}, found {energy:.7f}: {end}")
 
 
-def keep_lower_energies(results, best):
-    """Put energies that are lower than known ones into the BestEnergies.
-
-    A first one comes from `renew_best_energies` alone: the end of one run says too little.
-    """
-    for case in results["race"] + results["scaling"]:
-        name = case["mesh"], case["vertices"], case["cubeness"]
-        energy = min(run["energy"] for run in case["ours"])
-        if best.get(*name) is not None:
-            best.offer(*name, min(energy, case["best"]), "the benchmark")
+def _there(names, meshes):
+    return [meshes[name] for name in names if name in meshes]
 
 
-def _head(mesh, cubeness):
+def _cases(plan, meshes):
+    return [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
+
+
+def _head(mesh, cubeness=CUBENESS):
     return {"mesh": mesh.name, "vertices": mesh.vertices, "cubeness": cubeness}
-
-
-def _ten(mesh, runs):
-    figures = call("ten_iterations", "ten_iterations", source=str(mesh.source), runs=runs)
-    return {"mesh": mesh.name, "vertices": mesh.vertices, **figures}
-
-
-def _race(mesh, cubeness, plan, best):
-    peer_runs = plan.runs if mesh.vertices < LARGE else 1
-    figures = call(
-        "race",
-        "race",
-        path=str(mesh.path),
-        cubeness=cubeness,
-        best=best.get(mesh.name, mesh.vertices, cubeness),
-        runs=plan.runs,
-        plain_runs=peer_runs,
-        pymeshlab_runs=peer_runs if (mesh.name, cubeness) in plan.pymeshlab else 0,
-    )
-    return _head(mesh, cubeness) | figures
-
-
-def _one_size(mesh, plan, best):
-    runs = plan.runs if mesh.vertices < LARGE_SCALING else 1
-    figures = call("scaling", "one_size", path=str(mesh.path), runs=runs)
-    known = best.get(mesh.name, mesh.vertices, scaling.CUBENESS)
-    return _head(mesh, scaling.CUBENESS) | {"best": known} | figures
-
-
-def _all_defaults(plan, meshes, cache, say):
-    """Return the cases of the part "defaults": the largest mesh last, for its memory."""
-    known = [meshes[name] for name in plan.defaults if name in meshes]
-    cases = []
-    for mesh in (*known, *made_meshes(cache, plan.fineness).values()):
-        say(f"with the defaults: {mesh.name}")
-        cases.append(_defaults(mesh, plan.runs))
-    largest = scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices)[-1]
-    say(f"with the defaults: {largest.name}, {largest.vertices:,} vertices")
-    return [*cases, _defaults_alone(largest)]
-
-
-def _defaults(mesh, runs):
-    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
-    figures = call("defaults", "side_by_side", **arguments, runs=runs)
-    ticks = call("defaults", "ticks", **arguments) if mesh.vertices <= COARSE else []
-    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": ticks}
-
-
-def _defaults_alone(mesh):
-    """Measure a large mesh once with each, in processes of their own, for the memory."""
-    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
-    figures = {name: [call("defaults", "alone", **arguments, name=name)] for name in SETTINGS}
-    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": []}

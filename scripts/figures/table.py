@@ -43,7 +43,7 @@ def write(results: Path, output: Path) -> str:
 def _page(results: dict) -> str:
     # Here, because they bring the solver along, which nothing else of this needs.
     from benchmark import tables
-    from benchmark.ten_iterations import CUBENESS, ITERATIONS
+    from benchmark.solver_alone import CUBENESS, ITERATIONS
 
     return f"""\
 # Table 1: running time
@@ -53,7 +53,7 @@ def _page(results: dict) -> str:
 The columns of the paper are its Table 1, from another machine: an NVIDIA RTX 3050 Ti, and for the
 CPU the program of Liu and Jacobson on an AMD R9 5900HS. Its sixth mesh, a dragon, is not at hand.
 
-{tables.ten_iterations(results["ten"])}
+{tables.markdown(list(tables.ten_iterations(results["ten"])))}
 
 Written by `make bench figures`.
 """
