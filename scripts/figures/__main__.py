@@ -17,11 +17,12 @@ from headless.interruption import end_on_signals  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 from headless_render import leave  # noqa: E402
 
-from figures import interface, table  # noqa: E402
+from figures.copied import copy_screenshot, write_table  # noqa: E402
 
 PROGRAM = "figures"
 RENDERED = ("1", "2", "3", "5", "6")
-"""figures of the paper that Blender renders; what is left, other commands have made"""
+"""figures that Blender renders; what is left, other commands have made"""
+ALL = (*RENDERED, "4", "table")
 BUILD = ROOT / "build"
 
 
@@ -40,8 +41,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--only",
         nargs="+",
-        choices=(*RENDERED, "4", "table"),
-        default=(*RENDERED, "4", "table"),
+        choices=ALL,
+        default=ALL,
         help="numbers of figures, or table (default: all)",
     )
     parser.add_argument("--width", type=int, default=1600, metavar="PIXELS", help="(default: 1600)")
@@ -88,9 +89,9 @@ def main() -> int:
             if folder is not None:
                 folder.mkdir(parents=True, exist_ok=True)
         if "4" in options.only:
-            print(interface.take(options.screenshots, options.output), file=sys.stderr)
+            print(copy_screenshot(options.screenshots, options.output), file=sys.stderr)
         if "table" in options.only:
-            print(table.write(options.bench, options.output), file=sys.stderr)
+            print(write_table(options.bench, options.output), file=sys.stderr)
         wanted = [name for name in RENDERED if name in options.only]
         if wanted:
             from figures.rendered import render_figures  # late: it takes Blender a second to start

@@ -2,6 +2,7 @@
 """Figure 6: one mesh, cubified toward cubes of different orientation, with each cube beside it."""
 
 import math
+from itertools import product
 
 import bpy
 import numpy as np
@@ -10,7 +11,6 @@ from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
-from .picture import Picture, side_by_side
 
 __all__ = ("compose",)
 
@@ -22,8 +22,6 @@ ORIENTATIONS = {
     "on a corner": (45.0, math.degrees(math.atan(math.sqrt(0.5))), 0.0),
 }
 """label: Euler angles in degrees, relative to the mesh"""
-HEIGHT = 520
-"""pixels"""
 EDGE = 0.2
 """of the cube, relative to the largest side of the mesh"""
 BEVEL = 0.06
@@ -32,8 +30,8 @@ AWAY = (-0.62, -0.30)
 """middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
 
 
-def compose(meshes: FigureMeshes) -> Picture:
-    """Stand the cubic versions in a row, each with the cube that it is turned toward."""
+def compose(meshes: FigureMeshes) -> list[Group]:
+    """Return the cubic versions, each with the cube that it is turned toward."""
     (model,) = meshes.there(["bunny"], instead=["monkey"])
     clay = surface("Cube", *FINISHES["clay"])
     groups = []
@@ -44,7 +42,7 @@ def compose(meshes: FigureMeshes) -> Picture:
         group = meshes.group(model, shape, label, "green")
         _add_cube(group, model, angles, clay)
         groups.append(group)
-    return side_by_side(groups, HEIGHT)
+    return groups
 
 
 def _add_cube(
@@ -66,8 +64,7 @@ def _add_cube(
 
 
 def _corners(half: float) -> np.ndarray:
-    signs = (-half, half)
-    return np.array([(x, y, z) for x in signs for y in signs for z in signs])
+    return half * np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
 def _cube(corners: np.ndarray, clay: bpy.types.Material) -> bpy.types.Object:
