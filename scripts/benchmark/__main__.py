@@ -8,7 +8,6 @@ import argparse
 import json
 import os
 import sys
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -61,11 +60,8 @@ def main():
     """Run what was asked for."""
     options = arguments()
     plan = QUICK if options.quick else FULL
-    plan = replace(
-        plan,
-        runs=options.runs or plan.runs,
-        max_vertices=options.max_vertices or plan.max_vertices,
-    )
+    given = {"runs": options.runs, "max_vertices": options.max_vertices}
+    plan = plan._replace(**{name: value for name, value in given.items() if value})
     say = partial(print, flush=True)
     if options.find_best:
         renew_best_energies(plan, options.meshes, options.find_best, options.only, say)

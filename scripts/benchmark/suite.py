@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured, in which order, how often."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from . import defaults, solver_alone
 from .best_energies import BestEnergies
@@ -22,48 +22,33 @@ COARSE = 2000
 """vertices up to which Live is measured with the defaults"""
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(NamedTuple):
     """How much is measured."""
 
     runs: int
     max_vertices: int
-    cases: tuple
-    """(mesh, cubeness)"""
-    pymeshlab: tuple
-    """those of the cases that PyMeshLab takes part in: the others take it minutes"""
-    ten: tuple
-    """meshes"""
-    defaults: tuple
-    """meshes, the made ones left aside"""
     fineness: int
-    """of the made ones"""
+    """of the meshes that are made"""
+    cases: tuple
+    """(mesh, cubeness, whether PyMeshLab takes part: the others take it minutes)"""
 
 
 FULL = Plan(
     runs=3,
     max_vertices=1_100_000,
-    cases=(
-        *[(mesh, cubeness) for mesh in ("spot", "bunny", "homer") for cubeness in (0.2, 0.4)],
-        *[("owl", 0.4), ("horse", 0.2), ("horse", 0.4), ("armadillo", 0.2), ("armadillo", 0.4)],
-        *[("blob-10k", 0.2), ("blob-10k", 0.4), ("blob-41k", 0.4)],
-    ),
-    pymeshlab=(
-        *[(mesh, cubeness) for mesh in ("spot", "bunny") for cubeness in (0.2, 0.4)],
-        *[("horse", 0.4), ("blob-10k", 0.2), ("blob-10k", 0.4)],
-    ),
-    ten=("homer", "bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
-    defaults=("bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
     fineness=6,
+    cases=(
+        *[(mesh, value, True) for mesh in ("spot", "bunny", "blob-10k") for value in (0.2, 0.4)],
+        *[("homer", 0.2, False), ("homer", 0.4, False), ("owl", 0.4, False), ("horse", 0.2, False)],
+        *[("horse", 0.4, True), ("armadillo", 0.2, False), ("armadillo", 0.4, False)],
+        ("blob-41k", 0.4, False),
+    ),
 )
 QUICK = Plan(
     runs=1,
     max_vertices=30_000,
-    cases=(("bunny", 0.2), ("horse", 0.4), ("blob-10k", 0.2)),
-    pymeshlab=(("bunny", 0.2), ("blob-10k", 0.2)),
-    ten=("bunny", "horse", "blob-10k"),
-    defaults=("bunny", "blob-10k"),
     fineness=4,
+    cases=(("bunny", 0.2, True), ("horse", 0.4, False), ("blob-10k", 0.2, True)),
 )
 
 
@@ -81,15 +66,15 @@ def measure(plan, folder, parts, say):
 
 
 def _ten(plan, meshes, say):
-    for mesh in _there(plan.ten, meshes):
+    for mesh in _meshes(plan, meshes):
         say(f"ten iterations: {mesh.name}")
         figures = isolated(solver_alone.ten_iterations, source=mesh.source, runs=plan.runs)
-        yield {"mesh": mesh.name, "vertices": mesh.vertices, **figures}
+        yield _head(mesh) | figures
 
 
 def _race(plan, meshes, say):
     best = BestEnergies()
-    for mesh, cubeness in _cases(plan, meshes):
+    for mesh, cubeness, with_pymeshlab in _cases(plan, meshes):
         say(f"to the best shape: {mesh.name} {cubeness}")
         peer_runs = plan.runs if mesh.vertices < LARGE else 1
         head = _head(mesh, cubeness)
@@ -100,12 +85,12 @@ def _race(plan, meshes, say):
             best=best.get(*head.values()),
             runs=plan.runs,
             plain_runs=peer_runs,
-            pymeshlab_runs=peer_runs if (mesh.name, cubeness) in plan.pymeshlab else 0,
+            pymeshlab_runs=peer_runs if with_pymeshlab else 0,
         )
 
 
 def _phases(plan, meshes, say):
-    for mesh in dict.fromkeys(mesh for mesh, _ in _cases(plan, meshes)):
+    for mesh in _meshes(plan, meshes):
         say(f"phases: {mesh.name}")
         yield _head(mesh) | isolated(phases, path=mesh.path, cubeness=CUBENESS)
 
@@ -121,7 +106,7 @@ def _scaling(plan, meshes, say):
 
 
 def _defaults(plan, meshes, say):
-    for mesh in (*_there(plan.defaults, meshes), *made_meshes(plan.fineness)):
+    for mesh in (*_meshes(plan, meshes), *made_meshes(plan.fineness)):
         say(f"with the defaults: {mesh.name}")
         case = {"path": mesh.path, "cubeness": CUBENESS}
         figures = isolated(defaults.side_by_side, **case, runs=plan.runs)
@@ -152,18 +137,15 @@ PARTS = {
 def renew_best_energies(plan, folder, seconds, only, say):
     """Look long for lower energies than those known, and keep them; see `find_best`.
 
-    Parameters
-    ----------
-    only : sequence of str
-        If there are any, cases whose "mesh vertices cubeness" begins with one of them.
+    If `only` names any, only cases are looked at whose "mesh vertices cubeness" begins so.
     """
-    meshes = known_meshes(folder)
+    meshes, best = known_meshes(folder), BestEnergies()
+    cases = [(mesh, cubeness) for mesh, cubeness, _ in _cases(plan, meshes)]
+    known = {mesh.vertices for mesh, _ in cases}
     sizes = scaled_meshes(meshes.get("bunny"), plan.max_vertices)
-    best, known = BestEnergies(), {mesh.vertices for mesh, _ in _cases(plan, meshes)}
-    cases = _cases(plan, meshes) + [(m, CUBENESS) for m in sizes if m.vertices not in known]
-    for mesh, cubeness in cases:
+    for mesh, cubeness in cases + [(m, CUBENESS) for m in sizes if m.vertices not in known]:
         case = mesh.name, mesh.vertices, cubeness
-        name = f"{mesh.name} {mesh.vertices} {cubeness:g}"
+        name = " ".join(map(str, case))
         if mesh.vertices > plan.max_vertices or not name.startswith(tuple(only) or ""):
             continue
         before = best.get(*case)
@@ -173,12 +155,12 @@ def renew_best_energies(plan, folder, seconds, only, say):
         say(f"{name}: known {before}, found {energy:.7f}: {end}")
 
 
-def _there(names, meshes):
-    return [meshes[name] for name in names if name in meshes]
-
-
 def _cases(plan, meshes):
-    return [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
+    return [(meshes[name], *others) for name, *others in plan.cases if name in meshes]
+
+
+def _meshes(plan, meshes):
+    return dict.fromkeys(mesh for mesh, *_ in _cases(plan, meshes))
 
 
 def _head(mesh, cubeness=CUBENESS):
