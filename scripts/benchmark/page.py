@@ -34,13 +34,13 @@ def _sections(results):
     by_plain = [case for case in race_results if case["plain"]]
     by_pymeshlab = [case for case in race_results if case["pymeshlab"]]
     made = [
-        ("## Ten iterations", _TEN, tables.ten_iterations(results["ten"])),
-        ("## To the best shape", _GAPS, tables.gaps(race_results)),
-        ("### Beside the plain iteration", _PLAIN, tables.plain(by_plain)),
-        ("### Beside PyMeshLab", _PYMESHLAB, tables.pymeshlab(by_pymeshlab)),
-        ("## Where the time goes, and memory", _PHASES, tables.phases(results["phases"])),
-        ("## Time over size", _scaling_caption(results), tables.scaling(results["scaling"])),
-        ("## With the defaults", _DEFAULTS, tables.defaults(results["defaults"])),
+        ("## Ten iterations", _TEN, map(tables.ten_iterations, results["ten"])),
+        ("## To the best shape", _GAPS, map(tables.gaps, race_results)),
+        ("### Beside the plain iteration", _PLAIN, map(tables.plain, by_plain)),
+        ("### Beside PyMeshLab", _PYMESHLAB, map(tables.pymeshlab, by_pymeshlab)),
+        ("## Where the time goes, and memory", _PHASES, map(tables.phases, results["phases"])),
+        ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
+        ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
         ("### Memory of the largest", _MEMORY, tables.memory_of_defaults(results["defaults"])),
         ("## From start to first result", _STARTUP, tables.startup(results["startup"])),
         ("## Targets", _TARGETS, targets(results)),

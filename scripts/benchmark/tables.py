@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of the page: each a list of rows {heading: value}, and how they look in Markdown."""
+"""Rows {heading: value} of the tables of the page, most of one case, and their Markdown."""
 
 from statistics import median
 
@@ -34,111 +34,95 @@ def _cell(value):
     return f"{value:.3g}" if abs(value) < 1000 and isinstance(value, float) else f"{value:,.0f}"
 
 
-def ten_iterations(results):
-    """Give ten iterations beside the paper's."""
-    for result in results:
-        ours = median(result["seconds"])
-        gpu, cpu = PAPER_SECONDS.get(result["mesh"], (None, None))
-        yield {
-            "mesh": result["mesh"],
-            "vertices": result["vertices"],
-            "reading the file, s": median(result["reading"]),
-            "CubicCraft, s": ours,
-            "paper, GPU, s": gpu,
-            "paper, CPU, s": cpu,
-            "times the paper's GPU": _ratio(gpu, ours),
-            "times the paper's CPU": _ratio(cpu, ours),
-        }
+def ten_iterations(result):
+    """Return ten iterations of a mesh beside the paper's."""
+    ours = median(result["seconds"])
+    gpu, cpu = PAPER_SECONDS.get(result["mesh"], (None, None))
+    return {
+        "mesh": result["mesh"],
+        "vertices": result["vertices"],
+        "reading the file, s": median(result["reading"]),
+        "CubicCraft, s": ours,
+        "paper, GPU, s": gpu,
+        "paper, CPU, s": cpu,
+        "times the paper's GPU": _ratio(gpu, ours),
+        "times the paper's CPU": _ratio(cpu, ours),
+    }
 
 
-def gaps(cases):
-    """Give our times to the gaps and to our own stop."""
-    for case in cases:
-        row = _case(case)
-        for gap in GAPS:
-            seconds = seconds_to_gap(case, "ours", gap)
-            beyond = seconds_to_gap(case, "long", gap)
-            is_beyond = seconds is None and beyond is not None
-            row[f"to gap {100 * gap:g} %, s"] = f"({beyond:.3g})" if is_beyond else seconds
-        row |= _end(case, "ours", "to our stop")
-        yield row | {
-            "gap there, %": _end_gap(case, "ours"),
-            "of it set-up, s": _setup(case, "ours"),
-        }
+def gaps(case):
+    """Return our times to the gaps and to our own stop."""
+    row = _case(case)
+    for gap in GAPS:
+        seconds, beyond = (seconds_to_gap(case, program, gap) for program in ("ours", "long"))
+        is_beyond = seconds is None and beyond is not None
+        row[f"to gap {100 * gap:g} %, s"] = f"({beyond:.3g})" if is_beyond else seconds
+    return row | _end(case, "ours", "to our stop") | {"of it set-up, s": _setup(case, "ours")}
 
 
-def plain(cases):
-    """Give the plain iteration beside ours."""
-    for case in cases:
-        row = _case(case)
-        for gap in GAPS[:2]:
-            theirs = seconds_to_gap(case, "plain", gap)
-            row[f"plain to gap {100 * gap:g} %, s"] = theirs
-            row[f"times faster to {100 * gap:g} %"] = _ratio(
-                theirs, seconds_to_gap(case, "ours", gap)
-            )
-        end = median_of(case, "plain", "seconds")
-        row |= _end(case, "plain", "plain left at")
-        row["gap there, %"] = _end_gap(case, "plain")
-        yield row | {"times sooner there": _ratio(end, seconds_to_end_of(case, "plain"))}
+def plain(case):
+    """Return the plain iteration beside ours."""
+    row = _case(case)
+    for gap in GAPS[:2]:
+        theirs, ours = (seconds_to_gap(case, program, gap) for program in ("plain", "ours"))
+        row[f"plain to gap {100 * gap:g} %, s"] = theirs
+        row[f"times faster to {100 * gap:g} %"] = _ratio(theirs, ours)
+    end = median_of(case, "plain", "seconds")
+    sooner = {"times sooner there": _ratio(end, seconds_to_end_of(case, "plain"))}
+    return row | _end(case, "plain", "plain left at") | sooner
 
 
-def pymeshlab(cases):
-    """Give PyMeshLab beside ours."""
-    for case in cases:
-        end, stop = (median_of(case, name, "seconds") for name in ("pymeshlab", "ours"))
-        there = seconds_to_end_of(case, "pymeshlab")
-        yield _case(case) | {
-            "PyMeshLab ends, s": end,
-            "its energy": f"{median_of(case, 'pymeshlab', 'energy'):.5f}",
-            "its gap, %": _end_gap(case, "pymeshlab"),
-            "ours as low, s": there,
-            "times sooner": _ratio(end, there),
-            "ours at its stop, s": stop,
-            "our energy": f"{median_of(case, 'ours', 'energy'):.5f}",
-            "times faster": _ratio(end, stop),
-        }
+def pymeshlab(case):
+    """Return PyMeshLab beside ours."""
+    end, stop = (median_of(case, name, "seconds") for name in ("pymeshlab", "ours"))
+    there = seconds_to_end_of(case, "pymeshlab")
+    return _case(case) | {
+        "PyMeshLab ends, s": end,
+        "its energy": f"{median_of(case, 'pymeshlab', 'energy'):.5f}",
+        "its gap, %": _end_gap(case, "pymeshlab"),
+        "ours as low, s": there,
+        "times sooner": _ratio(end, there),
+        "ours at its stop, s": stop,
+        "our energy": f"{median_of(case, 'ours', 'energy'):.5f}",
+        "times faster": _ratio(end, stop),
+    }
 
 
-def phases(results):
-    """Give the phases of set-up and of one iteration, and memory."""
-    for result in results:
-        setup, iteration = result["setup"], result["iteration"]
-        other = sum(seconds for phase, seconds in setup.items() if phase not in _SETUP_PHASES)
-        yield (
-            _case(result)
-            | {f"{phase}, s": setup[phase] for phase in _SETUP_PHASES}
-            | {"other set-up, s": max(other, 0.0)}
-            | {f"{phase}, ms": iteration[phase] for phase in _PHASES}
-            | _memory(result)
-        )
+def phases(result):
+    """Return the phases of set-up and of one iteration, and memory."""
+    setup, iteration = result["setup"], result["iteration"]
+    other = sum(seconds for phase, seconds in setup.items() if phase not in _SETUP_PHASES)
+    return (
+        _case(result)
+        | {f"{phase}, s": setup[phase] for phase in _SETUP_PHASES}
+        | {"other set-up, s": max(other, 0.0)}
+        | {f"{phase}, ms": iteration[phase] for phase in _PHASES}
+        | _memory(result)
+    )
 
 
-def scaling(cases):
-    """Give one shape in many sizes."""
-    for case in cases:
-        yield (
-            {"vertices": case["vertices"], "set-up, s": _setup(case, "ours")}
-            | {"ms per iteration": milliseconds_per_iteration(case)}
-            | {"to gap 1 %, s": seconds_to_fitted_gap(case)}
-            | _end(case, "ours", "to our stop")
-            | {"gap there, %": None if case["best"] is None else _end_gap(case, "ours")}
-            | _memory(case)
-        )
+def scaling(case):
+    """Return one size of a shape."""
+    return (
+        {"vertices": case["vertices"], "set-up, s": _setup(case, "ours")}
+        | {"ms per iteration": milliseconds_per_iteration(case)}
+        | {"to gap 1 %, s": seconds_to_fitted_gap(case)}
+        | _end(case, "ours", "to our stop")
+        | _memory(case)
+    )
 
 
-def defaults(cases):
-    """Give the defaults beside the paper's settings."""
-    for case in cases:
-        row = _case(case) | {"solved with the defaults": median_of(case, "defaults", "solved")}
-        for name, program in _BOTH.items():
-            row |= _end(case, program, f"{name}: to our stop")
-            row[f"{name}: set-up, s"] = _setup(case, program)
-        yield row | {
-            "of it finding links, s": median_of(case, "defaults", "links"),
-            "times as long": times_as_long(case),
-            "ticks per second": ticks_per_second(case),
-        }
+def defaults(case):
+    """Return the defaults beside the paper's settings."""
+    row = _case(case) | {"solved with the defaults": median_of(case, "defaults", "solved")}
+    for name, program in _BOTH.items():
+        row |= _end(case, program, f"{name}: to our stop")
+        row[f"{name}: set-up, s"] = _setup(case, program)
+    return row | {
+        "of it finding links, s": median_of(case, "defaults", "links"),
+        "times as long": times_as_long(case),
+        "ticks per second": ticks_per_second(case),
+    }
 
 
 def memory_of_defaults(cases):
@@ -170,16 +154,18 @@ def _case(case):
 
 
 def _end(case, program, what):
-    """Return when a program ends and after how many iterations, and whether by its own stop."""
+    """Return when and how far from the best a program ends, and whether by its own stop."""
     iterations = f"{median_of(case, program, 'iterations'):.0f}"
     if any(run["reason"] != "converged" for run in case[program]):
         iterations += ", cut off"
-    return {f"{what}, s": median_of(case, program, "seconds"), f"{what}, iterations": iterations}
+    end = {f"{what}, s": median_of(case, program, "seconds"), f"{what}, iterations": iterations}
+    is_judged = "best" in case  # the energies with the defaults are others
+    return end | ({"gap there, %": _end_gap(case, program)} if is_judged else {})
 
 
 def _end_gap(case, program):
-    """Return the gap in per cent of the shape at which a program ends."""
-    return 100 * gap_of(case, median_of(case, program, "energy"))
+    """Return the gap in per cent of the shape at which a program ends, or None if not known."""
+    return None if case["best"] is None else 100 * gap_of(case, median_of(case, program, "energy"))
 
 
 def _setup(case, program):

@@ -2,8 +2,8 @@
 """Figure 6: one mesh, cubified toward cubes of different orientation, with each cube beside it."""
 
 import math
-from itertools import product
 
+import bmesh
 import bpy
 import numpy as np
 from headless.gallery import Group
@@ -51,30 +51,28 @@ def _add_cube(
     """Put a cube of the orientation on the floor, before the mesh and to its left."""
     axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
     upright = model.place.to_3x3().normalized() @ axes
-    corners = _corners(EDGE * group.extent / 2)
+    cube = _cube(EDGE * group.extent, clay)
+    corners = np.array([vertex.co for vertex in cube.data.vertices])
     low, high = group.points.min(axis=0), group.points.max(axis=0)
     away = Vector((*AWAY, 0.0)) * group.extent
     away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
     middle = Vector((low + high) / 2) + away
     middle.z = low[2] - moved(corners, upright.to_4x4())[:, 2].min()
     place = Matrix.Translation(middle) @ upright.to_4x4()
-    group.copies.append(_cube(corners, clay))
+    group.copies.append(cube)
     group.places.append(place)
     group.points = np.concatenate([group.points, moved(corners, place)])
 
 
-def _corners(half: float) -> np.ndarray:
-    return half * np.array(list(product((-1.0, 1.0), repeat=3)))
-
-
-def _cube(corners: np.ndarray, clay: bpy.types.Material) -> bpy.types.Object:
+def _cube(edge: float, clay: bpy.types.Material) -> bpy.types.Object:
     """Return a cube, slightly rounded, in no scene."""
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    edited = bmesh.new()
+    bmesh.ops.create_cube(edited, size=edge)
     mesh = bpy.data.meshes.new("Cube")
-    mesh.from_pydata(corners.tolist(), [], faces)
+    edited.to_mesh(mesh)
+    edited.free()
     mesh.materials.append(clay)
     cube = bpy.data.objects.new("Cube", mesh)
     bevel = cube.modifiers.new("Bevel", "BEVEL")
-    bevel.width = BEVEL * float(np.ptp(corners[:, 0]))
-    bevel.segments = 3
+    bevel.width, bevel.segments = BEVEL * edge, 3
     return cube
