@@ -8,23 +8,16 @@ import argparse
 import json
 import os
 import sys
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
-from benchmark.best_energies import BestEnergies  # noqa: E402
-from benchmark.suite import (  # noqa: E402
-    FULL,
-    PARTS,
-    QUICK,
-    keep_lower_energies,
-    measure,
-    renew_best_energies,
-)
+from benchmark import page, plots  # noqa: E402
+from benchmark.best_energies import BestEnergies, keep_lower_energies  # noqa: E402
+from benchmark.suite import FULL, PARTS, QUICK, measure, renew_best_energies  # noqa: E402
 from benchmark.targets import targets  # noqa: E402
-from benchmark.written import write_page  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
 
@@ -41,7 +34,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="a part, in less than two minutes")
     parser.add_argument("--runs", type=int, help="of each program, alternating; default 3, quick 1")
     parser.add_argument("--max-vertices", type=int, help="largest mesh of the scaling run")
-    parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS)
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS))
     parser.add_argument(
         "--output",
         type=Path,
@@ -67,29 +60,34 @@ def main():
     """Run what was asked for."""
     options = arguments()
     plan = QUICK if options.quick else FULL
-    plan = replace(
-        plan,
-        runs=options.runs or plan.runs,
-        max_vertices=options.max_vertices or plan.max_vertices,
-    )
-    cache = BUILD / "meshes"
+    given = {"runs": options.runs, "max_vertices": options.max_vertices}
+    plan = plan._replace(**{name: value for name, value in given.items() if value})
+    say = partial(print, flush=True)
     if options.find_best:
-        renew_best_energies(plan, options.meshes, cache, options.find_best, options.only, _say)
+        renew_best_energies(plan, options.meshes, options.find_best, options.only, say)
         return
     is_all = plan == FULL and set(options.parts) == set(PARTS)
-    results = measure(plan, options.meshes, cache, options.parts, _say)
+    results = measure(plan, options.meshes, options.parts, say)
     file = BUILD / ("results.json" if is_all else "results-part.json")
     file.write_text(json.dumps(results), encoding="utf-8")
     if is_all:
         keep_lower_energies(results, BestEnergies())
-    page = write_page(results, options.output or (ROOT / "docs" if is_all else BUILD))
-    print(f"written: {page} and {file}")
-    for target in targets(results):
-        print(target.line())
+    print(f"written: {write(results, options.output or (ROOT / 'docs' if is_all else BUILD))}")
+    for row in targets(results):
+        verdict = "pass" if row["met"] == "yes" else "FAIL"
+        print(f"{verdict}  {row['target']}: {row['measured']} ({row['bound']})")
 
 
-def _say(line):
-    print(line, flush=True)
+def write(results, folder):
+    """Write the page and its images into a folder; return the path of the page."""
+    (folder / "images").mkdir(parents=True, exist_ok=True)
+    if results["race"]:
+        plots.plot_gaps(results["race"], folder / page.GAPS_IMAGE)
+    if results["scaling"]:
+        plots.plot_scaling(results["scaling"], folder / page.SCALING_IMAGE)
+    path = folder / "benchmarks.md"
+    path.write_text(page.page(results), encoding="utf-8")
+    return path
 
 
 if __name__ == "__main__":

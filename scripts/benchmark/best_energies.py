@@ -8,42 +8,41 @@ BOOK = Path(__file__).with_name("best_energies.json")
 
 
 class BestEnergies:
-    """A file of energies in the unit box, by mesh, number of vertices and cubeness.
-
-    Parameters
-    ----------
-    path : Path
-        Need not exist yet.
-    """
+    """A file of energies in the unit box, by mesh, number of vertices and cubeness."""
 
     def __init__(self, path=BOOK):
         self._path = path
         self._entries = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
-    def get(self, mesh, vertices, cubeness):
-        """Return the lowest known energy, or None."""
-        entry = self._entries.get(_key(mesh, vertices, cubeness))
-        return entry and entry["energy"]
+    def get(self, *case):
+        """Return the lowest known energy of (mesh, vertices, cubeness), or None."""
+        return self._entries.get(_key(*case), {}).get("energy")
 
-    def offer(self, mesh, vertices, cubeness, energy, found_by):
-        """Keep an energy if it is lower than the known one; tell whether it was, and save it.
+    def offer(self, *case, energy, found_by):
+        """Keep an energy if it is lower than the known one; return whether it was.
 
-        Parameters
-        ----------
-        mesh : str
-        vertices : int
-        cubeness, energy : float
-        found_by : str
-            What reached it, for the reader of the file.
+        `found_by` tells the reader of the file what reached it.
         """
-        known = self.get(mesh, vertices, cubeness)
+        known = self.get(*case)
         if known is not None and not energy < known:
             return False
-        entry = {"energy": energy, "found_by": found_by}
-        self._entries[_key(mesh, vertices, cubeness)] = entry
-        text = json.dumps(dict(sorted(self._entries.items(), key=_by_mesh_and_size)), indent=1)
-        self._path.write_text(text + "\n", encoding="utf-8")
+        self._entries[_key(*case)] = {"energy": energy, "found_by": found_by}
+        entries = sorted(self._entries.items(), key=_by_mesh_and_size)
+        lines = [f"{json.dumps(key)}: {json.dumps(entry)}" for key, entry in entries]
+        self._path.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
         return True
+
+
+def keep_lower_energies(results, best):
+    """Put energies that are lower than known ones into the BestEnergies.
+
+    A first one comes from `find_best` alone: the end of one run says too little.
+    """
+    for case in results["race"] + results["scaling"]:
+        name = case["mesh"], case["vertices"], case["cubeness"]
+        energy = min(run["energy"] for run in case["ours"])
+        if best.get(*name) is not None:
+            best.offer(*name, energy=min(energy, case["best"]), found_by="the benchmark")
 
 
 def _key(mesh, vertices, cubeness):

@@ -13,46 +13,26 @@ from solver import Run, Setup, Stylization, rest_mesh
 from .meshes import read
 from .our_solver import energy_of
 
-PATIENCE = 200
-"""iterations in which the energy has to fall by ENOUGH"""
-ENOUGH = 1e-8
-"""relative"""
+PATIENCE, ENOUGH = 200, 1e-8
+"""iterations in which the energy has to fall by so much, relative"""
 
 
 def find_best(path, cubeness, seconds):
-    """Return the lowest energy found and what found it.
-
-    Parameters
-    ----------
-    path : str
-        Of the mesh.
-    cubeness : float
-    seconds : float
-        For each of the descents; each may take one iteration longer.
-
-    Returns
-    -------
-    energy : float
-    found_by : str
-    """
-    V, F = read(path)
-    setup = Setup(rest_mesh(V, F))
-    positions = _descend(setup, cubeness, None, seconds)
+    """Return the lowest energy found and what found it; so long in each of two descents."""
+    setup = Setup(rest_mesh(*read(path)))
+    state = Stylization(setup, cubeness)
+    positions = _descend(state, Run(state, tolerance=1e-12, max_iterations=10**9).advance, seconds)
     accelerated = energy_of(setup, cubeness, positions)
-    positions = _descend(setup, cubeness, positions, seconds, is_accelerated=False)
-    plain = energy_of(setup, cubeness, positions)
+    state = Stylization(setup, cubeness, is_accelerated=False)
+    state.energy_of(positions)
+    plain = energy_of(setup, cubeness, _descend(state, state.step, seconds))
     if accelerated <= plain:
         return accelerated, "accelerated"
     return plain, "accelerated, then plain"
 
 
-def _descend(setup, cubeness, start, seconds, **options):
+def _descend(state, advance, seconds):
     """Return the positions at which the energy no longer falls, or the time is over."""
-    state = Stylization(setup, cubeness, **options)
-    advance = Run(state, tolerance=1e-12, max_iterations=10**9).advance
-    if start is not None:
-        state.energy_of(start)
-        advance = state.step
     end = time.perf_counter() + seconds
     marks = []
     while time.perf_counter() < end:

@@ -9,83 +9,58 @@ import numpy as np
 
 from solver import PAPER, Setup, Stylization, rest_mesh, run
 
-from .primitives import blob
+from .shapes import blob
 
+LIMIT_SECONDS = 240.0
+"""after which a run is given up"""
 EVALUATION_STEPS = 30
 """local steps that evaluate the energy of a given shape"""
 
 
 @dataclass(frozen=True)
-class Run:
+class TimedRun:
     """One run from the arrays of the mesh to the result. Times do not hold loading of kernels."""
 
     setup: Setup
-    setup_seconds: float
-    """until the first iteration begins"""
-    seconds: float
-    iterations: int
-    reason: str
     positions: np.ndarray
     """(n,3)"""
-    curve: list
-    """[seconds since the beginning, energy] after each iteration"""
-
-    def figures(self):
-        """Return what is worth keeping, as JSON can hold it."""
-        return {
-            "setup": self.setup_seconds,
-            "seconds": self.seconds,
-            "iterations": self.iterations,
-            "reason": self.reason,
-            "curve": self.curve,
-        }
+    figures: dict
+    """seconds until the first iteration begins (``setup``) and in all, ``iterations``, ``reason``,
+    and the ``curve``: [seconds since the beginning, energy] after each iteration"""
 
 
 def solve(
     V, F, cubeness, is_over=None, is_accelerated=True, proxy=PAPER, keep_rotation=False, **stop
 ):
-    """Stylize a mesh and return the Run; unless settings are given, as in the paper.
+    """Stylize a mesh and return the TimedRun; unless settings are given, as in the paper.
 
     The energy noted after an iteration is that of the shape that its local step looked at, so it
-    lags behind by one iteration.
-
-    Parameters
-    ----------
-    V : (n,3) array
-    F : (m,3) array
-    cubeness : float
-    is_over : callable, optional
-        Ends the run early when it returns true for (seconds, energy, iteration).
-    is_accelerated, keep_rotation : bool
-        See `Stylization`.
-    proxy : ProxyOptions
-        See `solver.rest_mesh`.
-    **stop
-        max_iterations and tolerance, see `solver.run`.
+    lags behind by one iteration. `is_over` may end the run early: it is given seconds and
+    energy. What is in `stop` goes to `solver.run`.
     """
     curve = []
+    is_over = is_over or over(LIMIT_SECONDS)
     begin = time.perf_counter()
     setup = Setup(rest_mesh(V, F, proxy))
     options = {"is_accelerated": is_accelerated, "keep_rotation": keep_rotation}
     stylization = Stylization(setup, cubeness, **options)
-    compiling = stylization.compile_seconds
-    setup_seconds = time.perf_counter() - begin - compiling
+    begin += stylization.compile_seconds
+    setup_seconds = time.perf_counter() - begin
 
     def note(state):
-        seconds = time.perf_counter() - begin - compiling
+        seconds = time.perf_counter() - begin
         curve.append([seconds, state.energy.total])
-        return is_over is not None and is_over(seconds, state.energy.total, state.iteration)
+        return is_over(seconds, state.energy.total)
 
     result = run(stylization, on_iteration=note, **stop)
-    seconds = time.perf_counter() - begin - compiling
-    return Run(
-        setup, setup_seconds, seconds, result.iterations, result.reason, result.positions, curve
-    )
+    figures = {"setup": setup_seconds, "seconds": time.perf_counter() - begin, "curve": curve}
+    figures |= {"iterations": result.iterations, "reason": result.reason}
+    return TimedRun(setup, result.positions, figures)
 
 
 def over(seconds, energy=-math.inf):
     """Return an `is_over` for `solve`: after these seconds, or once down at this energy."""
-    return lambda elapsed, reached, _: elapsed > seconds or reached <= energy
+    return lambda elapsed, reached: elapsed > seconds or reached <= energy
 
 
 def energy_of(setup, cubeness, positions):

@@ -1,41 +1,92 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page of results: its prose is in ``page.md.jinja``, the figures and tables come from here."""
+"""The page of results: tables and what their columns are. What they mean is told in `EXPLAINED`."""
 
-from pathlib import Path
+from . import race, suite, tables
+from .solver_alone import CUBENESS, ITERATIONS
+from .summary import FIT_FROM, fit, median_of, milliseconds_per_iteration
+from .targets import targets
 
-import jinja2
-
-from . import fit, race, suite, summary, tables, ten_iterations
-from .targets import FIFTY_THOUSAND, targets
-
-__all__ = ("GAPS_IMAGE", "SCALING_IMAGE", "page")
-
-GAPS_IMAGE, SCALING_IMAGE = "benchmark_gaps.png", "benchmark_scaling.png"
-_TEMPLATE = Path(__file__).with_name("page.md.jinja")
+EXPLAINED = "benchmarks_explained.md"
+GAPS_IMAGE, SCALING_IMAGE = "images/benchmark_gaps.png", "images/benchmark_scaling.png"
 
 
-def page(results, power):
-    """Return the text of the page; `power` is that of the fit, or None."""
-    environment = jinja2.Environment(trim_blocks=True, undefined=jinja2.StrictUndefined)
-    constants = {}
-    for module in (fit, race, suite, ten_iterations):
-        constants |= {name: value for name, value in vars(module).items() if name.isupper()}
-    text = environment.from_string(_TEMPLATE.read_text(encoding="utf-8")).render(
-        constants | results,
-        comma="{:,}".format,
-        tables=tables,
-        power=power,
-        setup_power=_power_of(results, lambda case: summary.median_of(case, "ours", "setup")),
-        iteration_power=_power_of(results, summary.milliseconds_per_iteration),
-        measured=[case for case in results["defaults"] if "peak" in case["defaults"][0]],
-        reached=targets(results),
-        FIFTY_THOUSAND=FIFTY_THOUSAND,
-        GAPS_IMAGE=GAPS_IMAGE,
-        SCALING_IMAGE=SCALING_IMAGE,
-    )
-    paragraphs = (paragraph.strip("\n") for paragraph in text.split("\n\n"))
-    return "\n\n".join(paragraph for paragraph in paragraphs if paragraph) + "\n"
+def page(results):
+    """Return the text of the page, in Markdown; what has not been measured has no section."""
+    text = f"""\
+# Benchmarks
+
+Written by `make bench`, side by side on one machine. [What the tables mean, and what bounds the
+times]({EXPLAINED}) has a page of its own. Rows are *as in the paper* unless they name the
+defaults. Runs of each program: {results["runs"]}, of which the median counts; one of the peers
+from {suite.LARGE:,} vertices on, and in the scaling run from {suite.LARGE_SCALING:,} on.
+
+{results["machine"]}
+"""
+    for heading, caption, rows in _sections(results):
+        if rows:
+            text += f"\n{heading}\n\n{caption}\n\n{tables.markdown(rows)}\n"
+    return text
 
 
-def _power_of(results, value_of):
-    return fit.fit_of(results["scaling"], value_of)[0]
+def _sections(results):
+    """Give heading, caption and rows of each."""
+    race_results = results["race"]
+    by_plain = [case for case in race_results if case["plain"]]
+    by_pymeshlab = [case for case in race_results if case["pymeshlab"]]
+    made = [
+        ("## Ten iterations", _TEN, map(tables.ten_iterations, results["ten"])),
+        ("## To the best shape", _GAPS, map(tables.gaps, race_results)),
+        ("### Beside the plain iteration", _PLAIN, map(tables.plain, by_plain)),
+        ("### Beside PyMeshLab", _PYMESHLAB, map(tables.pymeshlab, by_pymeshlab)),
+        ("## Where the time goes, and memory", _PHASES, map(tables.phases, results["phases"])),
+        ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
+        ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
+        ("### Memory of the largest", _MEMORY, tables.memory_of_defaults(results["defaults"])),
+        ("## From start to first result", _STARTUP, tables.startup(results["startup"])),
+        ("## Targets", _TARGETS, targets(results)),
+    ]
+    return [(heading, caption, list(rows)) for heading, caption, rows in made]
+
+
+_TEN = f"""\
+{ITERATIONS} outer iterations at cubeness {CUBENESS}, as in the paper, with all set-up. The columns
+of the paper are its Table 1, from other hardware: an NVIDIA RTX 3050 Ti, and for the CPU the
+program of Liu and Jacobson on an AMD R9 5900HS."""
+_GAPS = f"""\
+As in the paper. A time in brackets is of a run that goes on beyond our own stop; a dash: not
+reached.
+
+![Gap over time]({GAPS_IMAGE})"""
+_PLAIN = f"""\
+As in the paper, too, without acceleration (`is_accelerated=False`), left at a gap
+of {100 * race.PLAIN_GAP:g} %, after {race.PLAIN_ITERATIONS} iterations or
+{race.PLAIN_SECONDS:g} seconds. "Times sooner there": how many times sooner ours is as low as the
+plain one where it is left."""
+_PYMESHLAB = """\
+PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop; ours as in the paper.
+"Ours as low" is when ours reaches the energy at which PyMeshLab ends; "times faster" compares both
+at their own stop. Cases that are not listed would take it minutes."""
+_PHASES = """\
+One run to our own stop, as in the paper: phases of set-up, then those of an iteration, the mean of
+all but the first. Peak memory is that of the whole process; "for the run" is what it takes above
+Python, the libraries and the kernels."""
+_DEFAULTS = """\
+The artist's defaults beside the paper's settings, each to its own stop. "Ticks per second" is how
+often Live could show a coarse mesh anew, without what Blender takes to draw."""
+_MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
+_STARTUP = "Fresh processes, with the files in the system's cache and the compiled kernels on disk."
+_TARGETS = "What was to be reached, and whether this run has."
+
+
+def _scaling_caption(results):
+    cases = results["scaling"]
+    setup = fit(cases, lambda case: median_of(case, "ours", "setup"))[0]
+    iteration = fit(cases, milliseconds_per_iteration)[0]
+    power = fit(cases)[0]
+    text = "One shape, simplified or subdivided to each size, as in the paper.\n"
+    if power is not None:
+        text += (
+            f"From {FIT_FROM:,} vertices on, the time to gap 1 % grows as vertices^{power:.2f},\n"
+            f"set-up as vertices^{setup:.2f} and one iteration as vertices^{iteration:.2f}.\n"
+        )
+    return f"{text}\n![Time over size]({SCALING_IMAGE})"

@@ -1,119 +1,80 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the time of one run goes, and the memory it takes.
-
-The solver knows nothing of this: its functions are replaced by timed ones, in this process.
-"""
+"""Where the time of one run goes, and the memory it takes."""
 
 import functools
-import importlib
-import sys
 import time
+from collections import Counter
 
-from . import memory
+from solver import global_step, stylization
+from solver.backends.taichi_local_step import TaichiLocalStep
+
+from . import our_solver
+from .machine import peak_memory
 from .meshes import read
-from .our_solver import load_kernels, over, solve
-
-LIMIT_SECONDS = 120.0
-"""after which the run is given up"""
 
 PHASES = {
-    "rest mesh": ("benchmark.our_solver", "rest_mesh"),
-    "factorisation": ("solver.global_step", "factorize"),
-    "local step": ("solver.stylization", "Stylization.local_step"),
-    "right-hand side": ("solver.backends.taichi_local_step", "TaichiLocalStep.right_hand_side"),
-    "solve": ("solver.global_step", "GlobalStep.positions"),
+    "rest mesh": (our_solver, "rest_mesh"),
+    "factorisation": (global_step, "factorize"),
+    "local step": (stylization.Stylization, "local_step"),
+    "right-hand side": (TaichiLocalStep, "right_hand_side"),
+    "solve": (global_step.GlobalStep, "positions"),
 }
-"""where in the solver each phase is"""
+"""modules or classes, and their functions; none of them calls another"""
 
 
-class Stopwatch:
-    """Adds up the time of each phase, without that of the phases that it calls."""
+def put_under_clock(functions):
+    """Replace functions, as in `PHASES`, by timed ones in this process; return {name: seconds}.
 
-    def __init__(self):
-        self.seconds = {}
-        self._inside = []
+    The solver knows nothing of this.
+    """
+    seconds = Counter()
 
-    def timed(self, phase, function):
-        """Return the function under the clock."""
-        self.seconds[phase] = 0.0
-
+    def timed(phase, function):
         @functools.wraps(function)
         def run(*arguments, **options):
-            self._inside.append(0.0)
             begin = time.perf_counter()
             try:
                 return function(*arguments, **options)
             finally:
-                elapsed = time.perf_counter() - begin
-                self.seconds[phase] += elapsed - self._inside.pop()
-                if self._inside:
-                    self._inside[-1] += elapsed
+                seconds[phase] += time.perf_counter() - begin
 
         return run
 
-    def replace(self, phase, module, path):
-        """Put a function of a module, or a method, under the clock where everyone finds it."""
-        *owners, name = path.split(".")
-        owner = functools.reduce(getattr, owners, importlib.import_module(module))
-        setattr(owner, name, self.timed(phase, getattr(owner, name)))
+    for phase, (owner, name) in functions.items():
+        setattr(owner, name, timed(phase, getattr(owner, name)))
+    return seconds
 
 
 def phases(path, cubeness):
-    """Return seconds of set-up and milliseconds per iteration by phase, and bytes of memory.
+    """Return the figures of `split`, the number of ``iterations``, and those of `peak_memory`."""
+    our_solver.load_kernels()
+    marks = []
+    with peak_memory() as memory:
+        seconds_of = put_under_clock(PHASES)
+
+        def mark(seconds, *_):
+            marks.append((seconds, {phase: seconds_of[phase] for phase in PHASES}))
+            return seconds > our_solver.LIMIT_SECONDS
+
+        our_solver.solve(*read(path), cubeness, mark)
+    return {**split(marks), "iterations": len(marks), **memory}
+
+
+def split(marks):
+    """Split marks (seconds, {phase: seconds}), at least two, after each iteration.
 
     Returns
     -------
     dict
         ``setup`` {phase: seconds}, of all before the second iteration less one typical iteration;
         ``iteration`` {phase: milliseconds}, the mean of those after the first; both with what is
-        left as "remainder"; ``iterations``; ``peak`` bytes of the process, and ``above`` bytes
-        more than before the mesh was read.
+        left as "remainder".
     """
-    load_kernels()
-    before = memory.resident_bytes()
-    memory.reset_peak()
-    watch = Stopwatch()
-    for phase, (module, name) in PHASES.items():
-        try:
-            watch.replace(phase, module, name)
-        except AttributeError:
-            print(f"{module}.{name} is no more: {phase} not timed", file=sys.stderr)
-    marks = []  # after each iteration: seconds since the beginning, {phase: seconds}
-
-    is_over = over(LIMIT_SECONDS)
-
-    def mark(seconds, energy, iteration):
-        marks.append((seconds, dict(watch.seconds)))
-        return is_over(seconds, energy, iteration)
-
-    V, F = read(path)
-    solve(V, F, cubeness, mark)
-    peak = memory.peak_bytes()
-    return {
-        **split(marks),
-        "iterations": len(marks),
-        "peak": peak,
-        "above": peak - before,
-    }
-
-
-def split(marks):
-    """Split marks (seconds, {phase: seconds}) after each iteration into set-up and iteration.
-
-    Raises
-    ------
-    ValueError
-        There are fewer than two marks.
-    """
-    if len(marks) < 2:
-        raise ValueError(f"the run must have at least two iterations, not {len(marks)}")
     (first, at_first), (last, at_last) = marks[0], marks[-1]
     count = len(marks) - 1
     iteration = {phase: (at_last[phase] - at_first[phase]) / count for phase in at_last}
     iteration["remainder"] = (last - first) / count - sum(iteration.values())
     setup = {phase: at_first[phase] - iteration[phase] for phase in at_last}
     setup["remainder"] = first - sum(at_first.values()) - iteration["remainder"]
-    return {
-        "setup": setup,
-        "iteration": {phase: 1000 * seconds for phase, seconds in iteration.items()},
-    }
+    milliseconds = {phase: 1000 * seconds for phase, seconds in iteration.items()}
+    return {"setup": setup, "iteration": milliseconds}

@@ -2,14 +2,12 @@
 """One case of mesh and cubeness: ours, the plain iteration and PyMeshLab, in alternation."""
 
 import math
+import time
 
-from . import peer_pymeshlab
-from .gap import GAPS, energy_at_gap, seconds_to_energy
 from .meshes import read
 from .our_solver import energy_of, load_kernels, over, solve
+from .summary import GAPS, energy_at_gap, seconds_to_energy
 
-OUR_SECONDS = 120.0
-"""after which our run is given up"""
 PLAIN_SECONDS, PLAIN_ITERATIONS, PLAIN_GAP = 30.0, 400, 0.01
 """where the plain iteration is left"""
 LONG_SECONDS, LONG_ITERATIONS, LONG_TOLERANCE = 30.0, 5000, 1e-6
@@ -17,59 +15,55 @@ LONG_SECONDS, LONG_ITERATIONS, LONG_TOLERANCE = 30.0, 5000, 1e-6
 
 
 def race(path, cubeness, best, runs, plain_runs, pymeshlab_runs):
-    """Run everything on one mesh and return the figures.
-
-    Parameters
-    ----------
-    path : str
-        Of the mesh.
-    cubeness : float
-    best : float or None
-        Lowest energy known so far.
-    runs, plain_runs, pymeshlab_runs : int
-        `runs`, of ours, must be at least 1.
+    """Run everything on one mesh; `best` is the lowest energy known so far, or None.
 
     Returns
     -------
     dict
-        The ``rest`` energy and the ``best``, now known; ``ours``, ``plain`` and ``pymeshlab``, each
-        a list of runs with ``seconds`` and the judged ``energy`` of its end, and those of our
-        solver also as `Run.figures`; and ``long``, our run that goes on beyond its own stop,
-        or None where that had come near enough.
+        The ``rest`` energy and the ``best``, now known; lists of runs with ``seconds`` and the
+        judged ``energy`` of the end, those of the solver with all `TimedRun.figures`: ``ours``,
+        ``plain``, ``pymeshlab``, and ``long``, our run that goes on beyond its own stop, where that
+        has not come near enough.
     """
     V, F = read(path)
     load_kernels()
     setup = solve(V, F, cubeness, max_iterations=3).setup  # its time does not count: cold caches
     rest = energy_of(setup, cubeness, V)
     best = math.inf if best is None else best
-    ours, plain, pymeshlab, long = [], [], [], None
+    results = {"ours": [], "plain": [], "pymeshlab": [], "long": []}
 
-    def judged(run):
-        return run.figures() | {"energy": energy_of(setup, cubeness, run.positions)}
+    def add(name, figures, positions):
+        energy = energy_of(setup, cubeness, positions)
+        results[name].append(figures | {"energy": energy})
+        return energy
+
+    def add_ours(name, *until, **options):
+        run = solve(V, F, cubeness, *until, **options)
+        return add(name, run.figures, run.positions)
 
     for number in range(max(runs, plain_runs, pymeshlab_runs)):
         if number < runs:
-            ours.append(judged(solve(V, F, cubeness, over(OUR_SECONDS))))
-            best = min(best, ours[-1]["energy"])
+            best = min(best, add_ours("ours"))
         if number < plain_runs:
-            is_over = over(PLAIN_SECONDS, energy_at_gap(PLAIN_GAP, rest, best))
-            options = {"is_accelerated": False, "max_iterations": PLAIN_ITERATIONS}
-            plain.append(judged(solve(V, F, cubeness, is_over, **options)))
+            until = over(PLAIN_SECONDS, energy_at_gap(PLAIN_GAP, rest, best))
+            add_ours("plain", until, is_accelerated=False, max_iterations=PLAIN_ITERATIONS)
         if number < pymeshlab_runs:
-            seconds, positions = peer_pymeshlab.solve(V, F, cubeness)
-            energy = energy_of(setup, cubeness, positions)
-            pymeshlab.append({"seconds": seconds, "energy": energy})
-
+            add("pymeshlab", *_solve_by_pymeshlab(V, F, cubeness))
     nearest = energy_at_gap(min(GAPS), rest, best)
-    if any(seconds_to_energy(run["curve"], nearest) is None for run in ours):
+    if any(seconds_to_energy(run["curve"], nearest) is None for run in results["ours"]):
         stop = {"max_iterations": LONG_ITERATIONS, "tolerance": LONG_TOLERANCE}
-        long = judged(solve(V, F, cubeness, over(LONG_SECONDS, nearest), **stop))
-    ends = ours + plain + pymeshlab + ([long] if long else [])
-    return {
-        "rest": rest,
-        "best": min(best, *(end["energy"] for end in ends)),
-        "ours": ours,
-        "plain": plain,
-        "pymeshlab": pymeshlab,
-        "long": long,
-    }
+        add_ours("long", over(LONG_SECONDS, nearest), **stop)
+    ends = [run["energy"] for runs in results.values() for run in runs]
+    return {"rest": rest, "best": min(best, *ends), **results}
+
+
+def _solve_by_pymeshlab(V, F, cubeness):
+    """Run PyMeshLab's filter for the same problem to its default stop."""
+    import pymeshlab  # pyright: ignore[reportMissingImports]
+
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(V, F))
+    begin = time.perf_counter()
+    meshes.apply_coord_cubic_stylization(lcubeness=cubeness, applyef=False, applycol=False)
+    seconds = time.perf_counter() - begin
+    return {"seconds": seconds}, meshes.current_mesh().vertex_matrix()

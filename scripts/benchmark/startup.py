@@ -8,44 +8,27 @@ import tempfile
 import time
 from pathlib import Path
 
-from .isolated import ROOT, SCRIPTS
-
-FOLDER = Path(__file__).parent
-PROGRAMS = {
-    "monkey": ("first_result_blender.py", SCRIPTS, ROOT),
-    "bpy": ("first_import_bpy.py",),
-    "solver": ("first_result_solver.py", ROOT),
-}
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = ("monkey", "bpy", "solver")
+"""functions of `first_result.py`"""
 
 
 def startup(runs):
     """Return {program: seconds of each run}, run in alternation after one that does not count.
 
-    The programs are "monkey" (bpy, the extension and its first Cubify), "bpy" (its import alone)
-    and "solver" (first result without Blender). Python's bytecode is kept, as Blender keeps it.
+    Python's bytecode is kept, as Blender keeps it.
     """
     seconds = {name: [] for name in PROGRAMS}
+    search = os.pathsep.join([str(ROOT / "scripts"), str(ROOT)])
     with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "PYTHONPYCACHEPREFIX": folder}
+        environment = {**os.environ, "PYTHONPYCACHEPREFIX": folder, "PYTHONPATH": search}
         environment.pop("PYTHONDONTWRITEBYTECODE", None)
         for number in range(runs + 1):
-            for name, command in PROGRAMS.items():
-                elapsed = _seconds_until_done(environment, *command)
+            for name in PROGRAMS:
+                program = f"from benchmark import first_result; first_result.{name}()"
+                begin = time.perf_counter()
+                command = [sys.executable, "-c", program]
+                subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE)
                 if number > 0:
-                    seconds[name].append(elapsed)
+                    seconds[name].append(time.perf_counter() - begin)
     return seconds
-
-
-def _seconds_until_done(environment, program, *arguments):
-    begin = time.time()  # the clock that two processes share
-    process = subprocess.run(
-        [sys.executable, str(FOLDER / program), *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=environment,
-    )
-    for line in process.stdout.splitlines():
-        if line.startswith("done at "):
-            return float(line.removeprefix("done at ")) - begin
-    raise RuntimeError(f"{program} failed:\n{process.stderr.strip()[-2000:]}")

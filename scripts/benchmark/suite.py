@@ -1,212 +1,167 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured, in which order, how often."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from . import scaling, startup
+from . import defaults, solver_alone
 from .best_energies import BestEnergies
-from .defaults import SETTINGS
-from .isolated import call
-from .machine import machine_line
-from .made_meshes import made_meshes
-from .meshes import known_meshes
-from .scaled_meshes import scaled_meshes
+from .find_best import find_best
+from .machine import isolated, machine_line
+from .meshes import known_meshes, made_meshes, scaled_meshes
+from .phases import phases
+from .race import race
+from .startup import startup
 
-PARTS = ("ten", "race", "phases", "scaling", "defaults", "startup")
 LARGE = 10_000
 """vertices from which the peers run only once"""
 LARGE_SCALING = 50_000
 """vertices from which a size is measured only once"""
-PHASES_CUBENESS = DEFAULTS_CUBENESS = 0.4
+CUBENESS = solver_alone.CUBENESS
+"""of all parts but the race"""
 COARSE = 2000
 """vertices up to which Live is measured with the defaults"""
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(NamedTuple):
     """How much is measured."""
 
     runs: int
     max_vertices: int
-    cases: tuple
-    """(mesh, cubeness)"""
-    pymeshlab: tuple
-    """those of the cases that PyMeshLab takes part in: the others take it minutes"""
-    ten: tuple
-    """meshes"""
-    defaults: tuple
-    """meshes, the made ones left aside"""
     fineness: int
-    """of the made ones"""
+    """of the meshes that are made"""
+    cases: tuple
+    """(mesh, cubeness, whether PyMeshLab takes part: the others take it minutes)"""
 
 
 FULL = Plan(
     runs=3,
     max_vertices=1_100_000,
-    cases=(
-        *[(mesh, cubeness) for mesh in ("spot", "bunny", "homer") for cubeness in (0.2, 0.4)],
-        *[("owl", 0.4), ("horse", 0.2), ("horse", 0.4), ("armadillo", 0.2), ("armadillo", 0.4)],
-        *[("blob-10k", 0.2), ("blob-10k", 0.4), ("blob-41k", 0.4)],
-    ),
-    pymeshlab=(
-        *[(mesh, cubeness) for mesh in ("spot", "bunny") for cubeness in (0.2, 0.4)],
-        *[("horse", 0.4), ("blob-10k", 0.2), ("blob-10k", 0.4)],
-    ),
-    ten=("homer", "bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
-    defaults=("bunny", "owl", "horse", "armadillo", "blob-10k", "blob-41k"),
     fineness=6,
+    cases=(
+        *[(mesh, value, True) for mesh in ("spot", "bunny", "blob-10k") for value in (0.2, 0.4)],
+        *[("homer", 0.2, False), ("homer", 0.4, False), ("owl", 0.4, False), ("horse", 0.2, False)],
+        *[("horse", 0.4, True), ("armadillo", 0.2, False), ("armadillo", 0.4, False)],
+        ("blob-41k", 0.4, False),
+    ),
 )
 QUICK = Plan(
     runs=1,
     max_vertices=30_000,
-    cases=(("bunny", 0.2), ("horse", 0.4), ("blob-10k", 0.2)),
-    pymeshlab=(("bunny", 0.2), ("blob-10k", 0.2)),
-    ten=("bunny", "horse", "blob-10k"),
-    defaults=("bunny", "blob-10k"),
     fineness=4,
+    cases=(("bunny", 0.2, True), ("horse", 0.4, False), ("blob-10k", 0.2, True)),
 )
 
 
-def measure(plan, folder, cache, parts, say):
-    """Measure and return the results by part; parts that are left out are empty.
+def measure(plan, folder, parts, say):
+    """Measure and return the results by part; those that are left out are empty.
 
-    Parameters
-    ----------
-    plan : Plan
-        Meshes that are not there are left out.
-    folder, cache : Path
-        Of the meshes as they are, and as they are kept.
-    parts : collection of str
-        Some of PARTS.
-    say : callable
-        Is told what is being measured, in one line.
+    Meshes of the plan that are not in the folder are left out, too. `say` is told what is being
+    measured, in one line.
     """
-    meshes = known_meshes(folder, cache)
-    best = BestEnergies()
-    cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
+    meshes = known_meshes(folder)
     results = {"machine": machine_line(), "runs": plan.runs}
-    results |= {part: [] for part in PARTS} | {"startup": {}}
-    if "ten" in parts:
-        for name in plan.ten:
-            if name in meshes:
-                say(f"ten iterations: {name}")
-                results["ten"].append(_ten(meshes[name], plan.runs))
-    if "race" in parts:
-        for mesh, cubeness in cases:
-            say(f"to the best shape: {mesh.name} {cubeness}")
-            results["race"].append(_race(mesh, cubeness, plan, best))
-    if "phases" in parts:
-        for mesh in dict.fromkeys(mesh for mesh, _ in cases):
-            say(f"phases: {mesh.name}")
-            figures = call("phases", "phases", path=str(mesh.path), cubeness=PHASES_CUBENESS)
-            results["phases"].append(_head(mesh, PHASES_CUBENESS) | figures)
-    if "scaling" in parts:
-        for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
-            say(f"scaling: {mesh.vertices:,} vertices")
-            results["scaling"].append(_one_size(mesh, plan, best))
-    if "defaults" in parts:
-        results["defaults"] = _all_defaults(plan, meshes, cache, say)
-    if "startup" in parts:
-        say("start-up")
-        results["startup"] = startup.startup(plan.runs)
+    for part, measured in PARTS.items():
+        results[part] = list(measured(plan, meshes, say)) if part in parts else []
     return results
 
 
-def renew_best_energies(plan, folder, cache, seconds, only, say):
-    """Look long for lower energies than those known, and keep them.
+def _ten(plan, meshes, say):
+    for mesh in _meshes(plan, meshes):
+        say(f"ten iterations: {mesh.name}")
+        figures = isolated(solver_alone.ten_iterations, source=mesh.source, runs=plan.runs)
+        yield _head(mesh) | figures
 
-    Parameters
-    ----------
-    plan, folder, cache, say
-        As in `measure`; meshes above the plan's ``max_vertices`` are left out.
-    seconds : float
-        See `find_best`.
-    only : sequence of str
-        If there are any, cases whose "mesh vertices cubeness" begins with one of them.
-    """
-    meshes = known_meshes(folder, cache)
-    cases = [(meshes[name], cubeness) for name, cubeness in plan.cases if name in meshes]
-    for mesh in scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices):
-        if all(mesh.vertices != known.vertices for known, _ in cases):
-            cases.append((mesh, scaling.CUBENESS))
+
+def _race(plan, meshes, say):
     best = BestEnergies()
-    for mesh, cubeness in cases:
-        name = f"{mesh.name} {mesh.vertices} {cubeness:g}"
-        is_wanted = not only or name.startswith(tuple(only))
-        if mesh.vertices > plan.max_vertices or not is_wanted:
-            continue
-        known = best.get(mesh.name, mesh.vertices, cubeness)
-        arguments = {"path": str(mesh.path), "cubeness": cubeness, "seconds": seconds}
-        energy, found_by = call("find_best", "find_best", **arguments)
-        is_new = best.offer(mesh.name, mesh.vertices, cubeness, energy, found_by)
-        end = f"new, {found_by}" if is_new else "no better"
-        say(f"{name}: known {known}, found {energy:.7f}: {end}")
+    for mesh, cubeness, with_pymeshlab in _cases(plan, meshes):
+        say(f"to the best shape: {mesh.name} {cubeness}")
+        peer_runs = plan.runs if mesh.vertices < LARGE else 1
+        head = _head(mesh, cubeness)
+        yield head | isolated(
+            race,
+            path=mesh.path,
+            cubeness=cubeness,
+            best=best.get(*head.values()),
+            runs=plan.runs,
+            plain_runs=peer_runs,
+            pymeshlab_runs=peer_runs if with_pymeshlab else 0,
+        )
 
 
-def keep_lower_energies(results, best):
-    """Put energies that are lower than known ones into the BestEnergies.
-
-    A first one comes from `renew_best_energies` alone: the end of one run says too little.
-    """
-    for case in results["race"] + results["scaling"]:
-        name = case["mesh"], case["vertices"], case["cubeness"]
-        energy = min(run["energy"] for run in case["ours"])
-        if best.get(*name) is not None:
-            best.offer(*name, min(energy, case["best"]), "the benchmark")
+def _phases(plan, meshes, say):
+    for mesh in _meshes(plan, meshes):
+        say(f"phases: {mesh.name}")
+        yield _head(mesh) | isolated(phases, path=mesh.path, cubeness=CUBENESS)
 
 
-def _head(mesh, cubeness):
-    return {"mesh": mesh.name, "vertices": mesh.vertices, "cubeness": cubeness}
+def _scaling(plan, meshes, say):
+    best = BestEnergies()
+    for mesh in scaled_meshes(meshes.get("bunny"), plan.max_vertices):
+        say(f"scaling: {mesh.vertices:,} vertices")
+        runs = plan.runs if mesh.vertices < LARGE_SCALING else 1
+        head = _head(mesh)
+        figures = isolated(solver_alone.one_size, path=mesh.path, runs=runs)
+        yield head | {"best": best.get(*head.values())} | figures
 
 
-def _ten(mesh, runs):
-    figures = call("ten_iterations", "ten_iterations", source=str(mesh.source), runs=runs)
-    return {"mesh": mesh.name, "vertices": mesh.vertices, **figures}
-
-
-def _race(mesh, cubeness, plan, best):
-    peer_runs = plan.runs if mesh.vertices < LARGE else 1
-    figures = call(
-        "race",
-        "race",
-        path=str(mesh.path),
-        cubeness=cubeness,
-        best=best.get(mesh.name, mesh.vertices, cubeness),
-        runs=plan.runs,
-        plain_runs=peer_runs,
-        pymeshlab_runs=peer_runs if (mesh.name, cubeness) in plan.pymeshlab else 0,
-    )
-    return _head(mesh, cubeness) | figures
-
-
-def _one_size(mesh, plan, best):
-    runs = plan.runs if mesh.vertices < LARGE_SCALING else 1
-    figures = call("scaling", "one_size", path=str(mesh.path), runs=runs)
-    known = best.get(mesh.name, mesh.vertices, scaling.CUBENESS)
-    return _head(mesh, scaling.CUBENESS) | {"best": known} | figures
-
-
-def _all_defaults(plan, meshes, cache, say):
-    """Return the cases of the part "defaults": the largest mesh last, for its memory."""
-    known = [meshes[name] for name in plan.defaults if name in meshes]
-    cases = []
-    for mesh in (*known, *made_meshes(cache, plan.fineness).values()):
+def _defaults(plan, meshes, say):
+    for mesh in (*_meshes(plan, meshes), *made_meshes(plan.fineness)):
         say(f"with the defaults: {mesh.name}")
-        cases.append(_defaults(mesh, plan.runs))
-    largest = scaled_meshes(meshes.get("bunny"), cache, plan.max_vertices)[-1]
+        case = {"path": mesh.path, "cubeness": CUBENESS}
+        figures = isolated(defaults.side_by_side, **case, runs=plan.runs)
+        ticks = isolated(defaults.ticks, **case) if mesh.vertices <= COARSE else []
+        yield _head(mesh) | figures | {"ticks": ticks}
+    largest = scaled_meshes(meshes.get("bunny"), plan.max_vertices)[-1]
     say(f"with the defaults: {largest.name}, {largest.vertices:,} vertices")
-    return [*cases, _defaults_alone(largest)]
+    case = {"path": largest.path, "cubeness": CUBENESS}
+    alone = {name: [isolated(defaults.alone, **case, name=name)] for name in defaults.SETTINGS}
+    yield _head(largest) | alone | {"ticks": []}
 
 
-def _defaults(mesh, runs):
-    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
-    figures = call("defaults", "side_by_side", **arguments, runs=runs)
-    ticks = call("defaults", "ticks", **arguments) if mesh.vertices <= COARSE else []
-    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": ticks}
+def _startup(plan, meshes, say):
+    say("start-up")
+    yield startup(plan.runs)
 
 
-def _defaults_alone(mesh):
-    """Measure a large mesh once with each, in processes of their own, for the memory."""
-    arguments = {"path": str(mesh.path), "cubeness": DEFAULTS_CUBENESS}
-    figures = {name: [call("defaults", "alone", **arguments, name=name)] for name in SETTINGS}
-    return _head(mesh, DEFAULTS_CUBENESS) | figures | {"ticks": []}
+PARTS = {
+    "ten": _ten,
+    "race": _race,
+    "phases": _phases,
+    "scaling": _scaling,
+    "defaults": _defaults,
+    "startup": _startup,
+}
+
+
+def renew_best_energies(plan, folder, seconds, only, say):
+    """Look long for lower energies than those known, and keep them; see `find_best`.
+
+    If `only` names any, only cases are looked at whose "mesh vertices cubeness" begins so.
+    """
+    meshes, best = known_meshes(folder), BestEnergies()
+    cases = [(mesh, cubeness) for mesh, cubeness, _ in _cases(plan, meshes)]
+    known = {mesh.vertices for mesh, _ in cases}
+    sizes = scaled_meshes(meshes.get("bunny"), plan.max_vertices)
+    for mesh, cubeness in cases + [(m, CUBENESS) for m in sizes if m.vertices not in known]:
+        case = mesh.name, mesh.vertices, cubeness
+        name = " ".join(map(str, case))
+        if mesh.vertices > plan.max_vertices or not name.startswith(tuple(only) or ""):
+            continue
+        before = best.get(*case)
+        energy, found_by = isolated(find_best, path=mesh.path, cubeness=cubeness, seconds=seconds)
+        is_new = best.offer(*case, energy=energy, found_by=found_by)
+        end = f"new, {found_by}" if is_new else "no better"
+        say(f"{name}: known {before}, found {energy:.7f}: {end}")
+
+
+def _cases(plan, meshes):
+    return [(meshes[name], *others) for name, *others in plan.cases if name in meshes]
+
+
+def _meshes(plan, meshes):
+    return dict.fromkeys(mesh for mesh, *_ in _cases(plan, meshes))
+
+
+def _head(mesh, cubeness=CUBENESS):
+    return {"mesh": mesh.name, "vertices": mesh.vertices, "cubeness": cubeness}

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The figures and the table of the paper, made with our tool."""
+"""The figures of the paper, made with our tool."""

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the figures and the table of the CubicCraft paper, and write them to a folder; see --help.
+"""Make the figures of the CubicCraft paper, and write them to a folder; see --help.
 
 Without a folder of meshes Blender's own shapes take their place.
 """
 
 import argparse
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -17,59 +18,35 @@ from headless.interruption import end_on_signals  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 from headless_render import leave  # noqa: E402
 
-from figures import interface, table  # noqa: E402
-
 PROGRAM = "figures"
 RENDERED = ("1", "2", "3", "5", "6")
-"""figures of the paper that Blender renders; what is left, other commands have made"""
-BUILD = ROOT / "build"
+"""figures that Blender renders; what is left, other commands have made"""
+ALL = (*RENDERED, "4")
+SCREENSHOT = "*/test_first_sculpture/first_3_live.png"
 
 
 def arguments() -> argparse.Namespace:
     """Return the parsed command line."""
+    parser = argparse.ArgumentParser(
+        prog=PROGRAM,
+        description=__doc__,
+        allow_abbrev=False,
+        formatter_class=argparse.ArgumentDefaultsHelpFormatter,
+    )
+    add = parser.add_argument
+    files = "bunny.obj, spot.obj, owl.obj, horse.ply, armadillo.obj, or some of them"
     meshes = os.environ.get("CUBIC_CRAFT_MESHES")
-    parser = argparse.ArgumentParser(prog=PROGRAM, description=__doc__, allow_abbrev=False)
-    parser.add_argument(
-        "--meshes",
-        type=Path,
-        default=Path(meshes) if meshes else None,
-        metavar="FOLDER",
-        help="folder with bunny.obj, spot.obj, owl.obj, horse.ply, armadillo.obj, or some of them",
-    )
-    parser.add_argument("--output", type=Path, default=ROOT / "docs" / "figures", metavar="FOLDER")
-    parser.add_argument(
-        "--only",
-        nargs="+",
-        choices=(*RENDERED, "4", "table"),
-        default=(*RENDERED, "4", "table"),
-        help="numbers of figures, or table (default: all)",
-    )
-    parser.add_argument("--width", type=int, default=1600, metavar="PIXELS", help="(default: 1600)")
-    parser.add_argument(
-        "--samples", type=int, default=24, metavar="N", help="of Cycles, denoised (default: 24)"
-    )
-    parser.add_argument("--engine", choices=("cycles", "workbench"), default="cycles")
-    parser.add_argument(
-        "--screenshots",
-        type=Path,
-        default=BUILD / "gui",
-        metavar="FOLDER",
-        help="what the window tests wrote, for figure 4 (default: build/gui)",
-    )
-    parser.add_argument(
-        "--bench",
-        type=Path,
-        default=BUILD / "bench" / "results.json",
-        metavar="FILE",
-        help="what the benchmark wrote, for the table (default: build/bench/results.json)",
-    )
-    parser.add_argument(
-        "--save-blend",
-        type=Path,
-        metavar="FOLDER",
-        help="save the scene of each rendered figure there, to look at it in Blender",
-    )
-    parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
+    add("--meshes", type=Path, default=meshes and Path(meshes), help=f"folder with {files}")
+    add("--output", type=Path, default=ROOT / "docs" / "figures", help="folder")
+    add("--only", nargs="+", choices=ALL, default=ALL, help="numbers of figures")
+    add("--width", type=int, default=1600, help="pixels")
+    add("--samples", type=int, default=24, help="of Cycles, denoised")
+    add("--engine", choices=("cycles", "workbench"), default="cycles", help="of Blender")
+    shots = "folder that the window tests wrote, for figure 4"
+    add("--screenshots", type=Path, default=ROOT / "build" / "gui", help=shots)
+    scenes = "folder to save the scene of each rendered figure in, to look at it in Blender"
+    add("--save-blend", type=Path, help=scenes)
+    add("--verbose", action="store_true", help="show Blender's own messages")
     options = parser.parse_args()
     if options.width < 16 or options.samples < 1:
         parser.error("--width must be 16 at least, and --samples 1")
@@ -88,9 +65,7 @@ def main() -> int:
             if folder is not None:
                 folder.mkdir(parents=True, exist_ok=True)
         if "4" in options.only:
-            print(interface.take(options.screenshots, options.output), file=sys.stderr)
-        if "table" in options.only:
-            print(table.write(options.bench, options.output), file=sys.stderr)
+            print(copy_screenshot(options.screenshots, options.output), file=sys.stderr)
         wanted = [name for name in RENDERED if name in options.only]
         if wanted:
             from figures.rendered import render_figures  # late: it takes Blender a second to start
@@ -100,6 +75,18 @@ def main() -> int:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
     return 0
+
+
+def copy_screenshot(screenshots: Path, output: Path) -> str:
+    """Copy the last one of the window tests, or keep what is there; return what has been done."""
+    target = output / "figure_4_interface.png"
+    shots = list(screenshots.glob(SCREENSHOT))
+    if not shots:
+        kept = f"{target} stays as it is" if target.exists() else "there is none"
+        return f"figure 4: no window test has run here (make test-gui), {kept}"
+    newest = max(shots, key=lambda path: path.stat().st_mtime)
+    shutil.copyfile(newest, target)
+    return f"figure 4: {target} is the screenshot {newest}"
 
 
 if __name__ == "__main__":

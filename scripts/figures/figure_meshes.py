@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where meshes are loaded and cubified, each once, however many figures show them."""
+"""Where meshes are loaded and cubified, each once, however many figures show them.
+
+`homer.obj`, which the paper shows too, is left out: it is a trademarked character.
+"""
 
 import math
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,24 +17,52 @@ import numpy as np
 from headless.detached import detached_copy
 from headless.errors import InputError
 from headless.extension import Extension
-from headless.gallery import Group, extent_of
+from headless.gallery import YAW, Group, extent_of
 from headless.handles_file import read_handles
 from headless.load_meshes import Loaded, load
 from headless.pose import handles_of_all
 from headless.progress import ProgressBar
+from headless.studio import surface
 from mathutils import Euler, Matrix
 
-from .models import FILES, OWN_SHAPES, Role
+from . import shapes
 
-__all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "moved")
+__all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "colored_by", "moved")
 
 AS_IN_THE_PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
 """settings for figures that show what the energy of the paper does"""
 
 
 @dataclass(frozen=True)
+class Role:
+    """How a mesh comes onto the stage."""
+
+    source: str | Callable[[], bpy.types.Object]
+    """a file in the folder of meshes, or what makes one of Blender's own shapes"""
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """degrees that stand it upright as it is imported"""
+    yaw: float = math.degrees(YAW)
+    """degrees toward the camera"""
+    size: float = 1.0
+    """in the gallery; by the largest extent alone, long legs would make a mesh look small"""
+
+
+ROLES = {
+    "bunny": Role("bunny.obj", turn=(-90.0, 0.0, 0.0), size=0.95),
+    "spot": Role("spot.obj", turn=(0.0, 0.0, 180.0)),
+    "owl": Role("owl.obj", turn=(-90.0, 0.0, 0.0), size=1.15),
+    "horse": Role("horse.ply", turn=(0.0, 0.0, 180.0), yaw=-55.0, size=1.3),
+    "armadillo": Role("armadillo.obj", turn=(0.0, 0.0, 180.0), size=1.15),
+    "monkey": Role(shapes.monkey),
+    "bear": Role(shapes.bear),
+    "duck": Role(shapes.duck, yaw=60.0),
+    "letter": Role(shapes.letter, yaw=20.0),
+}
+
+
+@dataclass(frozen=True)
 class Model:
-    """A mesh of the cast, in a scene of its own."""
+    """A mesh in a scene of its own."""
 
     name: str
     role: Role
@@ -54,31 +86,22 @@ class Model:
 
 
 class FigureMeshes:
-    """Loads the cast, cubifies it, and makes groups for galleries."""
+    """Loads meshes, cubifies them, and makes groups for galleries."""
 
     def __init__(
-        self,
-        extension: Extension,
-        root: Path,
-        folder: Path | None,
-        bar: ProgressBar,
-        verbose: bool,
+        self, extension: Extension, folder: Path | None, bar: ProgressBar, verbose: bool
     ) -> None:
-        self.extension = extension
-        self.root = root
-        self._folder = folder
-        self._bar = bar
-        self._verbose = verbose
-        self._models: dict[str, Model] = {}
-        self._solved: dict[tuple, np.ndarray] = {}
+        self.extension, self._folder, self._bar, self._verbose = extension, folder, bar, verbose
+        self._model, self._solve = cache(self._load), cache(self._solve_now)
 
     def there(self, names: Sequence[str], instead: Sequence[str]) -> list[Model]:
         """Return those of the names whose files are there; if none is, the shapes instead."""
-        files = [name for name in names if self._path(FILES[name])]
-        return [self._model(name) for name in files or instead]
+        return [self._model(name) for name in filter(self._path, names)] or [
+            self._model(name) for name in instead
+        ]
 
     def handles(self, model: Model, file: Path) -> tuple[Any, ...]:
-        """Return the handles of a model that a file of `examples` describes."""
+        """Return the handles of a model that a file describes."""
         options = Namespace(pin=[], handles=read_handles(file), input=model.path)
         return handles_of_all(model.loaded, options, self.extension)[model.object.name]
 
@@ -105,46 +128,41 @@ class FigureMeshes:
         settings = self.extension.settings.Settings(
             cubeness=cubeness, orientation=radians, space="OBJECT", **others
         )
-        key = (model.name, settings)
-        if key not in self._solved:
-            self._solved[key] = self._solve(model, settings)
-        return self._solved[key]
+        return self._solve(model.name, settings)
 
     def group(self, model: Model, positions: np.ndarray, label: str, finish: str) -> Group:
         """Return a copy of the model with other positions, for a gallery."""
         copy = detached_copy(model.object, positions, self.extension, keep_modifiers=True)
         points = moved(positions, model.place)
         extent = extent_of(moved(model.original, model.place)) / model.role.size
-        return Group(label, [copy], [model.place], points, extent, finish, model.role.yaw)
+        yaw = math.radians(model.role.yaw)
+        return Group(label, [copy], [model.place], points, extent, finish, yaw)
 
-    def _path(self, role: Role) -> Path | None:
-        path = self._folder / role.file if self._folder is not None and role.file else None
+    def _path(self, name: str) -> Path | None:
+        source = ROLES[name].source
+        path = self._folder / source if self._folder and isinstance(source, str) else None
         return path if path is not None and path.exists() else None
 
-    def _model(self, name: str) -> Model:
-        if name not in self._models:
-            role = FILES.get(name) or OWN_SHAPES[name]
-            scene = bpy.data.scenes.new(name)
-            bpy.context.window.scene = scene
-            path = self._path(role)
-            if role.make is not None:
-                loaded = Loaded([role.make()])
-            else:
-                loaded = load(path, None, self._verbose)
-            bpy.context.view_layer.update()
-            original = self.extension.mesh_bridge.original_positions(loaded.objects[0].data)
-            self._models[name] = Model(name, role, scene, loaded, path, original)
-        return self._models[name]
+    def _load(self, name: str) -> Model:
+        role, path, scene = ROLES[name], self._path(name), bpy.data.scenes.new(name)
+        bpy.context.window.scene = scene
+        loaded = (
+            Loaded([role.source()]) if callable(role.source) else load(path, None, self._verbose)
+        )
+        bpy.context.view_layer.update()
+        original = self.extension.mesh_bridge.original_positions(loaded.objects[0].data)
+        return Model(name, role, scene, loaded, path, original)
 
-    def _solve(self, model: Model, settings: Any) -> np.ndarray:
+    def _solve_now(self, name: str, settings: Any) -> np.ndarray:
+        model = self._model(name)
         bpy.context.window.scene = model.scene
-        with self._bar.task(f"{model.name}, cubeness {settings.cubeness:g}") as task:
+        with self._bar.task(f"{name}, cubeness {settings.cubeness:g}") as task:
             try:
                 member = self.extension.member.read_member(model.object, settings)
                 prepared = self.extension.assembly.prepare([member])
                 (solution,) = self.extension.pipeline.solve(prepared)
             except self.extension.solver.CubicCraftError as error:
-                raise InputError(f"{model.path or model.name}: {error}") from error
+                raise InputError(f"{model.path or name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")
         return solution.positions
 
@@ -153,3 +171,14 @@ def moved(points: np.ndarray, matrix: Matrix) -> np.ndarray:
     """Return points (n,3) float64 where a matrix takes them."""
     array = np.array(matrix)
     return points @ array[:3, :3].T + array[:3, 3]
+
+
+def colored_by(kind: str, roughness: float, **settings: Any) -> bpy.types.Material:
+    """Return a material whose colour is that of a new node of a kind with these settings."""
+    material = surface("Colored", (1.0, 1.0, 1.0), roughness)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    node = nodes.new(kind)
+    for name, value in settings.items():
+        setattr(node, name, value)
+    links.new(node.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+    return material

@@ -3,6 +3,7 @@
 
 import math
 
+import bmesh
 import bpy
 import numpy as np
 from headless.gallery import Group
@@ -10,7 +11,6 @@ from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
-from .picture import Picture, side_by_side
 
 __all__ = ("compose",)
 
@@ -22,8 +22,6 @@ ORIENTATIONS = {
     "on a corner": (45.0, math.degrees(math.atan(math.sqrt(0.5))), 0.0),
 }
 """label: Euler angles in degrees, relative to the mesh"""
-HEIGHT = 520
-"""pixels"""
 EDGE = 0.2
 """of the cube, relative to the largest side of the mesh"""
 BEVEL = 0.06
@@ -32,8 +30,8 @@ AWAY = (-0.62, -0.30)
 """middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
 
 
-def compose(meshes: FigureMeshes) -> Picture:
-    """Stand the cubic versions in a row, each with the cube that it is turned toward."""
+def compose(meshes: FigureMeshes) -> list[Group]:
+    """Return the cubic versions, each with the cube that it is turned toward."""
     (model,) = meshes.there(["bunny"], instead=["monkey"])
     clay = surface("Cube", *FINISHES["clay"])
     groups = []
@@ -44,7 +42,7 @@ def compose(meshes: FigureMeshes) -> Picture:
         group = meshes.group(model, shape, label, "green")
         _add_cube(group, model, angles, clay)
         groups.append(group)
-    return side_by_side(groups, HEIGHT)
+    return groups
 
 
 def _add_cube(
@@ -53,31 +51,28 @@ def _add_cube(
     """Put a cube of the orientation on the floor, before the mesh and to its left."""
     axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
     upright = model.place.to_3x3().normalized() @ axes
-    corners = _corners(EDGE * group.extent / 2)
+    cube = _cube(EDGE * group.extent, clay)
+    corners = np.array([vertex.co for vertex in cube.data.vertices])
     low, high = group.points.min(axis=0), group.points.max(axis=0)
     away = Vector((*AWAY, 0.0)) * group.extent
     away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
     middle = Vector((low + high) / 2) + away
     middle.z = low[2] - moved(corners, upright.to_4x4())[:, 2].min()
     place = Matrix.Translation(middle) @ upright.to_4x4()
-    group.copies.append(_cube(corners, clay))
+    group.copies.append(cube)
     group.places.append(place)
     group.points = np.concatenate([group.points, moved(corners, place)])
 
 
-def _corners(half: float) -> np.ndarray:
-    signs = (-half, half)
-    return np.array([(x, y, z) for x in signs for y in signs for z in signs])
-
-
-def _cube(corners: np.ndarray, clay: bpy.types.Material) -> bpy.types.Object:
+def _cube(edge: float, clay: bpy.types.Material) -> bpy.types.Object:
     """Return a cube, slightly rounded, in no scene."""
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    edited = bmesh.new()
+    bmesh.ops.create_cube(edited, size=edge)
     mesh = bpy.data.meshes.new("Cube")
-    mesh.from_pydata(corners.tolist(), [], faces)
+    edited.to_mesh(mesh)
+    edited.free()
     mesh.materials.append(clay)
     cube = bpy.data.objects.new("Cube", mesh)
     bevel = cube.modifiers.new("Bevel", "BEVEL")
-    bevel.width = BEVEL * float(np.ptp(corners[:, 0]))
-    bevel.segments = 3
+    bevel.width, bevel.segments = BEVEL * edge, 3
     return cube

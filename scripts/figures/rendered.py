@@ -2,26 +2,44 @@
 """The figures that Blender renders, one after the other in one session."""
 
 from argparse import Namespace
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 from headless.extension import registered
+from headless.gallery import Gallery, Group, arrange, scene_for_gallery
 from headless.load_meshes import empty_blender
 from headless.progress import ProgressBar
 from headless.render import render
+from headless.studio import furnish
 
 from . import cubeness, handles, orientations, teaser, uv_texture
 from .figure_meshes import FigureMeshes
-from .picture import Picture
 
 __all__ = ("render_figures",)
 
-COMPOSERS = {
-    "1": ("figure_1_teaser", teaser.compose),
-    "2": ("figure_2_uv_texture", uv_texture.compose),
-    "3": ("figure_3_handles", handles.compose),
-    "5": ("figure_5_cubeness", cubeness.compose),
-    "6": ("figure_6_orientations", orientations.compose),
+NOMINAL_WIDTH = 1600
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture of groups that stand side by side, unless they are arranged otherwise."""
+
+    name: str
+    compose: Callable[[FigureMeshes], list[Group]]
+    """returns groups whose copies are in no scene yet"""
+    height: int
+    """pixels, of a picture `NOMINAL_WIDTH` pixels wide"""
+    arrange: Callable[[list[Group], bpy.types.Scene, tuple[int, int]], Gallery] = arrange
+
+
+FIGURES = {
+    "1": Figure("figure_1_teaser", teaser.compose, 860, teaser.in_two_rows),
+    "2": Figure("figure_2_uv_texture", uv_texture.compose, 560),
+    "3": Figure("figure_3_handles", handles.compose, 560),
+    "5": Figure("figure_5_cubeness", cubeness.compose, 460),
+    "6": Figure("figure_6_orientations", orientations.compose, 520),
 }
 
 
@@ -30,7 +48,7 @@ def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
 
     Parameters
     ----------
-    wanted : keys of `COMPOSERS`
+    wanted : keys of `FIGURES`
     options : from the command line
     root : folder of the extension
 
@@ -42,31 +60,32 @@ def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
     empty_blender()
     bar = ProgressBar()
     with registered(root) as extension:
-        meshes = FigureMeshes(extension, root, options.meshes, bar, options.verbose)
+        meshes = FigureMeshes(extension, options.meshes, bar, options.verbose)
         for number in wanted:
-            name, compose = COMPOSERS[number]
-            picture = compose(meshes)
-            path = options.output / f"{name}.png"
+            figure = FIGURES[number]
+            gallery = _gallery(figure, meshes)
+            path = options.output / f"{figure.name}.png"
+            settings = {
+                **{name: getattr(options, name) for name in ("engine", "samples", "verbose")},
+                "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
+                "turntable": 0,
+                "threads": None,  # all
+            }
             with bar.task(f"figure {number}") as task:
-                _render(picture, path, options)
+                list(render(gallery, [path], Namespace(**settings)))
                 task.finish(f"wrote {path}")
             if options.save_blend:
-                _save(options.save_blend / f"{name}.blend")
+                blend = str((options.save_blend / f"{figure.name}.blend").resolve())
+                bpy.data.libraries.write(blend, {gallery.scene}, fake_user=True)
 
 
-def _render(picture: Picture, path: Path, options: Namespace) -> None:
-    settings = Namespace(
-        engine=options.engine,
-        samples=options.samples,
-        resolution=picture.resolution(options.width),
-        turntable=0,
-        threads=None,  # all
-        verbose=options.verbose,
-    )
-    for _ in render(picture.gallery, [path], settings):
-        pass
-
-
-def _save(path: Path) -> None:
-    """Save what belongs to the scene that is shown."""
-    bpy.data.libraries.write(str(path.resolve()), {bpy.context.scene}, fake_user=True)
+def _gallery(figure: Figure, meshes: FigureMeshes) -> Gallery:
+    """Return the furnished gallery of a figure, in a scene that is shown."""
+    groups = figure.compose(meshes)
+    scene = scene_for_gallery()
+    for group in groups:
+        for copy in group.copies:
+            scene.collection.objects.link(copy)
+    gallery = figure.arrange(groups, scene, (NOMINAL_WIDTH, figure.height))
+    furnish(gallery, NOMINAL_WIDTH / figure.height)
+    return gallery

@@ -5,57 +5,89 @@ The material of all four meshes reads nothing but an image, through the UVs.
 """
 
 import bpy
+import numpy as np
 from headless.gallery import Group
-from headless.studio import surface
+from headless.quiet import captured
 
-from .figure_meshes import FigureMeshes, Model
-from .hide import painted_hide
-from .picture import Picture, side_by_side
+from .figure_meshes import FigureMeshes, Model, colored_by
 
 __all__ = ("compose",)
 
 CUBENESS = 0.7
-GRID_PIXELS = 2048
+PIXELS = 2048
+MARGIN = 32
+"""pixels that the paint reaches beyond the islands of the UV map, against seams"""
+WHITE = (0.66, 0.60, 0.51, 1.0)
+BROWN = (0.12, 0.045, 0.02, 1.0)
+"""linear RGBA"""
+PATCHES = 3.2
+"""of the noise, along the largest side of the mesh"""
+EDGE = 0.53
+"""level of the noise at which a patch ends"""
 ROUGHNESS = 0.5
-HEIGHT = 560
-"""pixels"""
 
 
-def compose(meshes: FigureMeshes) -> Picture:
-    """Show a painted mesh and one with a grid, each before and after."""
+def compose(meshes: FigureMeshes) -> list[Group]:
+    """Return a painted mesh and one with Blender's own test grid, each before and after."""
     (model,) = meshes.there(["spot"], instead=["monkey"])
     shape = meshes.cubified(model, CUBENESS)
-    groups: list[Group] = []
-    for image, name in ((painted_hide(model), "painted"), (_grid(), "grid")):
-        material = _textured(image)
+    grid = bpy.data.images.new("Grid", PIXELS, PIXELS)
+    grid.generated_type = "COLOR_GRID"
+    grid.pack()
+    groups = []
+    for image, name in ((_painted_hide(model), "painted"), (grid, "grid")):
+        material = colored_by("ShaderNodeTexImage", ROUGHNESS, image=image)
         for positions, label in ((model.original, name), (shape, f"{name}, cubeness {CUBENESS:g}")):
-            groups.append(_dressed(meshes, model, positions, label, material))
-    return side_by_side(groups, HEIGHT)
+            group = meshes.group(model, positions, label, "grey")
+            group.copies[0].data.materials.clear()
+            group.copies[0].data.materials.append(material)
+            groups.append(group)
+    return groups
 
 
-def _dressed(
-    meshes: FigureMeshes, model: Model, positions, label: str, material: bpy.types.Material
-) -> Group:
-    group = meshes.group(model, positions, label, "grey")
-    mesh = group.copies[0].data
-    mesh.materials.clear()
-    mesh.materials.append(material)
-    return group
+def _painted_hide(model: Model) -> bpy.types.Image:
+    """Return an image of a cow's patches, baked from where the original lies in space to its UVs.
 
-
-def _grid() -> bpy.types.Image:
-    """Return Blender's own coloured test grid."""
-    image = bpy.data.images.new("Grid", GRID_PIXELS, GRID_PIXELS)
-    image.generated_type = "COLOR_GRID"
+    Whoever shows it sees nothing of that space any more, only UVs.
+    """
+    image = bpy.data.images.new("Hide", PIXELS, PIXELS)
+    bpy.context.window.scene = scene = model.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device, scene.cycles.samples = "CPU", 4
+    copy = model.object.copy()
+    copy.data = model.object.data.copy()
+    scene.collection.objects.link(copy)
+    copy.data.materials.clear()
+    copy.data.materials.append(_patches(image, model))
+    bpy.ops.object.select_all(action="DESELECT")
+    copy.select_set(True)
+    bpy.context.view_layer.objects.active = copy
+    with captured(verbose=False):
+        bpy.ops.object.bake(type="EMIT", margin=MARGIN, use_clear=True)
     image.pack()
+    bpy.data.meshes.remove(copy.data)  # takes the object along
     return image
 
 
-def _textured(image: bpy.types.Image) -> bpy.types.Material:
-    """Return a material that shows an image through the active UV map."""
-    material = surface(image.name, (1.0, 1.0, 1.0), ROUGHNESS)
+def _patches(image: bpy.types.Image, model: Model) -> bpy.types.Material:
+    """Return a material that emits patches, with the image as what is baked to."""
+    material = bpy.data.materials.new("Patches")
+    material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
-    texture = nodes.new("ShaderNodeTexImage")
-    texture.image = image
-    links.new(texture.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+    place = nodes.new("ShaderNodeTexCoord")
+    noise = nodes.new("ShaderNodeTexNoise")
+    noise.inputs["Scale"].default_value = PATCHES / float(np.ptp(model.original, axis=0).max())
+    noise.inputs["Detail"].default_value = 2.0
+    ramp = nodes.new("ShaderNodeValToRGB")
+    white, brown = ramp.color_ramp.elements
+    white.color, brown.color = WHITE, BROWN
+    white.position, brown.position = EDGE, EDGE + 0.015
+    light = nodes.new("ShaderNodeEmission")
+    links.new(place.outputs["Object"], noise.inputs["Vector"])
+    links.new(noise.outputs["Fac"], ramp.inputs["Fac"])
+    links.new(ramp.outputs["Color"], light.inputs["Color"])
+    links.new(light.outputs["Emission"], nodes["Material Output"].inputs["Surface"])
+    target = nodes.new("ShaderNodeTexImage")
+    target.image = image
+    nodes.active = target
     return material

@@ -3,6 +3,7 @@
 
 import argparse
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -44,8 +45,6 @@ def main():
     elif options.command == "check":
         check_all(options.zips)
     elif options.command == "repository":
-        from package.repository import make_repository
-
         make_repository(options.zips, options.output)
     else:
         build_all(options)
@@ -64,6 +63,21 @@ def build_all(options):
         )
     for path in built:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")
+
+
+def make_repository(zips, output):
+    """Copy the zips into a folder for any web server; Blender's tool writes the listing and a page.
+
+    All addresses in the listing are relative, so that the folder can lie anywhere. The zip without
+    wheels does not belong there: it is for all platforms, and Blender would then find two.
+    """
+    from build_extension import blender_tool
+
+    shutil.rmtree(output, ignore_errors=True)
+    output.mkdir(parents=True)
+    for path in zips:
+        shutil.copy(path, output / path.name)
+    blender_tool("server-generate", "--repo-dir", output, "--html")
 
 
 def check_all(zips):

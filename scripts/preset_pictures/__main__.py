@@ -14,12 +14,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 import bpy  # noqa: E402
+from figures.shapes import bear as add_bear  # noqa: E402
 from headless.extension import Extension, registered  # noqa: E402
 from headless.load_meshes import empty_blender  # noqa: E402
 from headless.studio import surface  # noqa: E402
 from mathutils import Euler, Vector  # noqa: E402
-
-from preset_pictures.bear import add_bear  # noqa: E402
 
 WITHOUT = "preset_without_picture"
 SIZE = 160

@@ -5,8 +5,7 @@ import json
 
 import pytest
 
-from scripts.benchmark.best_energies import BOOK, BestEnergies
-from scripts.benchmark.suite import keep_lower_energies
+from scripts.benchmark.best_energies import BOOK, BestEnergies, keep_lower_energies
 
 
 @pytest.fixture
@@ -21,19 +20,19 @@ def test_unknown(path):
 
 def test_lower_energies_are_kept(path):
     best = BestEnergies(path)
-    assert best.offer("bunny", 6172, 0.2, 0.6, "a run")
-    assert not best.offer("bunny", 6172, 0.2, 0.6, "the same again")
-    assert not best.offer("bunny", 6172, 0.2, 0.7, "a worse run")
-    assert best.offer("bunny", 6172, 0.2, 0.5, "a better run")
+    assert best.offer("bunny", 6172, 0.2, energy=0.6, found_by="a run")
+    assert not best.offer("bunny", 6172, 0.2, energy=0.6, found_by="the same again")
+    assert not best.offer("bunny", 6172, 0.2, energy=0.7, found_by="a worse run")
+    assert best.offer("bunny", 6172, 0.2, energy=0.5, found_by="a better run")
     assert BestEnergies(path).get("bunny", 6172, 0.2) == 0.5
     assert "a better run" in path.read_text()
 
 
 def test_size_and_cubeness_are_told_apart(path):
     best = BestEnergies(path)
-    best.offer("bunny", 6172, 0.2, 0.6, "")
-    best.offer("bunny", 1000, 0.2, 0.7, "")
-    best.offer("bunny", 6172, 0.4, 0.8, "")
+    best.offer("bunny", 6172, 0.2, energy=0.6, found_by="")
+    best.offer("bunny", 1000, 0.2, energy=0.7, found_by="")
+    best.offer("bunny", 6172, 0.4, energy=0.8, found_by="")
     assert best.get("bunny", 6172, 0.2) == 0.6
     assert best.get("bunny", 1000, 0.2) == 0.7
     assert best.get("bunny", 6172, 0.4) == 0.8
@@ -43,8 +42,8 @@ def test_size_and_cubeness_are_told_apart(path):
 
 def test_a_full_run_only_lowers_what_is_known(path):
     best = BestEnergies(path)
-    best.offer("bunny", 6172, 0.2, 0.6, "")
-    best.offer("horse", 48485, 0.2, 0.3, "")
+    best.offer("bunny", 6172, 0.2, energy=0.6, found_by="")
+    best.offer("horse", 48485, 0.2, energy=0.3, found_by="")
 
     def case(mesh, vertices, energy, known):
         ours = [{"energy": energy}, {"energy": 0.9}]

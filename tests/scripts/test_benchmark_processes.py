@@ -1,64 +1,51 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the benchmark takes measurements: processes of its own, memory, clocks on functions."""
 
+import fractions
+import os
 import sys
+import types
 
 import numpy as np
 import pytest
 
-from scripts.benchmark import memory, phases, primitives
-from scripts.benchmark.isolated import call
+from scripts.benchmark import phases, shapes
+from scripts.benchmark.machine import isolated, peak_memory
+from scripts.benchmark.meshes import keep
+from scripts.benchmark.startup import startup
 
 
 def test_call_in_another_process():
-    assert call("gap", "energy_at_gap", wanted=0.5, rest=3.0, best=1.0) == 2.0
+    assert isolated(os.getpid) not in (os.getpid(), isolated(os.getpid))
+    with pytest.raises(ZeroDivisionError):
+        isolated(fractions.Fraction, numerator=1, denominator=0)
 
 
-def test_failure_in_another_process():
-    with pytest.raises(RuntimeError, match="must be above"):
-        call("gap", "gap", energy=1.0, rest=1.0, best=1.0)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the peak cannot be reset")
-def test_peak_memory_is_that_since_the_reset():
+def test_peak_memory_is_that_of_the_block():
     size = 64 * 1024**2
-    before = memory.resident_bytes()
     block = np.ones(size, np.uint8)
-    assert memory.peak_bytes() > before + size // 2
     del block
-    memory.reset_peak()
-    assert memory.peak_bytes() < before + size // 2
+    with peak_memory() as small:
+        pass
+    with peak_memory() as large:
+        block = np.ones(size, np.uint8)
+        del block
+    assert large["peak"] > large["above"] > size // 2
+    assert sys.platform != "linux" or small["above"] < size // 2, "elsewhere it cannot be reset"
 
 
-def test_stopwatch_counts_what_is_inside_once(monkeypatch):
+def test_clock_on_functions(monkeypatch):
     clock = [0.0]
     monkeypatch.setattr(phases.time, "perf_counter", lambda: clock[0])
-    watch = phases.Stopwatch()
 
-    def inner():
-        clock[0] += 2.0
-
-    timed_inner = watch.timed("inner", inner)
-
-    def outer():
-        clock[0] += 1.0
-        timed_inner()
-        timed_inner()
+    def work(seconds):
+        clock[0] += seconds
         return "result"
 
-    assert watch.timed("outer", outer)() == "result"
-    assert watch.seconds == {"outer": 1.0, "inner": 4.0}
-
-
-def test_stopwatch_replaces_a_method():
-    watch = phases.Stopwatch()
-    original = primitives.blob
-    try:
-        watch.replace("making", "scripts.benchmark.primitives", "blob")
-        primitives.blob(0)
-    finally:
-        primitives.blob = original
-    assert watch.seconds["making"] > 0.0
+    owner = types.SimpleNamespace(work=work, idle=work)
+    seconds = phases.put_under_clock({"working": (owner, "work"), "idling": (owner, "idle")})
+    assert owner.work(2.0) == owner.work(seconds=3.0) == "result"
+    assert (seconds["working"], seconds["idling"]) == (5.0, 0)
 
 
 def test_split_of_set_up_and_iteration():
@@ -69,17 +56,23 @@ def test_split_of_set_up_and_iteration():
     assert result["iteration"] == pytest.approx({"a": 1000.0, "b": 3000.0, "remainder": 500.0})
 
 
-def test_split_of_a_single_iteration():
-    with pytest.raises(ValueError, match="not 1"):
-        phases.split([(1.0, {})])
+def test_phases_of_a_run(tmp_path):
+    path = keep("blob", tmp_path / "blob.npz", *shapes.blob(2)).path
+    result = isolated(phases.phases, path=path, cubeness=0.4)
+    assert min(result["setup"]["rest mesh"], result["setup"]["factorisation"]) > 0.0
+    assert min(result["iteration"][name] for name in ("local step", "solve")) > 0.0
+    assert result["peak"] > result["above"]
 
 
-def test_blob_is_closed_and_faces_outward():
-    V, F = primitives.blob(2)
-    assert V.shape == (162, 3)
-    edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
-    sides = {tuple(edge) for edge in edges.tolist()}
-    assert len(sides) == len(edges)
-    assert all((b, a) in sides for a, b in sides)
+@pytest.mark.parametrize("mesh", [shapes.blob(2), shapes.sphere(8, 5)], ids=["blob", "sphere"])
+def test_a_made_shape_is_closed_and_faces_outward(mesh):
+    V, F = mesh
+    edges = {tuple(edge) for k in range(3) for edge in F[:, [k, (k + 1) % 3]].tolist()}
+    assert len(edges) == 3 * len(F)
+    assert all((b, a) in edges for a, b in edges)
     assert len(V) - len(edges) // 2 + len(F) == 2
     assert np.einsum("fi,fi->", V[F[:, 0]], np.cross(V[F[:, 1]], V[F[:, 2]])) > 0.0
+
+
+def test_each_program_has_a_first_result():
+    assert startup(runs=0) == {"monkey": [], "bpy": [], "solver": []}, "else it raises"

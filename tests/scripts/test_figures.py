@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The figures of the paper, of Blender's own shapes, tiny and rough."""
 
-import json
 import os
 import pickle
 import subprocess
@@ -102,28 +101,6 @@ def test_the_textured_meshes_have_the_same_uvs_bit_for_bit(folder):
         assert mesh["image"], "the material reads something else than an image"
 
 
-def test_the_table_is_that_of_the_benchmark(tmp_path):
-    results = {"machine": "A machine.", "runs": 3}
-    results["ten"] = [{"mesh": "bunny", "vertices": 6172, "seconds": [0.3, 0.1, 0.2]}]
-    results["ten"][0]["reading"] = [0.01]
-    bench = tmp_path / "results.json"
-    bench.write_text(json.dumps(results), encoding="utf-8")
-    process = figures("--only", "table", "--bench", bench, "--output", tmp_path)
-    assert process.returncode == 0, process.stderr
-    table = (tmp_path / "table_1.md").read_text(encoding="utf-8")
-    assert "A machine." in table
-    assert "| bunny | 6,172 | 0.01 s | 0.20 s | 3.55 s | 27.6 s | 18 | 138 |" in table
-
-
-def test_results_of_something_else_are_refused(tmp_path):
-    bench = tmp_path / "results.json"
-    bench.write_text("{}", encoding="utf-8")
-    process = figures("--only", "table", "--bench", bench, "--output", tmp_path)
-    assert process.returncode == 2
-    assert str(bench) in process.stderr
-    assert "Traceback" not in process.stderr
-
-
 def test_figure_4_is_the_last_screenshot(tmp_path):
     for number, suite in enumerate(("trixie", "sid")):
         shot = tmp_path / "gui" / suite / "test_first_sculpture" / "first_3_live.png"
@@ -140,12 +117,7 @@ def test_figure_4_is_the_last_screenshot(tmp_path):
 def test_what_was_not_made_stays_and_is_told(tmp_path):
     kept = tmp_path / "figure_4_interface.png"
     kept.write_bytes(b"kept")
-    nowhere = tmp_path / "nowhere"
-    process = figures(
-        *("--only", 4, "table", "--output", tmp_path),
-        *("--screenshots", nowhere, "--bench", nowhere),
-    )
+    process = figures("--only", 4, "--output", tmp_path, "--screenshots", tmp_path / "nowhere")
     assert process.returncode == 0, process.stderr
     assert kept.read_bytes() == b"kept"
     assert "make test-gui" in process.stderr
-    assert "make bench" in process.stderr

@@ -3,33 +3,12 @@
 
 import numpy as np
 
-_GOLDEN = (1 + 5**0.5) / 2
-_ICOSAHEDRON = np.array(
-    [
-        *[(-1, _GOLDEN, 0), (1, _GOLDEN, 0), (-1, -_GOLDEN, 0), (1, -_GOLDEN, 0)],
-        *[(0, -1, _GOLDEN), (0, 1, _GOLDEN), (0, -1, -_GOLDEN), (0, 1, -_GOLDEN)],
-        *[(_GOLDEN, 0, -1), (_GOLDEN, 0, 1), (-_GOLDEN, 0, -1), (-_GOLDEN, 0, 1)],
-    ]
-)
-_FACES = (
-    "0 11 5 0 5 1 0 1 7 0 7 10 0 10 11 1 5 9 5 11 4 11 10 2 10 7 6 7 1 8"
-    " 3 9 4 3 4 2 3 2 6 3 6 8 3 8 9 4 9 5 2 4 11 6 2 10 8 6 7 9 8 1"
-)
-
-
-def subdivided(V, F):
-    """Split each triangle in four."""
-    edges = np.sort(np.concatenate([F[:, [1, 2]], F[:, [2, 0]], F[:, [0, 1]]]), axis=1)
-    edges, number = np.unique(edges, axis=0, return_inverse=True)
-    a, b, c = len(V) + number.reshape(3, -1)  # a is opposite corner 0
-    i, j, k = F.T
-    V = np.concatenate([V, V[edges].mean(axis=1)])
-    return V, np.concatenate([np.stack(t, 1) for t in ((i, c, b), (j, a, c), (k, b, a), (a, b, c))])
+from scripts.benchmark.shapes import ICOSAHEDRON, ICOSAHEDRON_FACES, bumpy, subdivided
 
 
 def sphere(levels=3):
     """Return an icosphere of radius 1; 642 vertices at level 3."""
-    V, F = _ICOSAHEDRON.astype(float), np.array(_FACES.split(), int).reshape(-1, 3)
+    V, F = ICOSAHEDRON, ICOSAHEDRON_FACES
     for _ in range(levels):
         V, F = subdivided(V, F)
     return V / np.linalg.norm(V, axis=1, keepdims=True), F
@@ -38,9 +17,7 @@ def sphere(levels=3):
 def blob(levels=3):
     """Return a bumpy, asymmetric closed shape."""
     V, F = sphere(levels)
-    x, y, z = V.T
-    radius = 1 + 0.3 * np.sin(3 * x + 0.4) * np.cos(2 * y) + 0.15 * np.sin(5 * z + y)
-    return V * radius[:, None] * [1.0, 0.8, 1.3] + [0.2, -0.1, 0.4], F
+    return bumpy(V) + [0.2, -0.1, 0.4], F
 
 
 def skewed_blob():

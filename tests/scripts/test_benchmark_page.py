@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the page, its summaries and its targets make of given figures."""
+
+import pytest
+
+from scripts.benchmark import page, summary
+from scripts.benchmark.suite import PARTS
+from scripts.benchmark.targets import target, targets
+
+MEBIBYTES = {"peak": 300 * 1024**2, "above": 100 * 1024**2}
+NOTHING = {part: [] for part in PARTS} | {"machine": "A machine.", "runs": 3}
+
+
+def run(speed=1.0, energy=1.0, reason="converged", **others):
+    curve = [[0.5 * speed, 1.5], [1.0 * speed, 1.04], [2.0 * speed, 1.005], [4.0 * speed, energy]]
+    figures = {"setup": 0.1 * speed, "seconds": 5.0 * speed, "iterations": 4}
+    return figures | {"reason": reason, "curve": curve, "energy": energy} | others
+
+
+@pytest.fixture
+def case():
+    return {
+        **{"mesh": "horse", "vertices": 48_485, "cubeness": 0.4, "rest": 2.0, "best": 1.0},
+        "ours": [run(), run(3.0), run(2.0)],
+        "plain": [run(10.0, energy=1.003, reason="cancelled")],
+        "pymeshlab": [{"seconds": 80.0, "energy": 1.5}],
+        "long": [],
+        **MEBIBYTES,
+    }
+
+
+@pytest.fixture
+def results(case):
+    head = {name: case[name] for name in ("mesh", "vertices", "cubeness")}
+    defaults = {
+        "paper": [run(0.2, solved=50_000, links=0.0)],
+        "defaults": [run(0.24, solved=51_000, links=0.25) | MEBIBYTES],
+        "ticks": [0.025] * 4,
+    }
+    phases = {
+        "setup": {"rest mesh": 0.3, "factorisation": 0.4, "solve": 0.1, "remainder": 0.2},
+        "iteration": {"local step": 20.0, "right-hand side": 3.0, "solve": 5.0, "remainder": 1.0},
+    }
+    ten = {"mesh": "bunny", "vertices": 6172, "seconds": [0.3, 0.1, 0.2], "reading": [0.01]}
+    return NOTHING | {
+        "ten": [ten, ten | {"mesh": "blob"}],
+        "race": [case],
+        "phases": [case | phases],
+        "scaling": [case],
+        "defaults": [head | defaults],
+        "startup": [{"monkey": [2.0, 3.0, 9.0], "bpy": [1.0], "solver": [0.5]}],
+    }
+
+
+def rows_of(results):
+    """Return {heading of a section: rows, each {heading of a column: cell}}."""
+    found = {}
+    for section in page.page(results).split("\n#")[1:]:
+        lines = [line for line in section.splitlines() if line.startswith("|")]
+        headings, _, *rows = ([cell.strip() for cell in line.split("|")[1:-1]] for line in lines)
+        name = section.partition("\n")[0].strip("# ")
+        found[name] = [dict(zip(headings, row, strict=True)) for row in rows]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("section", "cells"),
+    [
+        ("Ten iterations", "bunny | 6,172 | 0.01 | 0.2 | 3.55 | 27.6 | 17.7 | 138"),
+        ("To the best shape", "horse | 48,485 | 0.4 | 2 | 4 | 8 | 10 | 4 | 0 | 0.2"),
+        (
+            "Beside the plain iteration",
+            "horse | 48,485 | 0.4 | 10 | 5 | 20 | 5 | 50 | 4, cut off | 0.3 | 6.25",
+        ),
+        (
+            "Beside PyMeshLab",
+            "horse | 48,485 | 0.4 | 80 | 1.50000 | 50 | 1 | 80 | 10 | 1.00000 | 8",
+        ),
+        (
+            "Where the time goes, and memory",
+            "horse | 48,485 | 0.4 | 0.3 | 0.4 | 0.3 | 20 | 3 | 5 | 1 | 300 | 100",
+        ),
+        ("Time over size", "48,485 | 0.2 | 2,450 | 4 | 10 | 4 | 0 | 300 | 100"),
+        (
+            "With the defaults",
+            "horse | 48,485 | 0.4 | 51,000 | 1 | 4 | 0.02 | 1.2 | 4 | 0.024 | 0.25 | 1.2 | 40",
+        ),
+        ("Memory of the largest", "horse | 48,485 | 0.4 | defaults | 300 | 100"),
+        (
+            "From start to first result",
+            "the first Cubify of the monkey in Blender, with the defaults | 3",
+        ),
+    ],
+)
+def test_a_row_of_each_table(results, section, cells):
+    assert list(rows_of(results)[section][0].values()) == cells.split(" | ")
+
+
+def test_what_has_not_been_measured_has_no_row(results, case):
+    assert rows_of(NOTHING) == {}
+    assert "-" in rows_of(results)["Ten iterations"][1].values(), "the paper has no such mesh"
+    case["pymeshlab"] = case["plain"] = []
+    assert not {"Beside PyMeshLab", "Beside the plain iteration"} & rows_of(results).keys()
+    case["best"] = None
+    (row,) = rows_of(results)["Time over size"]
+    assert row["to gap 1 %, s"] == row["gap there, %"] == "-"
+
+
+def test_a_gap_beyond_our_stop_is_in_brackets(results, case):
+    case |= {"best": 0.96, "long": [run(4.0, energy=0.96)]}
+    (row,) = rows_of(results)["To the best shape"]
+    assert [row[f"to gap {gap} %, s"] for gap in (5, 1, 0.1)] == ["4", "(16)", "(16)"]
+
+
+def test_the_page_says_which_settings_its_rows_have(results):
+    sections = page.page(results).split("\n#")
+    measured = [s for s in sections if "\n| mesh |" in s or "\n| vertices |" in s]
+    assert len(measured) == 8
+    assert all("paper" in section.partition("\n|")[0] for section in measured)
+
+
+def test_gap_is_one_at_rest_and_none_at_best(case):
+    assert [summary.gap_of(case, energy) for energy in (2.0, 1.25, 1.0)] == [1.0, 0.25, 0.0]
+    assert summary.gap_of(case, summary.energy_at_gap(0.05, 2.0, 1.0)) == pytest.approx(0.05)
+    with pytest.raises(ValueError, match=r"1\.0 must be above .* 1\.0"):
+        summary.gap_of(case | {"rest": 1.0}, 1.0)
+
+
+def test_lowest_energy_is_that_of_any_iteration(case):
+    case["ours"][1]["curve"].insert(2, [2.5, 0.8])
+    assert summary.lowest(case) == 0.8
+
+
+def test_the_first_time_counts_and_the_median_needs_every_run(case):
+    curve = [(1.0, 9.0), (2.0, 5.0), (3.0, 6.0), (4.0, 4.0)]
+    assert [summary.seconds_to_energy(curve, at) for at in (5.5, 4.0, 3.9)] == [2.0, 4.0, None]
+    assert summary.median_seconds_to(case, "ours", 1.0) == 8.0
+    case["ours"].append(run(energy=1.002))
+    assert summary.median_seconds_to(case, "ours", 1.0) is None
+
+
+def size(vertices, seconds, best=1.0):
+    ours = [{"curve": [[seconds / 2, 1.5], [seconds, 1.0]]}]
+    return {"vertices": vertices, "best": best, "rest": 2.0, "ours": ours}
+
+
+def test_fit_leaves_out_small_sizes_and_those_without_a_best_energy():
+    unknown = size(50_000, 77.0, best=None)
+    cases = [size(1000, 50.0), size(10_000, 1.0), unknown, size(100_000, 10.0)]
+    assert summary.fit(cases) == pytest.approx((1.0, 1e-4))
+    assert summary.fit(cases[:2]) == (None, None)
+
+
+def test_fit_of_noise_is_that_of_least_squares():
+    # in logarithms to the base 10 the points are (4, 0), (5, 1), (6, 1): slope 1/2
+    cases = [size(10**4, 1.0), size(10**5, 10.0), size(10**6, 10.0)]
+    assert summary.fit(cases) == pytest.approx((0.5, 10 ** (1 / 6 - 2)))
+
+
+@pytest.mark.parametrize(
+    ("value", "bound", "is_met"),
+    [
+        (2.0, {"most": 2.0}, True),
+        (2.1, {"most": 2.0}, False),
+        (2.1, {"least": 2.0}, True),
+        (1.9, {"least": 2.0}, False),
+        (None, {"most": 2.0}, False),
+    ],
+)
+def test_a_target_is_met_on_the_right_side_of_its_bound(value, bound, is_met):
+    assert target("time", value, **bound)["met"] == ("yes" if is_met else "**no**")
+
+
+def test_targets_of_what_was_measured(results):
+    assert targets(NOTHING) == []
+    found = {row["target"]: row["measured"] for row in targets(results)}
+    assert found == {
+        "horse 0.4, seconds to gap 5 %": "2.00",
+        "horse 0.4, seconds to gap 1 %": "4.00",
+        "horse 0.4, times sooner as low as PyMeshLab's end": "80.00",
+        "bunny, ten iterations, times ahead of the paper's GPU": "17.75",
+        "exponent of time over size": "never",
+        "horse, with the defaults, times as long as in the paper": "1.20",
+        "horse, with the defaults, seconds of finding links": "0.25",
+        "horse, with the defaults, seconds to our stop": "1.20",
+        "horse, with the defaults, ticks of Live per second": "40.00",
+        "seconds to the first result on the monkey": "3.00",
+        "of it ours": "2.00",
+    }
+
+
+@pytest.mark.parametrize(
+    ("vertices", "ticks", "names"),
+    [
+        (50_000, [], ["times as long as in the paper", "seconds of finding links"]),
+        (1_000, [0.1, 0.2], ["seconds to our stop", "ticks of Live per second"]),
+        (1_000_000, [], ["peak memory in GB"]),
+        (20_000, [], []),
+    ],
+)
+def test_targets_of_the_defaults(results, vertices, ticks, names):
+    case = results["defaults"][0] | {"vertices": vertices, "ticks": ticks}
+    found = targets(NOTHING | {"defaults": [case]})
+    assert [row["target"].rpartition(", ")[2] for row in found] == names
