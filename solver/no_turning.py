@@ -17,6 +17,8 @@ component back after each step would cost energy, possibly more than the step ha
 
 import numpy as np
 
+from .algebra import axial
+
 CYCLES = 4
 """number of solves, if each is approximate"""
 _SMALLEST = 1e-9  # relative; a component on a line may turn about it
@@ -80,4 +82,4 @@ def torque(pull, U):
     By a product of matrices: the cross product of each row takes longer.
     """
     S = pull.T @ U
-    return np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
+    return np.array(axial(*S.flat))

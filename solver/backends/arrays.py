@@ -63,12 +63,15 @@ def is_on_its_own_memory(device):
     return device != "taichi-cpu"
 
 
-def one_row(array):
-    """Return a row of zeros for NumPy or Taichi, with another one behind it."""
+def a_few_zeros(array):
+    """Return a row of zeros in place of an array of NumPy or Taichi, and two if it is of integers.
+
+    So where it says where rows begin and end, there is one row, and nothing in it.
+    """
     if isinstance(array, np.ndarray):
         shape, dtype = array.shape, array.dtype
     else:
         from .device_arrays import numpy_form
 
         shape, dtype = numpy_form(array)
-    return np.zeros((2, *shape[1:]), dtype)[:1]
+    return np.zeros((2 if np.issubdtype(dtype, np.integer) else 1, *shape[1:]), dtype)

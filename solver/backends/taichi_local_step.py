@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
-import time
 from functools import cache, partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,10 +12,28 @@ from ..styles.active_set import starting_signs
 from ..styles.admm import admm_rotations
 from ..styles.local_problem import LocalProblem
 from . import taichi_runtime
-from .arrays import arrays_for, one_row
+from .arrays import arrays_for
 from .numpy_local_step import area_scale, local_cubeness
 from .rows import HostRows
 from .warmup import warm_up
+
+
+class _Arguments(NamedTuple):
+    """What the kernel `local_step` is called with after the positions, in its order."""
+
+    indptr: Any
+    indices: Any
+    gather: Any
+    weights: Any
+    normals: Any
+    area_scale: Any
+    lam: Any
+    Q: Any
+    q_stride: int
+    R: Any
+    subgradients: Any
+    energies: Any
+    certified: Any
 
 
 class TaichiLocalStep:
@@ -55,57 +73,61 @@ class TaichiLocalStep:
         self._kernels = _kernels(precision)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
-        m = rest.matrices
         n = len(rest.V)
-
-        def array(values):
-            return self.arrays.keep(np.ascontiguousarray(values, dtype=real))
-
-        indptr, indices = self.arrays.keep(m.indptr), self.arrays.keep(m.indices)
-        gather, self._scatter = array(m.gather), array(m.scatter)
         lam = local_cubeness(rest, lam)
         self._options = options
-        scale = area_scale(rest.areas)
         self._cubic_weight = lam * rest.areas
-        identity = np.tile(np.eye(3), (n, 1, 1))
-        self._R = array(identity)
-        all_Q = np.broadcast_to(Q, (n, 3, 3))
         # for what the kernel does not certify; the covariances come with the positions
+        all_Q = np.broadcast_to(Q, (n, 3, 3))
         self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam)
-        self._s = array(starting_signs(self._rest_problem.cube_normals(identity)))
-        self._certified = self.arrays.keep(np.zeros(n, np.int32))
-        self._energies = array(np.zeros((n, 3)))
+        self._arguments = self._make_arguments(Q)
+        self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
-        self._arguments = (
-            indptr,
-            indices,
-            gather,
-            array(-m.laplacian),
-            array(rest.normals),
-            array(scale),
-            array(lam),
-            array(Q),
-            int(len(Q) > 1),
-            self._R,
-            self._s,
-            self._energies,
-            self._certified,
-        )
-        outputs = self._R, self._s, self._energies
-        if self.arrays.is_resident:
-            from .taichi_rows import DeviceRows
-
-            of_kernel = indptr, indices, gather, self._arguments[5]
-            self._rows = DeviceRows(precision, *of_kernel, *outputs)
-        else:
-            self._rows = HostRows(m, scale, *outputs)
+        self._rows = self._make_rows()
         self._sum_on_device = None
-        self.compile_seconds = _compile(self._kernels, self._arguments, precision)
+        self.compile_seconds = warm_up(
+            [
+                (self._kernels.local_step, (self._rhs, *self._arguments)),
+                (self._kernels.right_hand_side, self._right_hand_side_arguments()),
+            ]
+        )
+
+    def _keep(self, values):
+        return self.arrays.keep(np.ascontiguousarray(values, dtype=self.real))
+
+    def _make_arguments(self, Q):
+        m, rest, keep = self._rest.matrices, self._rest, self._keep
+        identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
+        return _Arguments(
+            indptr=self.arrays.keep(m.indptr),
+            indices=self.arrays.keep(m.indices),
+            gather=keep(m.gather),
+            weights=keep(-m.laplacian),
+            normals=keep(rest.normals),
+            area_scale=keep(area_scale(rest.areas)),
+            lam=keep(self._rest_problem.lam),
+            Q=keep(Q),
+            q_stride=int(len(Q) > 1),
+            R=keep(identity),
+            subgradients=keep(starting_signs(self._rest_problem.cube_normals(identity))),
+            energies=keep(np.zeros((len(rest.V), 3))),
+            certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
+        )
+
+    def _make_rows(self):
+        of = self._arguments
+        outputs = of.R, of.subgradients, of.energies
+        if not self.arrays.is_resident:
+            return HostRows(self._rest.matrices, area_scale(self._rest.areas), *outputs)
+        from .taichi_rows import DeviceRows
+
+        edges = of.indptr, of.indices, of.gather
+        return DeviceRows(self.precision, *edges, of.area_scale, *outputs)
 
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
         """(n,3,3) rotations, the identity at first."""
-        return self.arrays.fetch(self._R)
+        return self.arrays.fetch(self._arguments.R)
 
     def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
@@ -120,7 +142,14 @@ class TaichiLocalStep:
         # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
         at_rest = keep(setup.rest.energy_terms.astype(self.real))
         weight = keep(self._cubic_weight.astype(self.real))
-        arguments = keep(bounds), self._energies, at_rest, weight, self._certified, self._sums
+        arguments = (
+            keep(bounds),
+            self._arguments.energies,
+            at_rest,
+            weight,
+            self._arguments.certified,
+            self._sums,
+        )
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)
@@ -129,8 +158,10 @@ class TaichiLocalStep:
 
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
-        self.arrays.put(self._R, R)
-        self.arrays.put(self._s, starting_signs(self._rest_problem.cube_normals(R)))
+        self.arrays.put(self._arguments.R, R)
+        self.arrays.put(
+            self._arguments.subgradients, starting_signs(self._rest_problem.cube_normals(R))
+        )
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
@@ -143,7 +174,9 @@ class TaichiLocalStep:
         rows = self._uncertified()
         if len(rows):
             self._solve_by_admm(U, rows)
-        quadratic, trace, l1 = self.arrays.fetch(self._energies).T.astype(np.float64, copy=False)
+        quadratic, trace, l1 = self.arrays.fetch(self._arguments.energies).T.astype(
+            np.float64, copy=False
+        )
         sum_parts = self._rest.topology.sum_parts
         arap = 0.75 * self._rest.edge_sums + sum_parts(0.75 * quadratic - trace)
         return arap, sum_parts(self._cubic_weight * l1)
@@ -161,7 +194,7 @@ class TaichiLocalStep:
         return tuple(np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
 
     def _uncertified(self):
-        return np.flatnonzero(self.arrays.fetch(self._certified) == 0)
+        return np.flatnonzero(self.arrays.fetch(self._arguments.certified) == 0)
 
     def _solve_by_admm(self, U, rows):
         """Find the rotations of some rows that the kernel has left as they were."""
@@ -177,7 +210,7 @@ class TaichiLocalStep:
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
         self.start_device()
-        self._kernels.right_hand_side(*self._arguments[:2], self._scatter, self._R, self._rhs)
+        self._kernels.right_hand_side(*self._right_hand_side_arguments())
         return self._rhs.astype(np.float64, copy=False)
 
     def start_device(self):
@@ -193,8 +226,17 @@ class TaichiLocalStep:
 
     def residual_arguments(self, point, scale, B):
         """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
-        indptr, indices, _, weights = self._arguments[:4]
-        return indptr, indices, self._scatter, weights, self._R, point, scale, B
+        of = self._arguments
+        return of.indptr, of.indices, self._scatter, of.weights, of.R, point, scale, B
+
+    def _right_hand_side_arguments(self):
+        return (
+            self._arguments.indptr,
+            self._arguments.indices,
+            self._scatter,
+            self._arguments.R,
+            self._rhs,
+        )
 
 
 @cache
@@ -203,20 +245,3 @@ def _kernels(precision):
 
     ti = taichi_runtime.import_taichi()
     return make_kernels(ti.f64 if precision == "f64" else ti.f32)
-
-
-_compiled = set()
-
-
-def _compile(kernels, arguments, precision):
-    """Run the kernels on a single vertex if that has not been done yet; return the seconds."""
-    if precision in _compiled:
-        return 0.0
-    begin = time.perf_counter()
-    first = [one_row(a) + 1 if hasattr(a, "shape") else a for a in arguments]
-    no_entries = np.zeros(2, np.int32)
-    point = np.zeros_like(first[4])
-    kernels.local_step(point, no_entries, *first[1:])
-    kernels.right_hand_side(no_entries, first[1], first[2], first[9], point)
-    _compiled.add(precision)
-    return time.perf_counter() - begin

@@ -40,7 +40,7 @@ class TaichiMotion:
         self._scale = keep(multigrid.scale)
         topology = rest.topology
         bounds, self._component = topology.chunks
-        self._chunks = keep(bounds), keep(self._component)
+        self._bounds, self._chunk_component = keep(bounds), keep(self._component)
         weight = rest.areas + 1e-300
         share = weight / topology.sum_parts(weight)[topology.component]
         self._centre = topology.sum_parts(share[:, None] * rest.V)
@@ -119,7 +119,7 @@ class TaichiMotion:
 
     def _moments_arguments(self):
         return (
-            self._chunks[0],
+            self._bounds,
             self._share,
             self._pull,
             self.point,
@@ -132,7 +132,8 @@ class TaichiMotion:
     def _move_arguments(self, twist, shift, momentum, overshoot):
         real = self._local.real
         return (
-            *self._chunks,
+            self._bounds,
+            self._chunk_component,
             self._V,
             self._scale,
             self._cycle.X,

@@ -90,7 +90,7 @@ def make_motion_kernels(real):
         Each component is shifted, and kept from turning by twist x P, see `no_turning.py`. Of each
         chunk: largest displacement and largest distance from rest, by coordinate.
         """
-        for c in range(component.shape[0]):
+        for c in range(largest.shape[0]):
             k = component[c]
             mu, by = twist[k], shift[k]
             displacement, distance = real(0.0), real(0.0)

@@ -3,10 +3,10 @@
 
 import time
 
-from .arrays import one_row
+from .arrays import a_few_zeros
 from .taichi_runtime import quick_compilation
 
-_rehearsed = set()
+_warm = set()
 
 
 def warm_up(calls):
@@ -15,13 +15,14 @@ def warm_up(calls):
     Parameters
     ----------
     calls : iterable of (kernel, arguments)
-        The arrays among the arguments are replaced by one row of zeros, with another one behind it:
-        where rows begin and end, nothing begins.
+        The arrays among the arguments are replaced by `a_few_zeros`.
     """
+    cold = [(kernel, arguments) for kernel, arguments in calls if kernel not in _warm]
+    if not cold:
+        return 0.0
     begin = time.perf_counter()
     with quick_compilation():
-        for kernel, arguments in calls:
-            if kernel not in _rehearsed:
-                kernel(*(one_row(a) if hasattr(a, "shape") else a for a in arguments))
-                _rehearsed.add(kernel)
+        for kernel, arguments in cold:
+            kernel(*(a_few_zeros(a) if hasattr(a, "shape") else a for a in arguments))
+            _warm.add(kernel)
     return time.perf_counter() - begin

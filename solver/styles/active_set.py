@@ -35,7 +35,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..rotation_fit import MIN_CURVATURE
+from ..algebra import (
+    adjugate,
+    axial,
+    columns,
+    determinant,
+    from_columns,
+    shifted,
+    size_squared,
+    turn,
+)
+from ..rotation_fit import MIN_CURVATURE, curvature, is_definite
 
 MAX_STEPS = 20
 SMALLEST_TURN = 1e-3
@@ -126,10 +136,10 @@ def _turn_about_axis(problem, R, G, s, active):
     is_last = is_good & (_dot(v, v) < DOUBLE.aligned**2)
     along = np.trace(G, axis1=1, axis2=2) - np.einsum("ni,nij,nj->n", t, G, t)
     across = _dot(_axial(G), t)
-    turn = along + np.sqrt(along * along + across * across)
-    q = np.where(is_last, turn, q)
+    best = along + np.sqrt(along * along + across * across)
+    q = np.where(is_last, best, q)
     v = np.where(is_last[:, None], across[:, None] * t, v)
-    is_good &= ~is_last | (turn > SMALLEST_TURN * np.abs(across))
+    is_good &= ~is_last | (best > SMALLEST_TURN * np.abs(across))
     return q, v, is_last, is_good
 
 
@@ -138,25 +148,17 @@ def _newton_step(problem, R, G, s, active):
     _, normals, Q, lam = problem
     y = np.einsum("nij,nj->ni", R, normals)
     L = G - y[:, :, None] * (lam[:, None] * _from_cube(Q, s))[:, None, :]
-    g, h = _axial(L), np.trace(L, axis1=1, axis2=2)
-    number = active.sum(axis=1)
+    h, number = np.trace(L, axis1=1, axis2=2), active.sum(axis=1)
     p = np.cross(y, _from_cube(Q, active.astype(float)))
     kappa = number * (np.abs(h) + lam)
-    a, b, c = (h - L[:, k, k] + kappa * p[:, k] ** 2 for k in range(3))
-    d = -0.5 * (L[:, 0, 1] + L[:, 1, 0]) + kappa * p[:, 0] * p[:, 1]
-    e = -0.5 * (L[:, 0, 2] + L[:, 2, 0]) + kappa * p[:, 0] * p[:, 2]
-    f = -0.5 * (L[:, 1, 2] + L[:, 2, 1]) + kappa * p[:, 1] * p[:, 2]
-    adjugate, determinant = _adjugate(a, b, c, d, e, f)
-    half_trace = 0.5 * (a + b + c)
-    is_sound = (half_trace > 0.0) & (a > 0.0) & (adjugate[:, 2, 2] > 0.0)
-    is_sound &= determinant > MIN_CURVATURE * half_trace**3
-    shift = np.sqrt(a * a + b * b + c * c + 2.0 * (d * d + e * e + f * f))
-    shift[is_sound] = 0.0
-    adjugate, determinant = _adjugate(a + shift, b + shift, c + shift, d, e, f)
-    is_zero = determinant == 0.0  # without any force
-    inverse = adjugate / np.where(is_zero, 1.0, determinant)[:, None, None]
-    w = np.einsum("nij,nj->ni", inverse, g)
-    r = np.einsum("nij,nj->ni", inverse, p)
+    K = curvature_on_tangent(kappa, *columns(L), *p.T)
+    is_sound = is_definite(MIN_CURVATURE, *K, *adjugate(*K))
+    K = shifted(*K, np.where(is_sound, 0.0, np.sqrt(size_squared(*K))))
+    inverse = adjugate(*K)
+    divisor = determinant(*K, *inverse)
+    is_zero = divisor == 0.0  # without any force
+    inverse = (np.array(inverse) / np.where(is_zero, 1.0, divisor)).reshape(3, 3, -1)
+    w, r = (np.einsum("ijn,nj->ni", inverse, v) for v in (_axial(L), p))
     is_one = ~is_zero & (number == 1)
     x = np.einsum("nij,nj->ni", Q, y)
     excess = (_dot(p, w) + _dot(x, active)) / np.where(is_one, _dot(p, r), 1.0)
@@ -165,12 +167,12 @@ def _newton_step(problem, R, G, s, active):
     return np.ones(len(G)), 0.5 * w, is_sound & is_small, is_sound | ~is_small
 
 
-def _adjugate(a, b, c, d, e, f):
-    """Return the adjugates (n,3,3) and determinants (n,) of K = [[a d e] [d b f] [e f c]]."""
-    A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
-    D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
-    adjugate = np.array([[A, D, E], [D, B, F], [E, F, C]]).transpose(2, 0, 1)
-    return adjugate, a * A + d * D + e * E
+def curvature_on_tangent(kappa, *entries):
+    """Return K = H + kappa pp' for L and p, in the entries of `algebra.py`."""
+    x, y, z = entries[9:]
+    d, e, f = kappa * x * y, kappa * x * z, kappa * y * z
+    squares = (kappa * (x * x), d, e, d, kappa * (y * y), f, e, f, kappa * (z * z))
+    return [h + square for h, square in zip(curvature(*entries[:9]), squares, strict=True)]
 
 
 def _next_set(problem, R, G, s, active):
@@ -195,22 +197,11 @@ def _next_set(problem, R, G, s, active):
 
 def _turn(q, v):
     """Return the rotations (n,3,3) of the quaternions (q, v), of any length."""
-    s = 2.0 / (q * q + _dot(v, v))
-    x, y, z = v.T
-    R = np.empty((len(q), 3, 3))
-    R[:, 0, 0] = 1.0 - s * (y * y + z * z)
-    R[:, 1, 1] = 1.0 - s * (x * x + z * z)
-    R[:, 2, 2] = 1.0 - s * (x * x + y * y)
-    R[:, 0, 1], R[:, 1, 0] = s * (x * y - z * q), s * (x * y + z * q)
-    R[:, 0, 2], R[:, 2, 0] = s * (x * z + y * q), s * (x * z - y * q)
-    R[:, 1, 2], R[:, 2, 1] = s * (y * z - x * q), s * (y * z + x * q)
-    return R
+    return from_columns(turn(2.0 / (q * q + _dot(v, v)), q, *v.T))
 
 
 def _axial(G):
-    return np.stack(
-        [G[:, 1, 2] - G[:, 2, 1], G[:, 2, 0] - G[:, 0, 2], G[:, 0, 1] - G[:, 1, 0]], axis=1
-    )
+    return from_columns(axial(*columns(G)))
 
 
 def _from_cube(Q, x):

@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import pytest
+from optional_marks import needs
 from taichi_marks import needs_taichi
 from test_taichi_runtime import passes
 
@@ -71,12 +72,12 @@ def test_too_little_memory_is_no_reason_to_do_without_taichi():
         from solver.backends import taichi_local_step
         def fail(*_):
             raise MemoryError
-        real, taichi_local_step._compile = taichi_local_step._compile, fail
+        real, taichi_local_step.warm_up = taichi_local_step.warm_up, fail
         try:
             stylize(V, F, max_iterations=2)
         except MemoryError:
             pass
-        taichi_local_step._compile = real
+        taichi_local_step.warm_up = real
         assert problem_with_taichi() == ""
         assert stylize(V, F, max_iterations=2).device == "taichi-cpu"
         """
@@ -182,5 +183,21 @@ def test_the_options_of_others_do_not_matter(options):
             V2 = stylize(V, F, device="cpu", max_iterations=6, on_iteration=on_iteration).positions
             np.testing.assert_allclose(V2, expected, rtol=0, atol=1e-9)
             assert (fields[0].to_numpy() == 7).all()
+        """
+    )
+
+
+@needs_taichi
+@needs("pyamg")
+def test_no_kernel_reads_beyond_its_arrays():
+    """Which another add-on's program may be set to check."""
+    passes(
+        """
+        from solver import global_step, multigrid
+        from solver.backends.taichi_runtime import import_taichi
+        global_step.FACTORIZED_VERTICES, multigrid._COARSEST = 0, 20
+        ti = import_taichi()
+        ti.init(arch=ti.cpu, log_level=ti.ERROR, debug=True, offline_cache=False)
+        stylize(V, F, device="cpu", max_iterations=3)
         """
     )

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Algebra of 3-vectors and 3x3 matrices on their entries: one source for NumPy and for Taichi.
+
+These are plain Python functions of scalars, of any type with arithmetic, without branches. Matrices
+are given and returned as their nine entries, row by row.
+
+- In NumPy the scalars are columns: `columns` takes matrices (n,3,3) apart, and `from_columns` puts
+  them together again.
+- In a kernel the functions are called inside ``ti.static`` with unpacked operands, as in
+  ``mat3(ti.static(product(*A, *B)))``, and build Taichi's expressions directly, which takes a
+  fraction of the time that Taichi needs for a function of its own. An operand that is no variable
+  is computed anew for each of its entries, until the compiler finds that these are the same, and
+  ``ti.static`` lets no bare expression through: what is no list is put in one, as in
+  ``ti.static([dot(*a, *b)])[0]``. Numbers in here are integers, because Taichi would take others
+  for those of whatever precision its program was started with.
+"""
+
+import numpy as np
+
+
+def columns(matrices):
+    """Return the entries of matrices (n,3,3), as a view (9,n)."""
+    return matrices.reshape(-1, 9).T
+
+
+def from_columns(entries):
+    """Return the vectors (n,3) or matrices (n,3,3) that have these entries (n,)."""
+    stacked = np.stack(entries, axis=1)
+    return stacked if len(entries) == 3 else stacked.reshape(-1, 3, 3)
+
+
+def dot(a, b, c, x, y, z):
+    """Return the scalar product of two vectors."""
+    return a * x + b * y + c * z
+
+
+def total(a, b, c):
+    """Return the sum of the entries of a vector."""
+    return a + b + c
+
+
+def trace(a, b, c, d, e, f, g, h, i):
+    """Return the trace of a matrix."""
+    return a + e + i
+
+
+def axial(a, b, c, d, e, f, g, h, i):
+    """Return the axial vector of a matrix: (A23 - A32, A31 - A13, A12 - A21)."""
+    return [f - h, g - c, b - d]
+
+
+def cross(a, b, c, x, y, z):
+    """Return the vector product of two vectors."""
+    return [b * z - c * y, c * x - a * z, a * y - b * x]
+
+
+def outer(a, b, c, x, y, z):
+    """Return the matrix of the products of all entries of two vectors."""
+    return [row * column for row in (a, b, c) for column in (x, y, z)]
+
+
+def times(a, b, c, d, e, f, g, h, i, x, y, z):
+    """Return the matrix applied to the vector."""
+    return [dot(*row, x, y, z) for row in ((a, b, c), (d, e, f), (g, h, i))]
+
+
+def transposed_times(a, b, c, d, e, f, g, h, i, x, y, z):
+    """Return the transposed matrix applied to the vector."""
+    return times(a, d, g, b, e, h, c, f, i, x, y, z)
+
+
+def product(*entries):
+    """Return the product of two matrices."""
+    A, B = entries[:9], entries[9:]
+    return [dot(*A[3 * i : 3 * i + 3], *B[j::3]) for i in range(3) for j in range(3)]
+
+
+def gram(*A):
+    """Return the scalar products of the columns of a matrix."""
+    return [dot(*A[i::3], *A[j::3]) for i in range(3) for j in range(3)]
+
+
+def adjugate(a, d, e, _d, b, f, _e, _f, c):
+    """Return the adjugate of a symmetric matrix."""
+    A, B, C = b * c - f * f, a * c - e * e, a * b - d * d
+    D, E, F = e * f - d * c, d * f - b * e, d * e - a * f
+    return [A, D, E, D, B, F, E, F, C]
+
+
+def determinant(*entries):
+    """Return the determinant of a symmetric matrix, which is given together with its adjugate."""
+    return dot(*entries[:3], *entries[9:12])
+
+
+def size_squared(a, d, e, _d, b, f, _e, _f, c):
+    """Return the sum of the squares of the entries of a symmetric matrix."""
+    return a * a + b * b + c * c + 2 * (d * d + e * e + f * f)
+
+
+def shifted(a, b, c, d, e, f, g, h, i, shift):
+    """Return a matrix with more on its diagonal."""
+    return [a + shift, b, c, d, e + shift, f, g, h, i + shift]
+
+
+def turn(s, q, x, y, z):
+    """Return the rotation of the quaternion (q, x, y, z), with s = 2 / (its square)."""
+    return [
+        *(1 - s * (y * y + z * z), s * (x * y - z * q), s * (x * z + y * q)),
+        *(s * (x * y + z * q), 1 - s * (x * x + z * z), s * (y * z - x * q)),
+        *(s * (x * z - y * q), s * (y * z + x * q), 1 - s * (x * x + y * y)),
+    ]
+
+
+def nearer_to_orthogonal(*R):
+    """Return (3 R - R R'R) / 2 for almost a rotation R: a step of Newton and Schulz."""
+    return [(3 * x - y) / 2 for x, y in zip(R, product(*R, *gram(*R)), strict=True)]

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The local problem of one vertex by an active set, in Taichi; `active_set.py` says how.
+
+Import this only after `taichi_runtime.import_taichi`. These functions are compiled into the kernels
+that call them. `kind` is the `Kind` of numbers that they compute with; the masks of the NumPy form
+are numbers here, zero or one, to multiply by.
+"""
+
+# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
+# pyright: reportIndexIssue=false
+
+from dataclasses import dataclass
+from typing import Any
+
+import taichi as ti
+
+from ..algebra import (
+    adjugate,
+    axial,
+    cross,
+    determinant,
+    dot,
+    outer,
+    product,
+    shifted,
+    size_squared,
+    times,
+    total,
+    trace,
+    transposed_times,
+    turn,
+)
+from ..rotation_fit import MIN_CURVATURE, is_definite
+from ..styles.active_set import (
+    MAX_STEPS,
+    NEAREST_TARGET,
+    SMALLEST_TURN,
+    Tolerances,
+    curvature_on_tangent,
+)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Numbers of one precision."""
+
+    real: Any
+    """ti.f64 or ti.f32"""
+    vec3: Any
+    mat3: Any
+    tolerances: Tolerances
+
+
+@ti.func
+def rotation_near(kind: ti.template(), S, normal, Q, cubeness, last, last_s):
+    """Return R, s, tr(R S), |Q R n|_1, and whether R is certified.
+
+    R and s are the last ones where none better was found, so that no iteration raises the energy.
+    """
+    R, s = last, last_s
+    G = kind.mat3(ti.static(product(*R, *S)))
+    y = kind.vec3(ti.static(times(*R, *normal)))
+    x = kind.vec3(ti.static(times(*Q, *y)))
+    last_fit, last_cost = ti.static([trace(*G)])[0], ti.static([total(*ti.abs(x))])[0]
+    active = ti.cast(ti.abs(s) < 1, kind.real)
+    is_done, is_good = False, True
+    step = 0
+    while step < MAX_STEPS and is_good and not is_done:
+        step += 1
+        q, v, is_last, is_sound = next_turn(kind, G, x, y, s, active, Q, cubeness)
+        is_done, is_good = is_last, is_sound
+        if is_good:
+            scale = 2 / (q * q + ti.static([dot(*v, *v)])[0])
+            W = kind.mat3(ti.static(turn(scale, q, *v)))
+            R = kind.mat3(ti.static(product(*W, *R)))
+            G = kind.mat3(ti.static(product(*W, *G)))
+            y = kind.vec3(ti.static(times(*R, *normal)))
+            x = kind.vec3(ti.static(times(*Q, *y)))
+            if cubeness > 0:
+                s, active, is_kept = next_set(kind, G, x, y, s, active, Q, cubeness)
+                is_done = is_done and is_kept
+    is_done = is_done and is_good
+    fit, cost = ti.static([trace(*G)])[0], ti.static([total(*ti.abs(x))])[0]
+    if not is_done or cubeness * cost - fit > cubeness * last_cost - last_fit:
+        R, s, fit, cost = last, last_s, last_fit, last_cost
+    return R, s, fit, cost, is_done
+
+
+@ti.func
+def next_turn(kind: ti.template(), G, x, y, s, active, Q, cubeness):
+    """Return a quaternion, whether it may be the last turn, and whether it is sound."""
+    q, v = kind.real(1.0), kind.vec3(0.0)
+    is_last, is_good = False, True
+    number = ti.static([total(*active)])[0]
+    if number > 1:
+        t = kind.vec3(ti.static(transposed_times(*Q, *((1 - active) * s))))
+        q, v, is_last, is_good = turn_about_axis(kind, G, y, t)
+    else:
+        pull = kind.vec3(ti.static(transposed_times(*Q, *(s * cubeness))))
+        L = G - kind.mat3(ti.static(outer(*y, *pull)))
+        p = kind.vec3(ti.static(cross(*y, *transposed_times(*Q, *active))))
+        kappa = number * (ti.abs(ti.static([trace(*L)])[0]) + cubeness)
+        w, is_sound = newton_step(kind, L, p, ti.static([dot(*x, *active)])[0], kappa)
+        v = w / 2
+        angle = kind.real(kind.tolerances.angle**2)
+        is_small = ti.static([dot(*w, *w)])[0] <= angle
+        is_last, is_good = is_sound and is_small, is_sound or not is_small
+    return q, v, is_last, is_good
+
+
+@ti.func
+def turn_about_axis(kind: ti.template(), G, y, t):
+    """Put the normal y on its axis t; once it is there, turn about it. Return as `next_turn`."""
+    v = kind.vec3(ti.static(cross(*y, *t)))
+    q = 1 + ti.static([dot(*y, *t)])[0]
+    is_good = q > kind.real(NEAREST_TARGET)
+    aligned = kind.real(kind.tolerances.aligned**2)
+    is_last = is_good and ti.static([dot(*v, *v)])[0] < aligned
+    if is_last:
+        Gt = kind.vec3(ti.static(times(*G, *t)))
+        along = ti.static([trace(*G)])[0] - ti.static([dot(*t, *Gt)])[0]
+        across = ti.static([dot(*axial(*G), *t)])[0]
+        q = along + ti.sqrt(along * along + across * across)
+        v = across * t
+        is_good = q > kind.real(SMALLEST_TURN) * ti.abs(across)
+    return q, v, is_last, is_good
+
+
+@ti.func
+def newton_step(kind: ti.template(), L, p, excess, kappa):
+    """Return a rotation vector, and whether K is positive; p.w is -excess if kappa > 0."""
+    K = kind.mat3(ti.static(curvature_on_tangent(kappa, *L, *p)))
+    inverse = kind.mat3(ti.static(adjugate(*K)))
+    is_sound = ti.static([is_definite(kind.real(MIN_CURVATURE), *K, *inverse)])[0]
+    if not is_sound:
+        shift = ti.sqrt(ti.static([size_squared(*K)])[0])
+        K = kind.mat3(ti.static(shifted(*K, shift)))
+        inverse = kind.mat3(ti.static(adjugate(*K)))
+    inverse /= ti.static([determinant(*K, *inverse)])[0]
+    w = kind.vec3(ti.static(times(*inverse, *axial(*L))))
+    if kappa > 0:
+        r = kind.vec3(ti.static(times(*inverse, *p)))
+        w -= (ti.static([dot(*p, *w)])[0] + excess) / ti.static([dot(*p, *r)])[0] * r
+    return w, is_sound
+
+
+@ti.func
+def next_set(kind: ti.template(), G, x, y, s, active, Q, cubeness):
+    """Return s with new multipliers, the active axes, and whether both may stay."""
+    slack = kind.tolerances.slack
+    fixed = (1 - active) * s
+    pull = kind.vec3(ti.static(transposed_times(*Q, *fixed))) * cubeness
+    force = kind.vec3(ti.static(axial(*G))) - kind.vec3(ti.static(cross(*y, *pull)))
+    turning = kind.vec3(ti.static(times(*Q, *cross(*force, *y))))
+    s = fixed + active * turning / (ti.max(1 - x * x, kind.real(1e-6)) * cubeness)
+    size = ti.abs(s)
+    freed = size > 1
+    free = ti.cast(freed, kind.real)
+    crossed = (1 - free) * (1 - active) * ti.cast(x * s < -kind.real(slack), kind.real)
+    beyond = ti.cast(size > kind.real(1 + slack), kind.real) + crossed
+    is_kept = ti.static([total(*beyond)])[0] == 0
+    s = ti.select(freed, 2 * ti.cast(s > 0, kind.real) - 1, s)
+    active = (1 - free) * active + crossed
+    if ti.static([total(*active)])[0] > 2:
+        size = ti.abs(x)
+        freed = size == ti.max(*size)
+        active = 1 - ti.cast(freed, kind.real)
+        s = ti.select(freed, 2 * ti.cast(x > 0, kind.real) - 1, s)
+    return s, active, is_kept
