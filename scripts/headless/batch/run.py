@@ -18,7 +18,7 @@ from ..errors import InputError
 from ..output_files import check_writable, replacing
 from ..progress import ProgressBar
 from .engine import results_of, workers_for
-from .plan import Job, decisive, plan
+from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
 from .table import one_line, summary, table
 from .task import DONE, FAILED, KEPT, Batch
@@ -55,8 +55,8 @@ def run_batch(
     """
     jobs = plan(options, find_sources(options.inputs, options.recursive, options.output_folder))
     threads = options.threads or _share(min(options.jobs or 1, len(jobs)))
-    decides = decisive(options, version)
-    batch = Batch(uuid.uuid4().hex, command(threads), threads, decides, options.force)
+    settings, decides = settings_of(options), decisive(options, version)
+    batch = Batch(uuid.uuid4().hex, command(threads), threads, settings, decides, options.force)
     bar = ProgressBar(memory=math.inf)
     with workers_for(options, len(jobs)) as client:
         _make_folders(options.output_folder, jobs)

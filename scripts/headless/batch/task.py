@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do one file of a batch in a process of its own, unless it is done already.
 
-The standard input of the process is a pipe that is never written to. It ends when the process at
-the other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
+The standard input of the process is a pipe with its settings. It ends when the process at the
+other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ from ..output_files import remove_left_behind
 from ..threads import thread_variables
 from .plan import Job
 
-__all__ = ("DONE", "FAILED", "KEPT", "PATIENCE", "Batch", "do", "end_processes", "key_of")
+__all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "end_processes", "key_of")
 
 DONE, KEPT, FAILED = "done", "kept", "failed"
 PATIENCE = 10.0
@@ -42,6 +42,8 @@ class Batch(NamedTuple):
     """what starts the script; an empty word is the Python of the worker"""
     threads: int | None
     """of the processor for each file; None for all"""
+    settings: str
+    """from `plan.settings_of`"""
     decides: str
     """from `plan.decisive`"""
     is_forced: bool
@@ -115,6 +117,7 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
             process = subprocess.Popen(
                 [*command, *limit, f"--worker={key}:{batch.name}"],
                 stdin=subprocess.PIPE,
+                bufsize=0,
                 stdout=subprocess.DEVNULL,
                 stderr=words,
                 env=os.environ | (thread_variables(batch.threads) if batch.threads else {}),
@@ -122,6 +125,8 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
                 creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
             )
             _running.add(process)
+        with contextlib.suppress(OSError):  # what ends at once says itself why
+            process.stdin.write(f"{batch.settings}\n".encode())
         while process.returncode is None:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(1)
@@ -138,12 +143,13 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
 def end_processes() -> None:
     """End all that run, and wait until they are gone; nothing more is said of them."""
     _ending.acquire()
-    for process in list(_running):
+    for process in _running:
+        process.stdin.close()
+    for process in _running:
         _end(process)
 
 
 def _end(process: subprocess.Popen) -> None:
-    assert process.stdin is not None
     process.stdin.close()
     with contextlib.suppress(subprocess.TimeoutExpired):
         process.wait(PATIENCE)
