@@ -17,7 +17,6 @@ from .progress import ProgressBar
 from .render import render
 from .report import write_report
 from .save_meshes import check_exporter, save_meshes
-from .seen_objects import seen_objects
 from .studio import furnish
 
 __all__ = ("run",)
@@ -48,8 +47,8 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
-        take = seen_objects(extension) if options.with_modifiers else None
-        loaded = load(options.input, options.object, options.verbose, take)
+        seen_by = extension if options.with_modifiers else None
+        loaded = load(options.input, options.object, options.verbose, seen_by)
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:

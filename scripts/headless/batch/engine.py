@@ -35,12 +35,12 @@ def workers_for(options: Namespace, files: int) -> Iterator[Any]:
         Dask is not installed, or no cluster is there.
     """
     before_ending(end_processes)
-    count = min(options.jobs or 1, files)
-    if not options.scheduler and count == 1:
+    address, count = options.scheduler, min(options.jobs or 1, files)
+    if not address and count == 1:
         yield None
         return
     if find_spec("distributed") is None:
-        option = "--scheduler" if options.scheduler else f"--jobs {options.jobs}"
+        option = "--scheduler" if address else f"--jobs {options.jobs}"
         raise InputError(
             f"{option}: the Python package distributed is not installed; install it "
             f'with "{sys.executable}" -m pip install distributed'
@@ -49,33 +49,19 @@ def workers_for(options: Namespace, files: int) -> Iterator[Any]:
 
     # That a worker is lost is no news: another one does its file.
     dask.config.set({"logging.distributed": "critical"})
-    with _cluster(options.scheduler) if options.scheduler else _threads(count) as client:
-        yield client
-
-
-def _threads(count: int) -> Any:
-    """Return a client of so many threads."""
     from distributed import Client
 
-    return Client(
-        processes=False,
-        n_workers=1,
-        threads_per_worker=count,
-        memory_limit=0,
-        silence_logs=logging.CRITICAL,
-        dashboard_address="127.0.0.1:0",
-    )
-
-
-def _cluster(address: str) -> Any:
-    """Return a client of the scheduler at an address."""
-    from distributed import Client
-
+    threads = {"processes": False, "n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
+    own = {"dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL, **threads}
     try:
-        return Client(address, timeout=SECONDS_TO_ANSWER)
+        client = Client(address, timeout=SECONDS_TO_ANSWER) if address else Client(**own)
     except (OSError, ValueError) as error:
+        if not address:
+            raise
         reason = f"no scheduler answers there ({type(error).__name__}); start one: dask scheduler"
         raise InputError(f"--scheduler {address}: {reason}") from error
+    with client:
+        yield client
 
 
 def results_of(
@@ -123,12 +109,10 @@ def _work_of_a_worker() -> Callable[[str, tuple, tuple], dict[str, Any]]:
         from headless.batch.plan import Job
         from headless.batch.task import Batch, do
 
-        worker = get_worker()
-        key = worker.get_current_task()
+        tasks, key = get_worker().state.tasks, get_worker().get_current_task()
 
         def is_wanted() -> bool:
-            task = worker.state.tasks.get(key)
-            return task is not None and task.state != "cancelled"  # as when the batch is gone
+            return key in tasks and tasks[key].state != "cancelled"  # as when the batch is gone
 
         return do(Job(*job), Batch(*batch), is_wanted)
 

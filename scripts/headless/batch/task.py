@@ -70,13 +70,10 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if report and (made_by == batch.name or not batch.is_forced):
             return _success(DONE if made_by == batch.name else KEPT, report)
         code, words = _run(job, batch, key, is_wanted)
-        if code:
-            return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
         report, _ = _report(job, key)
-        if not report:
-            error = "its results are not those that its process has written"
-            return {"status": FAILED, "error": error, "words": words}
-        return _success(DONE, report) | {"words": words}
+        if report and not code:
+            return _success(DONE, report) | {"words": words}
+        return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
@@ -120,7 +117,7 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
                 bufsize=0,
                 stdout=subprocess.DEVNULL,
                 stderr=words,
-                env=os.environ | (thread_variables(batch.threads) if batch.threads else {}),
+                env=os.environ | thread_variables(batch.threads),
                 start_new_session=True,  # Ctrl-C is for the batch, which then ends it
                 creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
             )
@@ -158,6 +155,8 @@ def _end(process: subprocess.Popen) -> None:
 
 def _why_failed(job: Job, code: int, words: str) -> str:
     """Say in one line why a process has failed."""
+    if not code:
+        return "its results are not those that its process has written"
     if code < 0:
         name = signal.strsignal(-code) or f"signal {-code}"
         return f"{'was ended from outside' if -code in FROM_OUTSIDE else 'crashed'} ({name})"
