@@ -11,7 +11,6 @@ from scripts.headless.arguments import parse
 from scripts.headless.batch.plan import OF_THE_BATCH, Job, decisive, plan, settings_of
 from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.task import Batch, do, key_of
-from scripts.headless.errors import InputError
 
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --space object --solidity 0 --together parts --refine off --rotation free
@@ -56,38 +55,24 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
     assert without.no_render and without.output is None
 
 
+IN_FULL = "--solidity 0 --together off --refine off --rotation free --hold-rest off"
+BY_DEFAULT = "--solidity 0.1 --together selection --refine auto --rotation keep --hold-rest on"
+
+
 def test_the_paper_is_its_options_in_full(folder, monkeypatch):
     def key(*words):
         return key_of(folder / "a.obj", decisive(batch_options(*words), "1"))
 
-    in_full = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
-    in_full += ["--hold-rest", "off"]
-    assert key("--paper") == key(*in_full) != key()
+    in_full = IN_FULL.split()
+    assert settings_of(batch_options("--paper")) == settings_of(batch_options(*in_full))
+    assert key("--paper") == key(*in_full) != key() == key(*BY_DEFAULT.split())
     there = in_a_worker(batch_options("--paper"), monkeypatch)
     assert (there.solidity, there.together, there.refine) == (0.0, "off", "off")
     assert (there.rotation, there.hold_rest) == ("free", "off")
     beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
     assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
-    by_default = [
-        "--solidity",
-        "0.1",
-        "--together",
-        "selection",
-        "--refine",
-        "auto",
-        "--rotation",
-        "keep",
-        "--hold-rest",
-        "on",
-    ]
-    assert key() == key(*by_default)
     keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 10, 2)}
     assert len(keys | {key("--paper")}) == 6, "each of them decides about the result"
-
-
-def test_auto_is_no_rotation_any_more(folder):
-    with pytest.raises(InputError, match="--rotation"):
-        batch_options("--rotation", "auto")
 
 
 def names(*inputs, is_recursive=False):
@@ -112,6 +97,8 @@ def test_names_of_results(folder):
         "sub/a.obj": "sub/a",
     }
     assert names("sub/a.obj") == {"sub/a.obj": "a"}
+    (folder / "sub" / "a.ply").write_text(CUBE)
+    assert names("sub") == {"sub/a.obj": "a_obj", "sub/a.ply": "a_ply"}
 
 
 def test_names_that_differ_in_case_only_are_kept_apart(folder):
