@@ -93,14 +93,14 @@ def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
         raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")
 
 
-def _check_mesh_suffix(option: str, path: Path) -> None:
+def _check_mesh_suffix(path: Path) -> None:
     """Refuse a mesh in a format that does not keep the vertices."""
     if path.suffix.lower() in LOSE_VERTICES:
         raise InputError(
-            f"{option} {path}: this format cannot keep vertex order and count; give "
+            f"--save-mesh {path}: this format cannot keep vertex order and count; give "
             f"{listing(KEEP_VERTICES)}"
         )
-    _check_suffix(option, path, KEEP_VERTICES)
+    _check_suffix("--save-mesh", path, KEEP_VERTICES)
 
 
 def _check_ending(ending: str) -> None:
@@ -110,7 +110,7 @@ def _check_ending(ending: str) -> None:
             f"--save-mesh {ending}: with several files give how the names of the results shall "
             "end, such as .obj or _cubic.obj"
         )
-    _check_mesh_suffix("--save-mesh", Path(f"name{ending}"))
+    _check_mesh_suffix(Path(f"name{ending}"))
 
 
 def _check_format(path: Path) -> None:
@@ -137,7 +137,7 @@ def _check_outputs(options: Namespace) -> None:
         _check_suffix("--output", options.output, (".png",))
         outputs["--output"] = numbered(options.output, options.turntable)
     if options.save_mesh:
-        _check_mesh_suffix("--save-mesh", options.save_mesh)
+        _check_mesh_suffix(options.save_mesh)
         outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
     if options.report:
         _check_suffix("--report", options.report, (".json",))

@@ -16,7 +16,13 @@ from .handles_file import GivenHandle
 from .load_meshes import Loaded
 from .mesh_arrays import positions_of
 
-__all__ = ("handles_of_all", "start_of")
+__all__ = ("groups_of", "handles_of_all", "start_of")
+
+
+def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
+    """Return the names of all vertex groups, and the same for a message."""
+    there = list(dict.fromkeys(group.name for obj in objects for group in obj.vertex_groups))
+    return there, ", ".join(map(repr, there)) or "no vertex group at all"
 
 
 def start_of(obj: bpy.types.Object) -> str:
@@ -121,11 +127,10 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
         points = np.concatenate([positions_of(obj.data) for obj in loaded.objects], dtype=float)
         low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))
         return f"no vertex lies in its box; the input extends from {low} to {high}"
-    there = dict.fromkeys(group.name for obj in loaded.objects for group in obj.vertex_groups)
+    there, has = groups_of(loaded.objects)
     if given.group in there:
         return (
             f"no vertex weighs {given.threshold:g} or more in the vertex group {given.group!r};"
             " lower the threshold"
         )
-    has = ", ".join(map(repr, there)) or "no vertex group at all"
     return f"no such vertex group: {given.group}; the input has {has}"
