@@ -21,12 +21,12 @@ if str(ROOT / "scripts") not in sys.path:  # Blender does not put a script's fol
 from headless.arguments import parse  # noqa: E402
 from headless.batch.run import run_batch  # noqa: E402
 from headless.checks import refuse_empty  # noqa: E402
-from headless.error_file import errors_written  # noqa: E402
 from headless.errors import InputError  # noqa: E402
 from headless.extension import read_version  # noqa: E402
 from headless.interruption import end_on_signals, end_with_input  # noqa: E402
+from headless.output_files import replacing  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
-from headless.threads import limit_threads  # noqa: E402
+from headless.threads import thread_variables  # noqa: E402
 
 IS_INSIDE_BLENDER = "bpy" in sys.modules
 PROGRAM = "headless_render.py"
@@ -76,8 +76,7 @@ def main() -> int:
         mute_stdout(options.verbose)
         if options.output_folder:
             return run_batch(options, command_of_worker, read_version(ROOT), PROGRAM, begin)
-        with errors_written(options.error_file, PROGRAM):
-            run_one(options, begin)
+        run_one(options, begin)
     except InputError as error:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
@@ -85,15 +84,23 @@ def main() -> int:
 
 
 def run_one(options: Namespace, begin: float) -> None:
-    """Run with one file, or the monkey."""
-    if options.input is not None:
-        refuse_empty(options.input)
-    if options.threads:
-        limit_threads(options.threads)
-    # Late, because it takes Blender a second to start: --help and mistyped options need none.
-    from headless.pipeline import run
+    """Run with one file, or the monkey; with --error-file say there why it cannot be used."""
+    try:
+        if options.input is not None:
+            refuse_empty(options.input)
+        os.environ.update(thread_variables(options.threads))
+        # Late, because it takes Blender a second to start: --help and mistyped options need none.
+        from headless.pipeline import run
 
-    run(options, ROOT, begin)
+        run(options, ROOT, begin)
+        if options.error_file:
+            options.error_file.unlink(missing_ok=True)
+    except InputError as error:
+        if not options.error_file:
+            raise
+        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        with replacing(options.error_file) as temporary:
+            temporary.write_text(f"{error}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -2,35 +2,79 @@
 """The command line: options, their ranges, and what does not go together."""
 
 import argparse
-import math
-from collections.abc import Callable, Collection
-from decimal import Decimal
+import json
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
-from .batch.checks import check_batch
-from .checks import check_single
+from .checks import check_batch, check_single
 from .errors import InputError
 from .formats import KEEP_VERTICES, READABLE, listing
 from .handles_file import read_handles
 
-__all__ = ("as_arguments", "parse")
+__all__ = ("parse",)
 
 DEFAULTS = {
-    "solidity": 0.1,
-    "together": "selection",
-    "refine": "auto",
-    "rotation": "keep",
-    "hold_rest": "on",
+    "solidity": (0.1, 0.0),
+    "together": ("selection", "off"),
+    "refine": ("auto", "off"),
+    "rotation": ("keep", "free"),
+    "hold_rest": ("on", "off"),
 }
-PAPER = {
-    "solidity": 0.0,
-    "together": "off",
-    "refine": "off",
-    "rotation": "free",
-    "hold_rest": "off",
+"""name: by default, with ``--paper``"""
+
+HELP = {
+    "inputs": f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
+    "files, or folders of them",
+    "--object": "this mesh object only (default: all)",
+    "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
+    "--worker": argparse.SUPPRESS,
+    "--verbose": "show Blender's own messages",
+    "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
+    "--orientation": "Euler angles of the cube in degrees, as in the panel",
+    "--space": "what they are relative to: the axes of the scene that the file is read into, where "
+    "Z is up, or those of each object (default: world)",
+    "--pin": "vertex groups that stay in place",
+    "--handles": "parts of the mesh that are held or moved, see below",
+    "--map": "vertex group that scales the cubeness",
+    "--tolerance": "(default: 0.001)",
+    "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
+    "(default: 0.1)",
+    "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
+    "file do (default: selection)",
+    "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
+    "--rotation": "whether each part is held in its orientation, or may turn as a whole "
+    "(default: keep)",
+    "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
+    "stay so",
+    "--floor": "what stands on the ground keeps its height",
+    "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
+    "surfaces and metaballs as meshes",
+    "--hold-rest": "whether what is far from handles that are moved stays where it is "
+    "(default: on)",
+    "--paper": "as in the paper: solidity 0, together off, refine off, rotation free, hold-rest "
+    "off; each of them can be given beside it and counts then",
+    "--output": "(default: cubic_craft.png)",
+    "--no-render": "no picture",
+    "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
+    "several cubeness values one file each (name_0.4.obj); in a batch the end of the names, such "
+    "as .obj or _cubic.obj",
+    "--report": "numbers of the run",
+    "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
+    "for render farms, which would blame the machine",
+    "--output-folder": "for the results, each named as its input; made if it is not there",
+    "--recursive": "take folders with the folders in them, and lay the results out alike",
+    "--jobs": "files worked on at the same time, each in a Blender of its own (default: 1)",
+    "--scheduler": "of a Dask cluster whose workers do the files, such as tcp://host:8786",
+    "--force": "do also what is done already",
+    "--samples": "of cycles; denoised (default: 16)",
+    "--resolution": "(default: 1600 540)",
+    "--turn": "degrees that stand the objects upright, for files with another idea of up; the "
+    "result does not change",
+    "--turntable": "a picture sequence name_0001.png ..., each object turning about its vertical "
+    "axis",
 }
-"""what ``--paper`` stands for"""
 
 EPILOG = """\
 The picture shows the original beside one result per cubeness. With --turntable it becomes a
@@ -78,8 +122,8 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         One attribute per option; what ``--paper`` stands for is set, and ``handles`` is a list of
         `GivenHandle`. For one file ``output_folder`` is None; ``output``, ``save_mesh`` and
         ``report`` are paths or None, and ``input`` is a path or None for the monkey. Else it is the
-        folder of a batch;
-        ``inputs`` are files and folders, and ``save_mesh`` is None or how the names shall end.
+        folder of a batch; ``inputs`` are files and folders, and ``save_mesh`` is None or how the
+        names shall end.
 
     Raises
     ------
@@ -87,10 +131,12 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         An option, the input or an output path cannot be used.
     """
     options = _parser().parse_args(arguments)
+    if options.worker:  # what is the same for all files, as `batch.plan.settings_of` has it
+        vars(options).update(json.loads(sys.stdin.readline()))
     options.cubeness = list(dict.fromkeys(options.cubeness))
-    for name, value in (PAPER if options.paper else DEFAULTS).items():
+    for name, values in DEFAULTS.items():
         if getattr(options, name) is None:
-            setattr(options, name, value)
+            setattr(options, name, values[options.paper])
     options.input = None
     if len(options.inputs) > 1 or options.output_folder or any(p.is_dir() for p in options.inputs):
         check_batch(options)
@@ -101,27 +147,6 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     return options
 
 
-def as_arguments(options: argparse.Namespace, names: Collection[str]) -> list[str]:
-    """Return the command line that gives some of the options, named as their attributes are."""
-    arguments = []
-    for name in names:
-        value = getattr(options, name)
-        flag = "--handles" if name == "handles_file" else f"--{name.replace('_', '-')}"
-        if isinstance(value, list) and len(value) > 1:
-            arguments += [flag, *map(_as_text, value)]
-        elif value is True:
-            arguments.append(flag)
-        elif value or isinstance(value, float):
-            single = value[0] if isinstance(value, list) else value
-            arguments.append(f"{flag}={_as_text(single)}")
-    return arguments
-
-
-def _as_text(value: object) -> str:
-    # Without an exponent: argparse takes -1e-05 for an option.
-    return format(Decimal(repr(value)), "f") if isinstance(value, float) else str(value)
-
-
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="headless_render.py",
@@ -130,225 +155,85 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument(
-        "inputs",
-        nargs="*",
-        type=Path,
-        metavar="INPUT",
-        help=f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
-        "files, or folders of them",
-    )
-    parser.add_argument("--object", metavar="NAME", help="this mesh object only (default: all)")
-    _add_method(parser)
-    _add_shape(parser)
-    _add_outputs(parser)
-    _add_batch(parser)
-    _add_picture(parser)
-    parser.add_argument(
-        "--threads",
-        type=_integer(1, 1024),
-        metavar="N",
-        help="of the processor (default: all of them, in a batch shared by its jobs)",
-    )
-    parser.add_argument("--worker", default="", metavar="KEY:BATCH", help=argparse.SUPPRESS)
-    parser.add_argument("--verbose", action="store_true", help="show Blender's own messages")
+    add = _adder(parser)
+    add("inputs", nargs="*", type=Path, metavar="INPUT")
+    add("--object", metavar="NAME")
+    _add_method(_adder(parser.add_argument_group("the cubic style")))
+    _add_shape(_adder(parser.add_argument_group("what holds together")))
+    _add_outputs(_adder(parser.add_argument_group("what is written")))
+    _add_batch(_adder(parser.add_argument_group("several files")))
+    _add_picture(_adder(parser.add_argument_group("the picture")))
+    add("--threads", type=_number(1, 1024, int), metavar="N")
+    add("--worker", default="", metavar="KEY:BATCH")
+    add("--verbose", action="store_true")
     return parser
 
 
-def _add_method(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("the cubic style")
-    group.add_argument(
-        "--cubeness",
-        nargs="+",
-        type=_number(0.0, 10.0),
-        default=[0.4],
-        metavar="L",
-        help="0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
-    )
-    group.add_argument(
-        "--orientation",
-        nargs=3,
-        type=_number(-36000.0, 36000.0),
-        default=[0.0, 0.0, 0.0],
-        metavar=("X", "Y", "Z"),
-        help="Euler angles of the cube in degrees, as in the panel",
-    )
-    group.add_argument(
-        "--space",
-        choices=("world", "object"),
-        default="world",
-        help="what they are relative to: the axes of the scene that the file is read into, where Z"
-        " is up, or those of each object (default: world)",
-    )
-    group.add_argument(
-        "--pin", nargs="+", default=[], metavar="GROUP", help="vertex groups that stay in place"
-    )
-    group.add_argument(
-        "--handles",
-        dest="handles_file",
-        type=Path,
-        metavar="FILE.json",
-        help="parts of the mesh that are held or moved, see below",
-    )
-    group.add_argument(
-        "--map", default="", metavar="GROUP", help="vertex group that scales the cubeness"
-    )
-    group.add_argument("--max-iterations", type=_integer(1, 1_000_000), default=1000, metavar="N")
-    group.add_argument(
-        "--tolerance", type=_number(1e-12, 1.0), default=1e-3, metavar="T", help="(default: 0.001)"
-    )
-    group.add_argument("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+def _adder(group: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
+    return lambda name, **how: group.add_argument(name, help=HELP.get(name), **how)
 
 
-def _add_shape(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what holds together")
-    group.add_argument(
-        "--solidity",
-        type=_number(0.0, 10.0),
-        metavar="S",
-        help="how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
-        "(default: 0.1)",
-    )
-    group.add_argument(
-        "--together",
-        choices=("off", "parts", "selection"),
-        help="parts: the parts of a mesh stay on each other; selection: all meshes of the file do "
-        "(default: selection)",
-    )
-    group.add_argument(
-        "--refine",
-        choices=("auto", "off"),
-        help="auto: coarse meshes are solved on a finer copy (default: auto)",
-    )
-    group.add_argument(
-        "--rotation",
-        choices=("keep", "free"),
-        help="whether each part is held in its orientation, or may turn as a whole (default: keep)",
-    )
-    group.add_argument(
-        "--symmetry",
-        type=_axes,
-        default="",
-        metavar="AXES",
-        help="x, y, z or several: halves that are mirror images about the object's origin stay so",
-    )
-    group.add_argument(
-        "--floor", action="store_true", help="what stands on the ground keeps its height"
-    )
-    group.add_argument(
-        "--with-modifiers",
-        action="store_true",
-        help="take what is seen: meshes with their modifiers applied, texts, curves, surfaces and "
-        "metaballs as meshes",
-    )
-    group.add_argument(
-        "--hold-rest",
-        choices=("on", "off"),
-        help="whether what is far from handles that are moved stays where it is (default: on)",
-    )
-    group.add_argument(
-        "--paper",
-        action="store_true",
-        help="as in the paper: solidity 0, together off, refine off, rotation free, hold-rest off; "
-        "each of them can be given beside it and counts then",
-    )
+def _add_method(add: Callable[..., argparse.Action]) -> None:
+    degrees = _number(-36000, 36000)
+    add("--cubeness", nargs="+", type=_number(0, 10), default=[0.4], metavar="L")
+    add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--space", choices=("world", "object"), default="world")
+    add("--pin", nargs="+", default=[], metavar="GROUP")
+    add("--handles", dest="handles_file", type=Path, metavar="FILE.json")
+    add("--map", default="", metavar="GROUP")
+    add("--max-iterations", type=_number(1, 1_000_000, int), default=1000, metavar="N")
+    add("--tolerance", type=_number(1e-12, 1), default=1e-3, metavar="T")
+    add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
 
 
-def _add_outputs(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what is written")
-    group.add_argument(
-        "--output", type=Path, metavar="PICTURE.png", help="(default: cubic_craft.png)"
-    )
-    group.add_argument("--no-render", action="store_true", help="no picture")
-    group.add_argument(
-        "--save-mesh",
-        metavar="FILE",
-        help=f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with several "
-        "cubeness values one file each (name_0.4.obj); in a batch the end of the names, such as "
-        ".obj or _cubic.obj",
-    )
-    group.add_argument("--report", type=Path, metavar="FILE.json", help="numbers of the run")
-    group.add_argument(
-        "--error-file",
-        type=Path,
-        metavar="FILE",
-        help="if the input cannot be used, write why to this file and end with exit code 0: for "
-        "render farms, which would blame the machine",
-    )
+def _add_shape(add: Callable[..., argparse.Action]) -> None:
+    add("--solidity", type=_number(0, 10), metavar="S")
+    add("--together", choices=("off", "parts", "selection"))
+    add("--refine", choices=("auto", "off"))
+    add("--rotation", choices=("keep", "free"))
+    add("--symmetry", type=_axes, default="", metavar="AXES")
+    add("--floor", action="store_true")
+    add("--with-modifiers", action="store_true")
+    add("--hold-rest", choices=("on", "off"))
+    add("--paper", action="store_true")
 
 
-def _add_batch(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("several files")
-    group.add_argument(
-        "--output-folder",
-        type=Path,
-        metavar="DIR",
-        help="for the results, each named as its input; made if it is not there",
-    )
-    group.add_argument(
-        "--recursive",
-        action="store_true",
-        help="take folders with the folders in them, and lay the results out alike",
-    )
-    group.add_argument(
-        "--jobs",
-        type=_integer(1, 1024),
-        metavar="N",
-        help="files worked on at the same time, each in a Blender of its own (default: 1)",
-    )
-    group.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="of a Dask cluster whose workers do the files, such as tcp://host:8786",
-    )
-    group.add_argument("--force", action="store_true", help="do also what is done already")
+def _add_outputs(add: Callable[..., argparse.Action]) -> None:
+    add("--output", type=Path, metavar="PICTURE.png")
+    add("--no-render", action="store_true")
+    add("--save-mesh", metavar="FILE")
+    add("--report", type=Path, metavar="FILE.json")
+    add("--error-file", type=Path, metavar="FILE")
 
 
-def _add_picture(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("the picture")
-    group.add_argument("--engine", choices=("cycles", "workbench"), default="cycles")
-    group.add_argument(
-        "--samples",
-        type=_integer(1, 65536),
-        default=16,
-        metavar="N",
-        help="of cycles; denoised (default: 16)",
-    )
-    group.add_argument(
-        "--resolution",
-        nargs=2,
-        type=_integer(16, 16384),
-        default=[1600, 540],
-        metavar=("W", "H"),
-        help="(default: 1600 540)",
-    )
-    group.add_argument(
-        "--turn",
-        nargs=3,
-        type=_number(-36000.0, 36000.0),
-        default=[0.0, 0.0, 0.0],
-        metavar=("X", "Y", "Z"),
-        help="degrees that stand the objects upright, for files with another idea of up; the "
-        "result does not change",
-    )
-    group.add_argument(
-        "--turntable",
-        type=_integer(1, 9999),
-        default=0,
-        metavar="FRAMES",
-        help="a picture sequence name_0001.png ..., each object turning about its vertical axis",
-    )
+def _add_batch(add: Callable[..., argparse.Action]) -> None:
+    add("--output-folder", type=Path, metavar="DIR")
+    add("--recursive", action="store_true")
+    add("--jobs", type=_number(1, 1024, int), metavar="N")
+    add("--scheduler", metavar="ADDRESS")
+    add("--force", action="store_true")
 
 
-def _number(low: float, high: float) -> Callable[[str], float]:
+def _add_picture(add: Callable[..., argparse.Action]) -> None:
+    degrees = _number(-36000, 36000)
+    size = _number(16, 16384, int)
+    add("--engine", choices=("cycles", "workbench"), default="cycles")
+    add("--samples", type=_number(1, 65536, int), default=16, metavar="N")
+    add("--resolution", nargs=2, type=size, default=[1600, 540], metavar=("W", "H"))
+    add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--turntable", type=_number(1, 9999, int), default=0, metavar="FRAMES")
+
+
+def _number(low: float, high: float, kind: type = float) -> Callable[[str], float]:
     def number(text: str) -> float:
         try:
-            value = float(text)
+            value = kind(text)
         except ValueError:
+            what = "a number" if kind is float else "a whole number"
             hint = " (put the input file first)" if Path(text).suffix in READABLE else ""
-            raise argparse.ArgumentTypeError(f"{text!r} is not a number{hint}") from None
-        if not math.isfinite(value) or not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text} is not between {low:g} and {high:g}")
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}{hint}") from None
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")
         return value
 
     return number
@@ -359,16 +244,3 @@ def _axes(text: str) -> str:
     if set(axes) - set("xyz") or len(set(axes)) < len(axes):
         raise argparse.ArgumentTypeError(f"{text!r} is none of x, y, z, xy, xz, yz and xyz")
     return "".join(sorted(axes))
-
-
-def _integer(low: int, high: int) -> Callable[[str], int]:
-    def integer(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")
-        return value
-
-    return integer

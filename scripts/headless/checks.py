@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be refused of a command line before Blender starts, for one file."""
+"""What can be refused of a command line before Blender starts."""
 
 from argparse import Namespace
 from pathlib import Path
@@ -8,14 +8,7 @@ from .errors import InputError
 from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
 from .output_files import check_writable, numbered, per_cubeness
 
-__all__ = (
-    "check_format",
-    "check_is_something_to_do",
-    "check_mesh_suffix",
-    "check_single",
-    "check_suffix",
-    "refuse_empty",
-)
+__all__ = ("check_batch", "check_single", "refuse_empty")
 
 
 def check_single(options: Namespace) -> None:
@@ -29,7 +22,7 @@ def check_single(options: Namespace) -> None:
     for option in ("jobs", "scheduler", "force", "recursive"):
         if getattr(options, option):
             raise InputError(f"--{option}: is for several files; add --output-folder DIR")
-    check_is_something_to_do(options)
+    _check_is_something_to_do(options)
     if not options.no_render and options.output is None:
         options.output = Path("cubic_craft.png")
     if options.input is not None:
@@ -38,13 +31,55 @@ def check_single(options: Namespace) -> None:
     _check_outputs(options)
 
 
+def check_batch(options: Namespace) -> None:
+    """Check what concerns a batch; what is wrong inside a file is found when its turn comes.
+
+    Raises
+    ------
+    InputError
+        An input, an output, or how options go together.
+    """
+    folder, report = options.output_folder, options.report
+    if folder is None:
+        what = f"{options.inputs[0]}: is a folder" if len(options.inputs) == 1 else "several files"
+        raise InputError(f"{what}: name a folder for the results, --output-folder DIR")
+    for is_wrong, message in (
+        (
+            options.output,
+            "--output: is for one file; in --output-folder pictures are named as their inputs",
+        ),
+        (options.error_file, "--error-file: is for one file; here --report has all that failed"),
+        (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
+        (
+            options.jobs and options.scheduler,
+            "--jobs: a cluster does as many at a time as it has workers; drop it",
+        ),
+    ):
+        if is_wrong:
+            raise InputError(message)
+    _check_is_something_to_do(options)
+    for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
+        if not path.exists():
+            raise InputError(f"{path}: there is no such file or folder; check the path")
+        if not path.is_dir():
+            _check_format(path)
+    if options.save_mesh is not None:
+        _check_ending(options.save_mesh)
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--output-folder {folder}: this is a file; give a folder")
+    if report:
+        _check_suffix("--report", report, (".json",))
+        if report.parent.resolve() != folder.resolve():  # which is made later
+            check_writable("--report", [report])
+
+
 def refuse_empty(path: Path) -> None:
     """Refuse a file without content, before Blender starts for it."""
     if not path.stat().st_size:
         raise InputError(f"{path}: the file is empty; export it again")
 
 
-def check_is_something_to_do(options: Namespace) -> None:
+def _check_is_something_to_do(options: Namespace) -> None:
     """Refuse --no-render together with pictures, and without anything else to write."""
     if options.no_render and (options.output or options.turntable):
         raise InputError("--no-render: does not go together with --output or --turntable; drop one")
@@ -52,31 +87,40 @@ def check_is_something_to_do(options: Namespace) -> None:
         raise InputError("--no-render: nothing to write; add --save-mesh FILE or --report FILE")
 
 
-def check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
+def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
     """Refuse an output whose name ends otherwise."""
     if path.suffix.lower() not in allowed:
         raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")
 
 
-def check_mesh_suffix(option: str, path: Path) -> None:
+def _check_mesh_suffix(path: Path) -> None:
     """Refuse a mesh in a format that does not keep the vertices."""
     if path.suffix.lower() in LOSE_VERTICES:
         raise InputError(
-            f"{option} {path}: this format cannot keep vertex order and count; give "
+            f"--save-mesh {path}: this format cannot keep vertex order and count; give "
             f"{listing(KEEP_VERTICES)}"
         )
-    check_suffix(option, path, KEEP_VERTICES)
+    _check_suffix("--save-mesh", path, KEEP_VERTICES)
 
 
-def check_format(path: Path) -> None:
-    """Refuse an input in a format that cannot be read."""
+def _check_ending(ending: str) -> None:
+    """Refuse what cannot be the end of a name: ``.obj`` and ``_cubic.obj`` can."""
+    if not ending or ending[0].isalnum() or Path(ending).name != ending:
+        raise InputError(
+            f"--save-mesh {ending}: with several files give how the names of the results shall "
+            "end, such as .obj or _cubic.obj"
+        )
+    _check_mesh_suffix(Path(f"name{ending}"))
+
+
+def _check_format(path: Path) -> None:
     if path.suffix.lower() not in READABLE:
         kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
         raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
 
 
 def _check_input(path: Path) -> None:
-    check_format(path)
+    _check_format(path)
     try:
         with path.open("rb"):
             pass
@@ -90,13 +134,13 @@ def _check_outputs(options: Namespace) -> None:
     """Refuse output paths of the wrong kind, that cannot be written, or that collide."""
     outputs: dict[str, list[Path]] = {}
     if options.output:
-        check_suffix("--output", options.output, (".png",))
+        _check_suffix("--output", options.output, (".png",))
         outputs["--output"] = numbered(options.output, options.turntable)
     if options.save_mesh:
-        check_mesh_suffix("--save-mesh", options.save_mesh)
+        _check_mesh_suffix(options.save_mesh)
         outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
     if options.report:
-        check_suffix("--report", options.report, (".json",))
+        _check_suffix("--report", options.report, (".json",))
         outputs["--report"] = [options.report]
     if options.error_file:
         outputs["--error-file"] = [options.error_file]

@@ -11,7 +11,7 @@ import bpy
 from .errors import InputError
 from .extension import Extension
 from .load_meshes import Loaded
-from .pose import handles_of_all, start_of
+from .pose import groups_of, handles_of_all, start_of
 from .progress import ProgressBar
 
 __all__ = ("Sculpture", "cubify_all")
@@ -111,12 +111,11 @@ def _settings(
 
 
 def _check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
-    there = dict.fromkeys(group.name for obj in objects for group in obj.vertex_groups)
+    there, has = groups_of(objects)
     wanted = [("--pin", group) for group in options.pin]
     wanted += [("--map", options.map)] if options.map else []
     for option, group in wanted:
         if group not in there:
-            has = ", ".join(repr(name) for name in there) or "no vertex group at all"
             raise InputError(f"{option} {group}: no such vertex group; the input has {has}")
 
 

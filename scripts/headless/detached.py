@@ -6,7 +6,7 @@ import numpy as np
 
 from .extension import Extension
 
-__all__ = ("detached_copy", "remove_copy", "write_positions")
+__all__ = ("detached_copy",)
 
 
 def detached_copy(
@@ -36,19 +36,10 @@ def detached_copy(
     if mesh.shape_keys is not None:
         copy.shape_key_clear()
     extension.mesh_bridge.discard_original(mesh)
-    write_positions(mesh, positions)
-    return copy
-
-
-def write_positions(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
-    """Write (n,3) float32 positions to a mesh without shape keys."""
-    mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(positions).ravel())
+    values = np.ascontiguousarray(positions).ravel()
+    mesh.attributes["position"].data.foreach_set("vector", values)
     mesh.update()
-
-
-def remove_copy(copy: bpy.types.Object) -> None:
-    """Remove a copy and its mesh."""
-    bpy.data.meshes.remove(copy.data)  # takes the object along
+    return copy
 
 
 def _needs_object(modifier: bpy.types.Modifier) -> bool:

@@ -15,16 +15,9 @@ from .errors import InputError
 
 __all__ = ("refuse_infinite",)
 
-PLY_TYPES = {
-    **dict.fromkeys(("char", "int8"), "i1"),
-    **dict.fromkeys(("uchar", "uint8"), "u1"),
-    **dict.fromkeys(("short", "int16"), "i2"),
-    **dict.fromkeys(("ushort", "uint16"), "u2"),
-    **dict.fromkeys(("int", "int32"), "i4"),
-    **dict.fromkeys(("uint", "uint32"), "u4"),
-    **dict.fromkeys(("float", "float32"), "f4"),
-    **dict.fromkeys(("double", "float64"), "f8"),
-}
+PLY_TYPES = {"char": "i1", "uchar": "u1", "int": "i4", "uint": "u4", "float": "f4"}
+"""those that NumPy does not call the same"""
+CUT_OFF = -1
 STL_HEADER = 84
 """bytes of a binary .stl before the first triangle"""
 STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -40,12 +33,10 @@ def refuse_infinite(path: Path) -> None:
         Naming the file, the first vertex that is wrong, and the cure.
     """
     data = path.read_bytes()
-    is_ply = path.suffix.lower() == ".ply"
-    vertex, is_whole = None, True
-    with contextlib.suppress(ValueError, IndexError):  # a header that makes no sense
-        vertex = (_first_in_ply if is_ply else _first_in_stl)(data)
-        is_whole = not is_ply or _holds_all(data)
-    if not is_whole:
+    vertex = None
+    with contextlib.suppress(ValueError, TypeError, IndexError):  # a header that makes no sense
+        vertex = (_first_in_ply if path.suffix.lower() == ".ply" else _first_in_stl)(data)
+    if vertex == CUT_OFF:
         raise InputError(
             f"{path}: cannot be read (cut off, or its counts are wrong); export it again"
         )
@@ -53,41 +44,29 @@ def refuse_infinite(path: Path) -> None:
         raise InputError(f"{path}: vertex {vertex} has no finite coordinates; repair the file")
 
 
-def _holds_all(data: bytes) -> bool:
-    """Return whether a .ply can have as many rows as its header says, of a byte each at least."""
-    header, _, body = data.partition(b"end_header")
-    rows = [line.split() for line in header.splitlines()]
-    return sum(int(row[2]) for row in rows if row[:1] == [b"element"]) <= len(body)
-
-
 def _first_in_ply(data: bytes) -> int | None:
-    """Index of the first vertex that is not finite."""
+    """Index of the first vertex that is not finite, or `CUT_OFF`."""
     header, end, body = data.partition(b"end_header")
     lines = [line.split() for line in header.decode("ascii", "replace").splitlines()]
-    elements = [number for number, line in enumerate(lines) if line[:1] == ["element"]]
+    elements = [n for n, line in enumerate(lines) if line[:1] == ["element"]]
+    if sum(int(lines[n][2]) for n in elements) > len(body):  # rows of a byte each at least
+        return CUT_OFF
     if not end or not elements or lines[elements[0]][1] != "vertex":
         return None
     count = int(lines[elements[0]][2])
     body = body[body.find(b"\n") + 1 :]
-    properties = [
-        line
-        for line in lines[elements[0] : (elements + [len(lines)])[1]]
-        if line[:1] == ["property"]
-    ]
+    own = lines[elements[0] : (elements + [len(lines)])[1]]
+    properties = [line for line in own if line[:1] == ["property"]]
     kind = next((line[1] for line in lines if line[:1] == ["format"]), "")
     if kind == "ascii":
         rows = body.split(b"\n", count)[:count]
         is_broken = (NOT_FINITE.search(row) or len(row.split()) < len(properties) for row in rows)
         return next((n for n, broken in enumerate(is_broken) if broken), None)
     order = "<" if kind == "binary_little_endian" else ">"
-    if any(line[1] not in PLY_TYPES for line in properties):
-        return None
-    row = np.dtype([(line[2], order + PLY_TYPES[line[1]]) for line in properties])
-    if len(body) < count * row.itemsize or not {"x", "y", "z"} <= set(row.names or ()):
-        return None
+    types = [np.dtype(PLY_TYPES.get(line[1], line[1])).newbyteorder(order) for line in properties]
+    row = np.dtype([(line[2], kind) for line, kind in zip(properties, types, strict=True)])
     vertices = np.frombuffer(body, row, count)
-    is_finite = np.logical_and.reduce([np.isfinite(vertices[axis]) for axis in "xyz"])
-    return _first(~is_finite)
+    return _first(~np.logical_and.reduce([np.isfinite(vertices[axis]) for axis in "xyz"]))
 
 
 def _first_in_stl(data: bytes) -> int | None:

@@ -17,6 +17,7 @@ from mathutils import Euler, Matrix, Vector
 from .cubify_all import Sculpture
 from .detached import detached_copy
 from .extension import Extension
+from .mesh_arrays import read
 
 __all__ = (
     "Gallery",
@@ -163,13 +164,11 @@ def _points(copy: bpy.types.Object, place: Matrix) -> np.ndarray:
     """(n,3) vertices of faces as they are rendered, where ``place`` takes them."""
     evaluated = copy.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
-    points = np.empty(len(mesh.vertices) * 3, np.float32)
-    mesh.vertices.foreach_get("co", points)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
+    points = read(mesh.vertices, "co", width=3)
+    corners = read(mesh.loops, "vertex_index", np.int32)
     evaluated.to_mesh_clear()
     matrix = np.array(place)
-    visible = points.reshape(-1, 3)[np.unique(corners)].astype(np.float64)
+    visible = points[np.unique(corners)].astype(np.float64)
     return visible @ matrix[:3, :3].T + matrix[:3, 3]
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Read what ``--handles`` names: a JSON list of handles, checked without Blender."""
 
+import itertools
 import json
 import math
 from collections.abc import Callable
@@ -56,80 +57,78 @@ def read_handles(path: Path) -> list[GivenHandle]:
         raise InputError(f"--handles {path}: cannot be read ({error.strerror})") from None
     except (ValueError, RecursionError) as error:
         raise InputError(f"--handles {path}: is not JSON ({error})") from None
-    if not isinstance(content, list):
-        raise InputError(f"--handles {path}: must be a list of handles, [{{...}}, ...]")
-    return [
-        _handle(entry, f"--handles {path}: handle {number}")
-        for number, entry in enumerate(content, start=1)
-    ]
+    _check(
+        isinstance(content, list), f"--handles {path}: must be a list of handles, [{{...}}, ...]"
+    )
+    wheres = (f"--handles {path}: handle {number}" for number in itertools.count(1))
+    return list(map(_handle, content, wheres))
 
 
 def _handle(entry: Any, where: str) -> GivenHandle:
-    if not isinstance(entry, dict):
-        raise InputError(f'{where}: must be an object such as {{"group": "ear"}}')
+    _check(isinstance(entry, dict), f'{where}: must be an object such as {{"group": "ear"}}')
+    known = ", ".join(_READERS)
     for key in entry:
-        if key not in _READERS:
-            raise InputError(f"{where}: unknown key {key!r}; known are {', '.join(_READERS)}")
-    if sum(kind in entry for kind in KINDS) != 1:
-        raise InputError(f"{where}: give one of {', '.join(KINDS)}")
-    if "threshold" in entry and "group" not in entry:
-        raise InputError(f"{where}: a threshold goes with a group only")
+        _check(key in _READERS, f"{where}: unknown key {key!r}; known are {known}")
+    is_one = sum(kind in entry for kind in KINDS) == 1
+    _check(is_one, f"{where}: give one of {', '.join(KINDS)}")
+    has_group = "group" in entry or "threshold" not in entry
+    _check(has_group, f"{where}: a threshold goes with a group only")
     values = {key: _READERS[key](value, f"{where}: {key}") for key, value in entry.items()}
     return GivenHandle(where=where, **values)
 
 
+def _check(is_right: object, message: str) -> None:
+    if not is_right:
+        raise InputError(message)
+
+
 def _name(value: Any, what: str) -> str:
-    if not isinstance(value, str) or not value:
-        raise InputError(f"{what} must be the name of a vertex group")
+    _check(isinstance(value, str) and value, f"{what} must be the name of a vertex group")
     return value
 
 
 def _indices(value: Any, what: str) -> tuple[int, ...]:
-    is_list = isinstance(value, list) and value
-    if not is_list or any(type(number) is not int or number < 0 for number in value):
-        raise InputError(f"{what} must be a list of whole numbers, the first vertex is 0")
+    is_right = isinstance(value, list) and value and all(type(n) is int and n >= 0 for n in value)
+    _check(is_right, f"{what} must be a list of whole numbers, the first vertex is 0")
     return tuple(value)
 
 
 def _number(value: Any, what: str) -> float:
-    if type(value) not in (int, float) or not math.isfinite(value):
-        raise InputError(f"{what} must be a finite number, not {_shown(value)}")
+    is_right = type(value) in (int, float) and math.isfinite(value)
+    _check(is_right, f"{what} must be a finite number, not {_shown(value)}")
     return float(value)
 
 
 def _point(value: Any, what: str) -> Point:
-    if not isinstance(value, list) or len(value) != 3:
-        raise InputError(f"{what} must be three numbers, not {_shown(value)}")
+    is_right = isinstance(value, list) and len(value) == 3
+    _check(is_right, f"{what} must be three numbers, not {_shown(value)}")
     x, y, z = (_number(number, what) for number in value)
     return x, y, z
 
 
 def _flag(value: Any, what: str) -> bool:
-    if not isinstance(value, bool):
-        raise InputError(f"{what} must be true or false, not {_shown(value)}")
+    _check(isinstance(value, bool), f"{what} must be true or false, not {_shown(value)}")
     return value
 
 
 def _scale(value: Any, what: str) -> Point:
     scale = _point(value if isinstance(value, list) else [_number(value, what)] * 3, what)
-    if not all(scale):
-        raise InputError(f"{what} must not be zero")
+    _check(all(scale), f"{what} must not be zero")
     return scale
 
 
 def _box(value: Any, what: str) -> tuple[Point, Point]:
-    if not isinstance(value, list) or len(value) != 2:
-        raise InputError(f"{what} must be two corners, [[x, y, z], [x, y, z]]")
+    is_right = isinstance(value, list) and len(value) == 2
+    _check(is_right, f"{what} must be two corners, [[x, y, z], [x, y, z]]")
     low, high = (_point(corner, what) for corner in value)
-    if any(a > b for a, b in zip(low, high, strict=True)):
-        raise InputError(f"{what} must have its lowest corner first")
+    is_right = all(a <= b for a, b in zip(low, high, strict=True))
+    _check(is_right, f"{what} must have its lowest corner first")
     return low, high
 
 
 def _threshold(value: Any, what: str) -> float:
     number = _number(value, what)
-    if not 0.0 <= number <= 1.0:
-        raise InputError(f"{what} must lie between 0 and 1, not {number:g}")
+    _check(0.0 <= number <= 1.0, f"{what} must lie between 0 and 1, not {number:g}")
     return number
 
 
@@ -139,13 +138,6 @@ def _shown(value: Any) -> str:
 
 
 _READERS: dict[str, Callable[[Any, str], Any]] = {
-    "group": _name,
-    "vertices": _indices,
-    "box": _box,
-    "threshold": _threshold,
-    "translate": _point,
-    "rotate": _point,
-    "scale": _scale,
-    "pivot": _point,
-    "cubic": _flag,
+    **{"group": _name, "vertices": _indices, "box": _box, "threshold": _threshold},
+    **{"translate": _point, "rotate": _point, "scale": _scale, "pivot": _point, "cubic": _flag},
 }

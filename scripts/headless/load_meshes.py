@@ -1,26 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
-import functools
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import bpy
 
 from .blender_operator import operator, reason
 from .errors import InputError
+from .extension import Extension
 from .finite_check import refuse_infinite
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .quiet import captured
+from .seen_objects import show_as_meshes
 from .weld import weld
 
 __all__ = ("Loaded", "empty_blender", "load")
 
 LEVELS_OF_MONKEY = 2
 IMPORTERS = {
+    ".obj": "wm.obj_import",
+    ".blend": "wm.open_mainfile",
     ".ply": "wm.ply_import",
     ".stl": "wm.stl_import",
     ".abc": "wm.alembic_import",
@@ -52,7 +53,7 @@ def load(
     path: Path | None,
     name: str | None,
     verbose: bool,
-    take: Callable[[], list[bpy.types.Object]] | None = None,
+    seen_by: Extension | None = None,
 ) -> Loaded:
     """Load the mesh objects of a file, or the subdivided monkey.
 
@@ -61,7 +62,7 @@ def load(
     path : the file, or None for the monkey
     name : only the object of this name
     verbose : show what Blender prints
-    take : what returns the mesh objects of the scene in place of those in the file
+    seen_by : take what is seen, as this extension makes it, in place of the meshes of the file
 
     Returns
     -------
@@ -79,9 +80,9 @@ def load(
     with captured(verbose):
         _import(path, layout)
         bpy.context.view_layer.update()
+    if seen_by is not None:
+        show_as_meshes(seen_by)
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
-    if take is not None:
-        found = take()
     if layout is not None:
         match_objects(layout, found)
     if path.suffix.lower() in (".glb", ".gltf"):
@@ -102,31 +103,24 @@ def _monkey() -> bpy.types.Object:
 
 def _import(path: Path, layout: ObjLayout | None) -> None:
     """Run Blender's importer for the file."""
-    if path.suffix.lower() in (".ply", ".stl"):
+    suffix = path.suffix.lower()
+    if suffix in (".ply", ".stl"):
         refuse_infinite(path)
-    if path.suffix.lower() == ".abc":
+    if suffix == ".abc":
         _refuse_broken_alembic(path)
-    importer = _importer(path, layout)
+    name, how = IMPORTERS[suffix], {}
+    if layout is not None:
+        how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
+    elif suffix == ".blend":
+        how = {"load_ui": False, "use_scripts": False}
+    elif suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
+        name = "import_scene.fbx"
     try:
-        result = importer(filepath=str(path.resolve()))
+        result = operator(name, path)(filepath=str(path.resolve()), **how)
     except RuntimeError as error:
         raise InputError(f"{path}: cannot be read ({reason(error)}); export it again") from error
     if "FINISHED" not in result:
         raise InputError(f"{path}: cannot be read (not a {path.suffix} file); export it again")
-
-
-def _importer(path: Path, layout: ObjLayout | None) -> Callable[..., Any]:
-    suffix = path.suffix.lower()
-    if suffix == ".obj":
-        is_split = layout is None or layout.is_split
-        importer = operator("wm.obj_import", path)
-        return functools.partial(importer, use_split_objects=is_split, import_vertex_groups=True)
-    if suffix == ".blend":
-        importer = operator("wm.open_mainfile", path)
-        return functools.partial(importer, load_ui=False, use_scripts=False)
-    if suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
-        return operator("import_scene.fbx", path)
-    return operator(IMPORTERS[suffix], path)
 
 
 def _refuse_broken_alembic(path: Path) -> None:

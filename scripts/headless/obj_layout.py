@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 
 from .errors import InputError
+from .mesh_arrays import positions_of
 
 __all__ = ("ObjLayout", "match_objects", "read_layout")
 
@@ -27,16 +28,15 @@ class ObjLayout:
 
     positions: np.ndarray
     """(n,3) float32, in the order of the file"""
-    used: list[np.ndarray]
-    """per object of the file the indices that its faces and lines use, ascending"""
-    loose: list[np.ndarray]
-    """per object the indices that lie in its part of the file and that nothing uses"""
+    parts: list[tuple[np.ndarray, np.ndarray]]
+    """per object of the file the indices, ascending, that its faces and lines use, and these with
+    those that lie in its part of the file and that nothing uses"""
     is_split: bool
     """whether Blender may split the file into objects: none shares a vertex with another"""
+    library: Path | None
+    """the material library, if the file has one"""
     rows: dict[str, np.ndarray] = field(default_factory=dict)
     """for each Blender object, by name, the index in the file of each of its vertices"""
-    library: Path | None = None
-    """the material library, if the file has one"""
 
 
 def read_layout(path: Path) -> ObjLayout:
@@ -49,26 +49,32 @@ def read_layout(path: Path) -> ObjLayout:
         order mark.
     """
     coordinates: list[list[str]] = []
-    sections: list[tuple[set[int], list[int]]] = [(set(), [])]  # used vertices, own vertices
+    sections: list[tuple[int, set[int]]] = [(0, set())]  # first vertex, used vertices
     library = None
     for line in _logical_lines(path):
-        words = line.split()
-        if not words:
-            continue
-        keyword = words[0]
+        keyword, *words = line.split() or [""]
         if keyword == "v":
-            sections[-1][1].append(len(coordinates))
-            coordinates.append(words[1:4])
+            coordinates.append(words[:3])
         elif keyword in ("f", "l"):
-            sections[-1][0].update(_indices(words[1:], len(coordinates)))
+            sections[-1][1].update(_indices(words, len(coordinates)))
         elif keyword == "o":
-            sections.append((set(), []))
+            sections.append((len(coordinates), set()))
         elif keyword == "mtllib":
             library = path.parent / line.partition("mtllib")[2].strip()
     positions = _positions(coordinates, path)
-    layout = _assemble(positions, sections)
-    layout.library = library
-    return layout
+    sections = [section for section in sections if section[1]]
+    everything = set().union(*(used for _, used in sections))
+    is_split = len(everything) == sum(len(used) for _, used in sections)
+    if not is_split:
+        sections = [(0, everything)]
+    loose = np.array(sorted(set(range(len(positions))) - everything), np.int64)
+    # Those that nothing uses go to the object that they lie in, or to the one before.
+    part_of_loose = np.searchsorted([first for first, _ in sections[1:]], loose, side="right")
+    parts = []
+    for number, (_, used) in enumerate(sections):
+        indices = np.array(sorted(used), np.int64)
+        parts.append((indices, np.union1d(indices, loose[part_of_loose == number])))
+    return ObjLayout(positions, parts, is_split, library)
 
 
 def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
@@ -77,11 +83,10 @@ def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
     An object that is not what the file says (invalid faces, curves) gets no row.
     """
     unmatched = list(objects)
-    for used, loose in zip(layout.used, layout.loose, strict=True):
+    for used, rows in layout.parts:
         for obj in unmatched:
             if _has_positions(obj.data, layout.positions[used]):
-                rows = np.union1d(used, loose)
-                if len(loose):
+                if len(rows) > len(used):
                     _add_loose(obj.data, used, rows, layout.positions)
                 layout.rows[obj.name] = rows
                 unmatched.remove(obj)
@@ -129,31 +134,11 @@ def _positions(coordinates: list[list[str]], path: Path) -> np.ndarray:
     return positions
 
 
-def _assemble(positions: np.ndarray, sections: list[tuple[set[int], list[int]]]) -> ObjLayout:
-    used = [np.array(sorted(section[0]), np.int64) for section in sections if section[0]]
-    everything = np.concatenate(used) if used else np.empty(0, np.int64)
-    is_loose = np.ones(len(positions), dtype=bool)
-    is_loose[everything] = False
-    loose: list[list[int]] = []
-    waiting: list[int] = []  # from parts without faces before the first object
-    for is_used, own in sections:
-        if is_used:
-            loose.append(waiting)
-            waiting = []
-        (loose[-1] if loose else waiting).extend(index for index in own if is_loose[index])
-    arrays = [np.array(indices, np.int64) for indices in loose]
-    if len(np.unique(everything)) == len(everything):
-        return ObjLayout(positions, used, arrays, is_split=True)
-    return ObjLayout(positions, [np.unique(everything)], [np.concatenate(arrays)], is_split=False)
-
-
 def _has_positions(mesh: bpy.types.Mesh, wanted: np.ndarray) -> bool:
-    if len(mesh.vertices) != len(wanted):
-        return False
-    found = np.empty(wanted.size, np.float32)
-    mesh.attributes["position"].data.foreach_get("vector", found)
     # Reading decimals by way of float64 may round the last bit otherwise than Blender does.
-    return np.allclose(found, wanted.ravel(), rtol=1e-6, atol=0.0, equal_nan=True)
+    return len(mesh.vertices) == len(wanted) and np.allclose(
+        positions_of(mesh), wanted, rtol=1e-6, atol=0.0, equal_nan=True
+    )
 
 
 def _add_loose(

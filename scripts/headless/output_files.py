@@ -2,6 +2,7 @@
 """Output files: checked before any work is done, and never left half-written."""
 
 import contextlib
+import json
 import os
 import platform
 import re
@@ -10,6 +11,7 @@ import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from .errors import InputError
 
@@ -20,6 +22,7 @@ __all__ = (
     "remove_left_behind",
     "remove_temporaries",
     "replacing",
+    "write_json",
     "written",
 )
 
@@ -100,6 +103,12 @@ def replacing(path: Path) -> Iterator[Path]:
             _begins.remove(begin)
 
 
+def write_json(path: Path, content: Any) -> None:
+    """Write a file of JSON."""
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+
+
 def remove_temporaries() -> None:
     """Remove what is being written, because the process ends now.
 
@@ -108,6 +117,14 @@ def remove_temporaries() -> None:
     _removing.acquire()
     for begin in _begins:
         _remove(begin)
+
+
+def remove_left_behind(path: Path) -> None:
+    """Remove temporary files for a path whose process is no longer there."""
+    for other, number in _temporaries(path.with_name(_prefix(path))):
+        if number.isdecimal() and _has_ended(int(number)):
+            with contextlib.suppress(OSError):
+                other.unlink(missing_ok=True)
 
 
 def _prefix(path: Path) -> str:
@@ -119,49 +136,30 @@ def _prefix(path: Path) -> str:
 def _remove(begin: Path) -> None:
     """Remove a temporary file, and what writers make beside it on the way, by how they begin.
 
-    Blender writes ``name.blend@`` first, USD ``name.XXXXXX`` with six random characters.
+    Blender writes ``name.blend@`` first, USD ``name.XXXXXX`` with six random characters. Such may
+    be made while others are removed.
     """
-    while found := [path for path in _listed(begin.parent) if _process(path, begin) == ""]:
-        for path in found:
-            try:
+    with contextlib.suppress(OSError):
+        while found := [path for path, rest in _temporaries(begin) if not rest]:
+            for path in found:
                 path.unlink(missing_ok=True)
-            except OSError:
-                return
 
 
-def remove_left_behind(path: Path) -> None:
-    """Remove temporary files for a path whose process is no longer there."""
-    begin = path.with_name(_prefix(path))
-    for other in _listed(path.parent):
-        process = _process(other, begin)
-        if process and process.isdecimal() and _has_ended(int(process)):
-            with contextlib.suppress(OSError):
-                other.unlink(missing_ok=True)
-
-
-def _process(path: Path, begin: Path) -> str | None:
-    """Return what stands between a begin of a file name and the next dot or @; None without it."""
-    if not path.name.startswith(begin.name):
-        return None
-    return re.split("[.@]", path.name.removeprefix(begin.name), maxsplit=1)[0]
-
-
-def _listed(folder: Path) -> list[Path]:
-    """Return what lies in a folder, nothing where it cannot be read."""
-    try:
-        return list(folder.iterdir())
-    except OSError:
-        return []
+def _temporaries(begin: Path) -> Iterator[tuple[Path, str]]:
+    """Give files whose names begin so, and what comes then up to the next dot or @."""
+    with contextlib.suppress(OSError):
+        for path in begin.parent.iterdir():
+            if path.name.startswith(begin.name):
+                yield path, re.split("[.@]", path.name.removeprefix(begin.name), maxsplit=1)[0]
 
 
 def _has_ended(process: int) -> bool:
     """Return whether a process of this machine is certainly gone."""
-    if sys.platform == "win32":
-        return False  # asking would end it there
     try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return True
-    except (OSError, OverflowError):
-        return False
+        if sys.platform != "win32":  # where asking would end it
+            os.kill(process, 0)
+    except OSError as error:
+        return isinstance(error, ProcessLookupError)
+    except OverflowError:
+        pass
     return False

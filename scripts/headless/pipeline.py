@@ -7,7 +7,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from .cubify_all import Sculpture, cubify_all
+from .cubify_all import cubify_all
 from .errors import InputError
 from .extension import Extension, registered
 from .gallery import build_gallery
@@ -17,7 +17,6 @@ from .progress import ProgressBar
 from .render import render
 from .report import write_report
 from .save_meshes import check_exporter, save_meshes
-from .seen_objects import seen_objects
 from .studio import furnish
 
 __all__ = ("run",)
@@ -48,8 +47,8 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
-        take = seen_objects(extension) if options.with_modifiers else None
-        loaded = load(options.input, options.object, options.verbose, take)
+        seen_by = extension if options.with_modifiers else None
+        loaded = load(options.input, options.object, options.verbose, seen_by)
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:
@@ -63,20 +62,14 @@ def _run(options: Namespace, extension: Extension, begin: float) -> None:
             bar.say(f"wrote {', '.join(map(str, paths))}")
     with _timed("render", seconds):
         if options.output:
-            _picture(sculptures, options, extension, bar)
+            gallery = build_gallery(sculptures, options, extension)
+            furnish(gallery, options.resolution[0] / options.resolution[1])
+            for path in render(gallery, numbered(options.output, options.turntable), options):
+                bar.say(f"wrote {path}")
     seconds["total"] = time.perf_counter() - begin
     if options.report:
         write_report(options.report, sculptures, options, extension, seconds)
         bar.say(f"wrote {options.report}")
-
-
-def _picture(
-    sculptures: list[Sculpture], options: Namespace, extension: Extension, bar: ProgressBar
-) -> None:
-    gallery = build_gallery(sculptures, options, extension)
-    furnish(gallery, options.resolution[0] / options.resolution[1])
-    for path in render(gallery, numbered(options.output, options.turntable), options):
-        bar.say(f"wrote {path}")
 
 
 @contextlib.contextmanager

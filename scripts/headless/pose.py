@@ -14,8 +14,15 @@ from .extension import Extension
 from .formats import RENUMBER_VERTICES
 from .handles_file import GivenHandle
 from .load_meshes import Loaded
+from .mesh_arrays import positions_of
 
-__all__ = ("handles_of_all", "start_of")
+__all__ = ("groups_of", "handles_of_all", "start_of")
+
+
+def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
+    """Return the names of all vertex groups, and the same for a message."""
+    there = list(dict.fromkeys(group.name for obj in objects for group in obj.vertex_groups))
+    return there, ", ".join(map(repr, there)) or "no vertex group at all"
 
 
 def start_of(obj: bpy.types.Object) -> str:
@@ -110,29 +117,20 @@ def _matrix(given: GivenHandle, held: np.ndarray) -> tuple[float, ...]:
     turn = Euler([math.radians(angle) for angle in given.rotate])
     place = Matrix.LocRotScale(pivot + Vector(given.translate), turn, given.scale)
     matrix = np.array(place @ Matrix.Translation(-pivot), dtype=np.float64)
-    if np.abs(matrix - np.eye(4)).max() == 0.0:
-        matrix = np.eye(4)
-    return tuple(matrix.ravel().tolist())
+    return tuple((matrix + 0.0).ravel().tolist())  # no -0.0, which would be no identity
 
 
 def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
     if given.vertices is not None:
         return "none of its vertices is part of the mesh"
     if given.box is not None:
-        points = np.concatenate([_positions(obj) for obj in loaded.objects], dtype=np.float64)
+        points = np.concatenate([positions_of(obj.data) for obj in loaded.objects], dtype=float)
         low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))
         return f"no vertex lies in its box; the input extends from {low} to {high}"
-    there = dict.fromkeys(group.name for obj in loaded.objects for group in obj.vertex_groups)
+    there, has = groups_of(loaded.objects)
     if given.group in there:
         return (
             f"no vertex weighs {given.threshold:g} or more in the vertex group {given.group!r};"
             " lower the threshold"
         )
-    has = ", ".join(map(repr, there)) or "no vertex group at all"
     return f"no such vertex group: {given.group}; the input has {has}"
-
-
-def _positions(obj: bpy.types.Object) -> np.ndarray:
-    points = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", points)
-    return points.reshape(-1, 3)

@@ -6,8 +6,9 @@ Everything goes to standard error; standard output stays empty.
 
 import contextlib
 import sys
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from functools import partial
+from importlib.util import find_spec
 
 __all__ = ("ProgressBar", "Task")
 
@@ -15,19 +16,17 @@ __all__ = ("ProgressBar", "Task")
 class Task:
     """One step of the run, as `ProgressBar.task` gives it."""
 
-    def __init__(self, bar: Any = None, number: Any = None, escape: Any = None) -> None:
-        self._bar, self._number, self._escape = bar, number, escape
+    def __init__(self, show: Callable[..., None], escape: Callable[[str], str] = str) -> None:
+        self._show, self._escape = show, escape
         self.summary = "done"
 
     def advance_to(self, fraction: float) -> None:
         """Show how much is done, from 0 to 1."""
-        if self._bar is not None:
-            self._bar.update(self._number, completed=fraction)
+        self._show(completed=fraction)
 
     def describe(self, title: str) -> None:
         """Show another title from now on."""
-        if self._bar is not None:
-            self._bar.update(self._number, description=self._escape(title))
+        self._show(description=self._escape(title))
 
     def finish(self, summary: str) -> None:
         """Set what the line says that remains of the step."""
@@ -37,41 +36,32 @@ class Task:
 class ProgressBar:
     """Shows steps; with rich (which comes with Taichi) and a terminal as moving bars.
 
-    A silent one says only what must be read.
+    A silent one says only what must be read. What remains is estimated from some seconds of the
+    past.
     """
 
     def __init__(self, is_silent: bool = False, memory: float = 30.0) -> None:
-        """Prepare.
-
-        Parameters
-        ----------
-        memory : seconds of the past from which the time that remains is estimated
-        """
         self._is_silent = is_silent
         self._memory = memory
-        self._rich = None
-        if sys.stderr.isatty():
-            with contextlib.suppress(ImportError):
-                import rich.console
-                import rich.markup
-                import rich.progress
-
-                self._rich = rich
 
     @contextlib.contextmanager
     def task(self, title: str) -> Iterator[Task]:
         """Show one step while the block runs; one line of it remains."""
-        if self._rich is None:
-            task = Task()
-            yield task
-        else:
-            console = self._rich.console.Console(stderr=True)
-            escape = self._rich.markup.escape  # names may hold [brackets]
-            with self._rich.progress.Progress(
+        if sys.stderr.isatty() and find_spec("rich"):
+            from rich.console import Console
+            from rich.markup import escape  # names may hold [brackets]
+            from rich.progress import Progress
+
+            console = Console(stderr=True)
+            with Progress(
                 console=console, transient=True, speed_estimate_period=self._memory
             ) as bar:
-                task = Task(bar, bar.add_task(escape(title), total=1.0), escape)
+                task = Task(partial(bar.update, bar.add_task("", total=1.0)), escape)
+                task.describe(title)
                 yield task
+        else:
+            task = Task(lambda **_: None)
+            yield task
         self.say(f"{title}: {task.summary}")
 
     def say(self, line: str) -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The report: versions, and the numbers of every run."""
 
+import contextlib
 import importlib.metadata
-import json
 import platform
 from argparse import Namespace
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 
 from .cubify_all import Sculpture
 from .extension import Extension
-from .output_files import replacing, written
+from .output_files import write_json, written
 
 __all__ = ("write_report",)
 
@@ -49,8 +49,7 @@ def write_report(
         outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
         sizes = {path.name: path.stat().st_size for path in outputs}
         report["made"] = {"for": options.worker, "sizes": sizes}
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    write_json(path, report)
 
 
 def _versions(extension: Extension) -> dict[str, str | None]:
@@ -61,10 +60,9 @@ def _versions(extension: Extension) -> dict[str, str | None]:
         "numpy": np.__version__,
     }
     for package in OPTIONAL_PACKAGES:
-        try:
+        versions[package] = None
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             versions[package] = importlib.metadata.version(package)
-        except importlib.metadata.PackageNotFoundError:
-            versions[package] = None
     return versions
 
 
@@ -90,11 +88,7 @@ def _run(cubeness: float, solution: Any, prepared: Any) -> dict[str, Any]:
         "cubeness": cubeness,
         "iterations": result.iterations,
         "converged": result.converged,
-        "energy": {
-            "total": result.energy.total,
-            "arap": result.energy.arap,
-            "cubic": result.energy.cubic,
-        },
+        "energy": {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")},
         "seconds": {
             "setup": prepared.seconds,
             "solve": solution.seconds,

@@ -14,10 +14,11 @@ from mathutils import Matrix
 
 from .blender_operator import operator, reason
 from .cubify_all import Sculpture
-from .detached import detached_copy, remove_copy
+from .detached import detached_copy
 from .errors import InputError
 from .extension import Extension
 from .load_meshes import Loaded
+from .mesh_arrays import positions_of
 from .obj_layout import ObjLayout
 from .output_files import replacing
 from .quiet import captured
@@ -68,11 +69,17 @@ def _save_blend(
 ) -> None:
     for sculpture in sculptures:
         extension.pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
+    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
+
+
+def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
+    """Have an operator of Blender write a file."""
     with captured(verbose), replacing(path) as temporary:
         try:
-            bpy.ops.wm.save_as_mainfile(filepath=str(temporary.resolve()), copy=True)
+            writer(filepath=str(temporary.resolve()))
         except RuntimeError as error:
-            raise _cannot_write(path, error) from error
+            message = f"{path}: cannot be written ({reason(error)})"
+            raise InputError(f"{message}; choose another path or format") from error
 
 
 @contextlib.contextmanager
@@ -98,25 +105,22 @@ def _copies(
         yield copies
     finally:
         for copy in copies:
-            remove_copy(copy)
+            bpy.data.meshes.remove(copy.data)  # takes the object along
         for original, name in reversed(renamed):
             original.name = name
 
 
 def _save_obj(path: Path, copies: list[bpy.types.Object], loaded: Loaded) -> None:
-    layout = loaded.obj_layout
-    parts = []
-    offset = 0
+    layout, library = loaded.obj_layout, ""
+    is_as_in_file = layout is not None and loaded.is_whole
+    parts, count = [], 0
     for copy in copies:
-        rows = offset + np.arange(len(copy.data.vertices))
-        offset += len(rows)
-        if layout is not None and loaded.is_whole:
+        rows = np.arange(count, count + len(copy.data.vertices))
+        count += len(rows)
+        if is_as_in_file:
             rows = _rows_in_file(path, layout, copy.name)
         parts.append(ObjPart(copy.name, copy.data, _placed_positions(copy), rows))
-    positions = np.zeros((offset, 3), np.float32)
-    library = ""
-    if layout is not None and loaded.is_whole:
-        positions = layout.positions
+    positions = layout.positions if is_as_in_file else np.zeros((count, 3), np.float32)
     if layout is not None and layout.library is not None and layout.library.is_file():
         library = _relative(layout.library, path.parent)
     with replacing(path) as temporary:
@@ -140,8 +144,7 @@ def _relative(target: Path, folder: Path) -> str:
 
 def _placed_positions(copy: bpy.types.Object) -> np.ndarray:
     """Return (n,3) positions in the space of an .obj; if one was read, bit for bit as in it."""
-    positions = np.empty((len(copy.data.vertices), 3), np.float32)
-    copy.data.attributes["position"].data.foreach_get("vector", positions.ravel())
+    positions = positions_of(copy.data)
     to_file = np.array(TO_Y_UP @ copy.matrix_world)
     if np.allclose(to_file, np.eye(4), rtol=0.0, atol=1e-6):
         return positions
@@ -152,11 +155,7 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
     """Run Blender's exporter for the copies, and for them only."""
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in copies)
-    with captured(verbose), replacing(path) as temporary:
-        try:
-            _exporter(path)(filepath=str(temporary.resolve()))
-        except RuntimeError as error:
-            raise _cannot_write(path, error) from error
+    _write(path, _exporter(path), verbose)
 
 
 def _exporter(path: Path) -> Callable[..., Any]:
@@ -178,8 +177,3 @@ def _exporter(path: Path) -> Callable[..., Any]:
     known = usd_export.get_rna_type().properties
     options = {name: value for name, value in wanted.items() if name in known}
     return partial(usd_export, selected_objects_only=True, **options)
-
-
-def _cannot_write(path: Path, error: RuntimeError) -> InputError:
-    message = f"{path}: cannot be written ({reason(error)})"
-    return InputError(f"{message}; choose another path or format")

@@ -10,24 +10,23 @@ import bmesh
 import bpy
 import numpy as np
 
+from .mesh_arrays import distinct_rows, positions_of, read
+
 __all__ = ("weld",)
 
 
 def weld(mesh: bpy.types.Mesh) -> None:
     """Join vertices with bit-identical coordinates; UVs and normals of the faces stay."""
-    positions = np.empty((len(mesh.vertices), 3), np.float32)
-    mesh.attributes["position"].data.foreach_get("vector", positions.ravel())
-    keys = (positions + np.float32(0.0)).view("V12").ravel()  # no -0.0, which has other bits
-    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
+    positions = positions_of(mesh) + np.float32(0.0)  # no -0.0, which has other bits
+    first, place = distinct_rows(positions)
     if len(first) == len(positions):
         return
-    normals = np.empty((len(mesh.loops), 3), np.float32)
-    mesh.corner_normals.foreach_get("vector", normals.ravel())
+    normals = read(mesh.corner_normals, "vector", width=3)
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)
         edited.verts.ensure_lookup_table()
-        targets = first[place.ravel()].tolist()
+        targets = first[place].tolist()
         bmesh.ops.weld_verts(
             edited,
             targetmap={

@@ -83,20 +83,6 @@ def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
     assert files_in(tmp_path / "out") == [f"{name}{end}" for name in ("one", "two") for end in ends]
 
 
-def test_files_of_the_same_name_do_not_overwrite_each_other(tmp_path):
-    (tmp_path / "meshes" / "sub").mkdir(parents=True)
-    inputs = {
-        "a.obj": CUBE.encode(),
-        "a.ply": corpus()["doubled_corners.ply"],
-        "sub/a.obj": CUBE.encode(),
-    }
-    for name, content in inputs.items():
-        (tmp_path / "meshes" / name).write_bytes(content)
-    process = batch("meshes", "--recursive", cwd=tmp_path)
-    assert process.returncode == 0, process.stderr
-    assert files_in(tmp_path / "out") == ["a_obj.obj", "a_ply.obj", "sub/a.obj"]
-
-
 def test_what_is_left_out_of_a_file_is_said(tmp_path):
     for name in ("one.obj", "two.obj"):
         (tmp_path / name).write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Batches on a Dask cluster: a scheduler and workers that were started by themselves, elsewhere."""
 
-import json
 import signal
-import subprocess
 import sys
 import time
 
@@ -12,6 +10,7 @@ from batch_kit import (
     CUBE,
     ENDLESS,
     batch,
+    cluster_of,
     files_in,
     files_of,
     start,
@@ -24,34 +23,11 @@ from headless import PATIENCE
 NAMES = ["a.obj", "b.obj", "c.obj"]
 
 
-def dask(command, *arguments, folder):
-    """Start a program of Dask in a folder of its own."""
-    (folder / command).mkdir()
-    return subprocess.Popen(
-        [sys.executable, "-m", f"distributed.cli.dask_{command}", "--no-dashboard", *arguments],
-        cwd=folder / command,
-        stderr=subprocess.DEVNULL,
-    )
-
-
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
-    """Return the address of a cluster, and the process of its worker."""
-    folder = tmp_path_factory.mktemp("cluster")
-    place = folder / "place.json"
-    where = ("--host", "127.0.0.1", "--port", "0", f"--scheduler-file={place}")
-    scheduler = dask("scheduler", *where, folder=folder)
-    end = time.monotonic() + PATIENCE
-    while not place.exists():
-        assert scheduler.poll() is None and time.monotonic() < end
-        time.sleep(0.1)
-    time.sleep(0.5)  # until it is whole
-    address = json.loads(place.read_text())["address"]
-    worker = dask("worker", address, "--nworkers", "2", "--nthreads", "1", folder=folder)
-    yield address, worker
-    for program in (worker, scheduler):
-        program.terminate()
-        program.wait(PATIENCE)
+    """Return the address of a cluster, and the process of its workers."""
+    with cluster_of(2, tmp_path_factory.mktemp("cluster")) as found:
+        yield found
 
 
 @pytest.fixture

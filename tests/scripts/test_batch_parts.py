@@ -1,22 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of batches, without Blender."""
 
+import io
 from pathlib import Path
 
 import pytest
 from batch_kit import CUBE
 
-from scripts.headless.arguments import as_arguments, parse
-from scripts.headless.batch.plan import FORWARDED, Job, decisive, plan
+from scripts.headless.arguments import parse
+from scripts.headless.batch.plan import OF_THE_BATCH, Job, decisive, plan, settings_of
 from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.task import Batch, do, key_of
-from scripts.headless.errors import InputError
 
-NOT_FORWARDED = {
-    *("inputs", "input", "handles", "output", "save_mesh", "report", "error_file"),
-    *("output_folder", "recursive", "jobs", "scheduler", "force", "threads", "worker"),
-    "paper",  # what it stands for is forwarded
-}
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --space object --solidity 0 --together parts --refine off --rotation free
     --symmetry zx --floor --hold-rest off --with-modifiers
@@ -39,57 +34,45 @@ def batch_options(*words):
     return parse(["a.obj", "--output-folder", "out", *words])
 
 
-def test_every_option_reaches_the_workers_as_it_was_given(folder):
-    options = batch_options(*ALL_OPTIONS.split())
-    assert set(vars(options)) == {*FORWARDED, *NOT_FORWARDED}
-    defaults = batch_options()
-    for name in set(FORWARDED) - {"no_render"}:
+def in_a_worker(options, monkeypatch):
+    """Return the options that a worker has for the first file of a batch."""
+    (job, *_) = plan(options, find_sources(options.inputs, False, options.output_folder))
+    job.record.parent.mkdir(parents=True, exist_ok=True)
+    monkeypatch.setattr("sys.stdin", io.StringIO(settings_of(options) + "\n"))
+    return parse([*job.arguments, "--worker=key:batch"])
+
+
+def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
+    options, defaults = batch_options(*ALL_OPTIONS.split()), batch_options()
+    there = in_a_worker(options, monkeypatch)
+    for name in set(vars(options)) - OF_THE_BATCH - {"no_render"}:
         assert getattr(options, name) != getattr(defaults, name), f"{name} is not tried here"
-    (job,) = plan(options, find_sources(options.inputs, False, options.output_folder))
-    (folder / "out" / ".cubic_craft").mkdir(parents=True)
-    there = parse(job.arguments)
-    for name in FORWARDED:
         assert getattr(there, name) == getattr(options, name)
+    assert there.handles[0].vertices == options.handles[0].vertices == (0,)
     assert there.input == folder / "a.obj"
     assert there.output == folder / "out" / "a.png"
-    assert as_arguments(batch_options("--no-render", "--report", "r.json"), ["no_render"]) == [
-        "--no-render"
-    ]
+    without = in_a_worker(batch_options("--no-render", "--report", "r.json"), monkeypatch)
+    assert without.no_render and without.output is None
 
 
-def test_the_paper_is_its_options_in_full(folder):
+IN_FULL = "--solidity 0 --together off --refine off --rotation free --hold-rest off"
+BY_DEFAULT = "--solidity 0.1 --together selection --refine auto --rotation keep --hold-rest on"
+
+
+def test_the_paper_is_its_options_in_full(folder, monkeypatch):
     def key(*words):
         return key_of(folder / "a.obj", decisive(batch_options(*words), "1"))
 
-    in_full = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
-    in_full += ["--hold-rest", "off"]
-    assert key("--paper") == key(*in_full) != key()
-    (job,) = plan(batch_options("--paper"), find_sources([Path("a.obj")], False, Path("out")))
-    assert {"--solidity=0.0", "--together=off", "--refine=off", "--rotation=free"} <= {
-        *job.arguments
-    }
+    in_full = IN_FULL.split()
+    assert settings_of(batch_options("--paper")) == settings_of(batch_options(*in_full))
+    assert key("--paper") == key(*in_full) != key() == key(*BY_DEFAULT.split())
+    there = in_a_worker(batch_options("--paper"), monkeypatch)
+    assert (there.solidity, there.together, there.refine) == (0.0, "off", "off")
+    assert (there.rotation, there.hold_rest) == ("free", "off")
     beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
     assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
-    by_default = [
-        "--solidity",
-        "0.1",
-        "--together",
-        "selection",
-        "--refine",
-        "auto",
-        "--rotation",
-        "keep",
-        "--hold-rest",
-        "on",
-    ]
-    assert key() == key(*by_default)
     keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 10, 2)}
     assert len(keys | {key("--paper")}) == 6, "each of them decides about the result"
-
-
-def test_auto_is_no_rotation_any_more(folder):
-    with pytest.raises(InputError, match="--rotation"):
-        batch_options("--rotation", "auto")
 
 
 def names(*inputs, is_recursive=False):
@@ -114,6 +97,8 @@ def test_names_of_results(folder):
         "sub/a.obj": "sub/a",
     }
     assert names("sub/a.obj") == {"sub/a.obj": "a"}
+    (folder / "sub" / "a.ply").write_text(CUBE)
+    assert names("sub") == {"sub/a.obj": "a_obj", "sub/a.ply": "a_ply"}
 
 
 def test_names_that_differ_in_case_only_are_kept_apart(folder):
@@ -149,7 +134,7 @@ def test_the_key_changes_with_all_that_decides_about_the_result(folder):
 def batch_of(folder, code):
     """Return a job, and a batch that does it by this code in a Python instead of the script."""
     job = Job(folder / "a.obj", "a.obj", (folder / "a.png",), folder / "record.json", ())
-    return job, Batch("first", ["", "-c", code], 3, "options", False)
+    return job, Batch("first", ["", "-c", code], 3, "{}", "options", False)
 
 
 WRITES = """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many files, of which some are broken and one crashes, on workers of which some are killed.
+"""Many files, of which some are broken and one crashes, on a cluster whose workers are killed.
 
 ``CUBIC_CRAFT_BATCH=200`` takes so many files, with four workers, ten broken files and two kills.
 """
@@ -14,7 +14,7 @@ import time
 import numpy as np
 import psutil
 import pytest
-from batch_kit import CUBE, files_in, files_of, is_there, start, statuses
+from batch_kit import CUBE, cluster_of, files_in, files_of, is_there, start, statuses
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
@@ -36,15 +36,15 @@ def folder(tmp_path):
     return tmp_path
 
 
-def workers_of(process):
-    """Return the workers of a batch."""
-    children = psutil.Process(process.pid).children()
+def workers_of(cluster):
+    """Return the workers."""
+    children = psutil.Process(cluster.pid).children()
     return [each for each in children if "spawn_main" in " ".join(each.cmdline())]
 
 
-def crash(process):
+def crash(cluster):
     """Crash what does the file that is to crash, if it is being done."""
-    for number in files_of(process):
+    for number in files_of(cluster):
         try:
             if any(word.endswith(CRASHES) for word in psutil.Process(number).cmdline()):
                 os.kill(number, signal.SIGSEGV)
@@ -52,7 +52,7 @@ def crash(process):
             pass
 
 
-def watch(process, out):
+def watch(process, cluster, out):
     """Crash and kill until the batch ends; return what was killed, and when outputs were written.
 
     Returns
@@ -64,11 +64,11 @@ def watch(process, out):
     moments = sorted(random.sample(range(2, COUNT // 2), KILLS))  # in written files
     while process.poll() is None:
         try:
-            files.update(files_of(process))
-            crash(process)
+            files.update(files_of(cluster))
+            crash(cluster)
             if len(killed) < KILLS and len(written) >= moments[len(killed)]:
                 time.sleep(random.random() * 3)
-                worker = random.choice(workers_of(process))
+                worker = random.choice(workers_of(cluster))
                 killed.append([child.pid for child in worker.children()])
                 worker.kill()
         except (psutil.NoSuchProcess, IndexError):
@@ -82,12 +82,14 @@ def watch(process, out):
 
 def test_lost_workers_cost_no_file(folder):
     begin = time.monotonic()
-    process = start("meshes", "--jobs", str(WORKERS), "--report", "report.json", cwd=folder)
-    try:
-        killed, written = watch(process, folder / "out")
-        _, errors = process.communicate()
-    finally:
-        process.kill()
+    with cluster_of(WORKERS, folder) as (address, cluster):
+        arguments = ("--scheduler", address, "--report", "report.json")
+        process = start("meshes", *arguments, cwd=folder)
+        try:
+            killed, written = watch(process, cluster, folder / "out")
+            _, errors = process.communicate()
+        finally:
+            process.kill()
     seconds = time.monotonic() - begin
     assert process.returncode == 3, errors
     assert "Traceback" not in errors

@@ -63,24 +63,3 @@ def test_symmetry_and_floor(source, tmp_path):
     assert (in_order(other) != in_order(other * MIRRORED)).any()
     assert V[:, 2].min() == pytest.approx(-1.0, abs=1e-6)
     assert free["Far"][:, 2].min() != pytest.approx(-1.0, abs=1e-3)
-
-
-def test_the_paper_is_its_options_in_full(source, tmp_path):
-    paper, by_name = run(source, tmp_path, "--paper")
-    words = ["--solidity", "0", "--together", "off", "--refine", "off", "--rotation", "free"]
-    words += ["--hold-rest", "off"]
-    in_full, by_options = run(source, tmp_path, *words)
-    assert paper["settings"] == in_full["settings"]
-    assert paper["settings"] == {
-        "space": "world",
-        "solidity": 0.0,
-        "together": "off",
-        "refine": "off",
-        "rotation": "free",
-        "symmetry": "",
-        "floor": False,
-        "hold_rest": "off",
-        "with_modifiers": False,
-    }
-    for name, shape in by_name.items():
-        np.testing.assert_array_equal(shape, by_options[name])

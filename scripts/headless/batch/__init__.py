@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many files, each in a process of its own, so that a crash in one of them never ends the batch.
 
-`checks` refuses what cannot be begun, `sources` finds the files and names their results, `plan`
-says what is to be written for each and by which command line, `task` does one file, `engine` has
-dask.distributed hand them out, and `run` does it all.
+`sources` finds the files and names their results, `plan` says what is to be written for each,
+`task` does one file, `engine` has dask.distributed hand them out, and `run` does it all.
 """

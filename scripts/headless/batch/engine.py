@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Have the files of a batch done: one after the other here, or by workers of dask.distributed.
+"""Have the files of a batch done: one after the other, or handed out by dask.distributed.
 
-Dask hands the files out, and those of a worker that is lost to another one. A worker starts a
-process for its file: a crash of Blender says something about the file, and ends no worker.
+Here its workers are threads of this process; on a cluster, where workers may be lost, another one
+does the file. Each starts a process for its file: a crash of Blender ends no worker.
 """
 
 import contextlib
 import logging
-import multiprocessing
-import signal
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterator
@@ -19,7 +17,7 @@ from typing import Any
 from ..errors import InputError
 from ..interruption import before_ending
 from .plan import Job
-from .task import FAILED, PATIENCE, Batch, do, end_processes
+from .task import FAILED, Batch, do, end_processes
 
 __all__ = ("results_of", "workers_for")
 
@@ -29,31 +27,40 @@ SECONDS_TO_ANSWER = 10
 
 @contextlib.contextmanager
 def workers_for(options: Namespace, files: int) -> Iterator[Any]:
-    """Give a client of the workers during the block; None where this process does all.
+    """Give a client of the workers during the block; None where one file is done at a time.
 
     Raises
     ------
     InputError
-        A package is not installed, or no cluster is there.
+        Dask is not installed, or no cluster is there.
     """
-    workers = min(options.jobs or 1, files)
-    if not options.scheduler and workers == 1:
-        before_ending(end_processes)
+    before_ending(end_processes)
+    address, count = options.scheduler, min(options.jobs or 1, files)
+    if not address and count == 1:
         yield None
         return
-    # With cryptography no other user of this machine can give orders to the workers on it.
-    names = ["distributed"] if options.scheduler else ["distributed", "cryptography"]
-    if missing := [name for name in names if find_spec(name) is None]:
-        option = "--scheduler" if options.scheduler else f"--jobs {options.jobs}"
+    if find_spec("distributed") is None:
+        option = "--scheduler" if address else f"--jobs {options.jobs}"
         raise InputError(
-            f"{option}: the Python package {' and '.join(missing)} is not installed; install it "
-            f'with "{sys.executable}" -m pip install {" ".join(missing)}'
+            f"{option}: the Python package distributed is not installed; install it "
+            f'with "{sys.executable}" -m pip install distributed'
         )
     import dask.config
 
     # That a worker is lost is no news: another one does its file.
     dask.config.set({"logging.distributed": "critical"})
-    with _cluster(options.scheduler) if options.scheduler else _workers_here(workers) as client:
+    from distributed import Client
+
+    threads = {"processes": False, "n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
+    own = {"dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL, **threads}
+    try:
+        client = Client(address, timeout=SECONDS_TO_ANSWER) if address else Client(**own)
+    except (OSError, ValueError) as error:
+        if not address:
+            raise
+        reason = f"no scheduler answers there ({type(error).__name__}); start one: dask scheduler"
+        raise InputError(f"--scheduler {address}: {reason}") from error
+    with client:
         yield client
 
 
@@ -102,68 +109,11 @@ def _work_of_a_worker() -> Callable[[str, tuple, tuple], dict[str, Any]]:
         from headless.batch.plan import Job
         from headless.batch.task import Batch, do
 
-        worker = get_worker()
-        key = worker.get_current_task()
+        tasks, key = get_worker().state.tasks, get_worker().get_current_task()
 
         def is_wanted() -> bool:
-            task = worker.state.tasks.get(key)
-            return task is not None and task.state != "cancelled"  # as when the batch is gone
+            return key in tasks and tasks[key].state != "cancelled"  # as when the batch is gone
 
         return do(Job(*job), Batch(*batch), is_wanted)
 
     return work
-
-
-@contextlib.contextmanager
-def _cluster(address: str) -> Iterator[Any]:
-    """Give a client of the scheduler at an address."""
-    from distributed import Client
-
-    try:
-        client = Client(address, timeout=SECONDS_TO_ANSWER)
-    except (OSError, ValueError) as error:
-        reason = f"no scheduler answers there ({type(error).__name__}); start one: dask scheduler"
-        raise InputError(f"--scheduler {address}: {reason}") from error
-    with client:
-        yield client
-
-
-@contextlib.contextmanager
-def _workers_here(count: int) -> Iterator[Any]:
-    """Give a client of so many workers on this machine, which end with the block."""
-    from distributed import Client, LocalCluster
-
-    clusters: list[LocalCluster] = []
-    before_ending(lambda: _end_workers(clusters))
-    # Threads and processes inherit this. Ctrl-C is for this process only, which then ends them.
-    is_posix = sys.platform != "win32"
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if is_posix else ()
-    cluster = LocalCluster(
-        n_workers=count,
-        threads_per_worker=1,
-        memory_limit=0,
-        security=True,
-        silence_logs=logging.CRITICAL,  # in the workers
-        dashboard_address="127.0.0.1:0",
-    )
-    if is_posix:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-    with cluster, Client(cluster) as client:
-        clusters.append(cluster)
-        yield client
-
-
-def _end_workers(clusters: list[Any]) -> None:
-    """End all workers here, and wait until the processes of their files have tidied up."""
-    import psutil
-
-    for cluster in clusters:
-        for nanny in cluster.workers.values():
-            nanny.close_gracefully()  # or it would start its worker again
-    files = []
-    for worker in multiprocessing.active_children():
-        with contextlib.suppress(psutil.NoSuchProcess):
-            files += psutil.Process(worker.pid).children()
-        worker.kill()
-    for process in psutil.wait_procs(files, PATIENCE)[1]:
-        process.kill()

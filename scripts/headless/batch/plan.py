@@ -1,27 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is to be written for each file of a batch, and by which command line."""
+"""What is to be written for each file of a batch, and with which options."""
 
 import json
 from argparse import Namespace
 from pathlib import Path
 from typing import NamedTuple
 
-from ..arguments import as_arguments
 from ..errors import InputError
 from ..output_files import written
 from .sources import Source
 
-__all__ = ("FORWARDED", "Job", "decisive", "plan")
+__all__ = ("Job", "decisive", "plan", "settings_of")
 
-FORWARDED = (
-    *("object", "cubeness", "orientation", "space", "pin", "handles_file", "map"),
-    *("solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
-    "with_modifiers",
-    *("max_iterations", "tolerance", "device"),
-    *("engine", "samples", "resolution", "turn", "turntable", "no_render", "verbose"),
-)
-"""the options that are the same for each file"""
-NOT_DECISIVE = {"handles_file", "verbose"}
+OF_THE_BATCH = {
+    *("inputs", "input", "handles", "handles_file", "output", "save_mesh", "report", "error_file"),
+    *("output_folder", "recursive", "jobs", "scheduler", "force", "threads", "worker"),
+    "paper",  # what it stands for is set
+}
+"""the options that are not handed on as they are"""
 
 
 class Job(NamedTuple):
@@ -61,17 +57,23 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
     return jobs
 
 
+def settings_of(options: Namespace) -> str:
+    """Return the options that are the same for each file, in one line of JSON."""
+    same = {name: value for name, value in vars(options).items() if name not in OF_THE_BATCH}
+    return json.dumps(same, sort_keys=True)
+
+
 def decisive(options: Namespace, version: str) -> str:
     """Return all but the content of an input that decides about its results, as a text."""
-    names = [*(name for name in FORWARDED if name not in NOT_DECISIVE), "save_mesh"]
     handles = options.handles_file and options.handles_file.read_text(encoding="utf-8")
-    values = {name: getattr(options, name) for name in names}
-    return json.dumps([version, values, handles], sort_keys=True)
+    settings = settings_of(Namespace(**vars(options) | {"verbose": False}))
+    return json.dumps([version, settings, options.save_mesh, handles])
 
 
 def _job(options: Namespace, source: Source) -> Job:
     folder = options.output_folder.resolve()
-    arguments = [str(source.path), *as_arguments(options, FORWARDED)]
+    record = folder / ".cubic_craft" / f"{source.name}.json"
+    arguments = [str(source.path), f"--report={record}"]
     picture = mesh = None
     if not options.no_render:
         picture = folder / f"{source.name}.png"
@@ -79,7 +81,7 @@ def _job(options: Namespace, source: Source) -> Job:
     if options.save_mesh:
         mesh = folder / f"{source.name}{options.save_mesh}"
         arguments.append(f"--save-mesh={mesh}")
+    if options.handles_file:
+        arguments.append(f"--handles={options.handles_file.absolute()}")
     outputs = written(picture, options.turntable, mesh, options.cubeness)
-    record = folder / ".cubic_craft" / f"{source.name}.json"
-    arguments.append(f"--report={record}")
     return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run a batch, tell how each file went, and write the report and the table at the end."""
 
-import json
 import math
 import os
 import textwrap
@@ -15,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..output_files import check_writable, replacing
+from ..output_files import check_writable, write_json
 from ..progress import ProgressBar
 from .engine import results_of, workers_for
-from .plan import Job, decisive, plan
+from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
 from .table import one_line, summary, table
 from .task import DONE, FAILED, KEPT, Batch
@@ -55,8 +54,8 @@ def run_batch(
     """
     jobs = plan(options, find_sources(options.inputs, options.recursive, options.output_folder))
     threads = options.threads or _share(min(options.jobs or 1, len(jobs)))
-    decides = decisive(options, version)
-    batch = Batch(uuid.uuid4().hex, command(threads), threads, decides, options.force)
+    settings, decides = settings_of(options), decisive(options, version)
+    batch = Batch(uuid.uuid4().hex, command(threads), threads, settings, decides, options.force)
     bar = ProgressBar(memory=math.inf)
     with workers_for(options, len(jobs)) as client:
         _make_folders(options.output_folder, jobs)
@@ -65,17 +64,23 @@ def run_batch(
         files = _do_all(jobs, batch, client, options, bar)
     for line in table(files):
         bar.say(line)
-    failed = _counts(files)[FAILED]
-    code = SOME_FAILED if failed else 0
+    counts = _counts(files)
+    code = SOME_FAILED if counts[FAILED] else 0
     if options.report:
         try:
-            _write_report(options, files, time.perf_counter() - begin)
+            report = {
+                "output_folder": str(options.output_folder.resolve()),
+                "counts": counts,
+                "files": list(files.values()),
+                "seconds": {"total": time.perf_counter() - begin},
+            }
+            write_json(options.report, report)
             bar.say(f"wrote {options.report}")
         except InputError as error:  # which says elsewhere that nothing was begun
             code = SOME_FAILED
             bar.warn(f"{program}: error: {error}")
-    if failed:
-        bar.warn(f"{program}: {failed} of {len(files)} files failed")
+    if counts[FAILED]:
+        bar.warn(f"{program}: {counts[FAILED]} of {len(files)} files failed")
     return code
 
 
@@ -88,18 +93,17 @@ def _do_all(
     with bar.task(f"{len(jobs)} files") as task:
 
         def say_begun(job: Job) -> None:
-            label = one_line(job.label)
-            task.describe(textwrap.shorten(label, WIDEST, placeholder=" ..."))
+            task.describe(textwrap.shorten(one_line(job.label), WIDEST, placeholder=" ..."))
 
         for job, result in results_of(jobs, batch, client, say_begun):
-            words = result.pop("words", "")
+            words = result.pop("words", "").splitlines()
             files[job] = about = {"input": str(job.path), **result}
-            label = one_line(job.label)
+            label, has_failed = one_line(job.label), about["status"] == FAILED
             bar.say(f"{len(files)} of {len(jobs)}, {label}: {summary(about)}")
-            if options.verbose or about["status"] != FAILED:
-                for line in words.splitlines():
+            if options.verbose or not has_failed:
+                for line in words:
                     bar.warn(f"{label}: {line}")
-            if about["status"] != FAILED:
+            if not has_failed:
                 about["outputs"] = [path.relative_to(folder).as_posix() for path in job.outputs]
             if about["status"] == DONE:
                 for notice in set(about["report"]["notices"]) - notices:  # about the machine
@@ -115,17 +119,6 @@ def _do_all(
 def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:
     statuses = Counter(about["status"] for about in files.values())
     return {status: statuses[status] for status in (DONE, KEPT, FAILED)}
-
-
-def _write_report(options: Namespace, files: dict[Job, dict[str, Any]], seconds: float) -> None:
-    report = {
-        "output_folder": str(options.output_folder.resolve()),
-        "counts": _counts(files),
-        "files": list(files.values()),
-        "seconds": {"total": seconds},
-    }
-    with replacing(options.report) as temporary:
-        temporary.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:

@@ -56,13 +56,10 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
 def _meshes_in(folder: Path, is_recursive: bool, left_out: Path) -> list[Path]:
     found = []
     for place, folders, names in os.walk(folder, onerror=_refuse):
-        folders[:] = sorted(
-            name
-            for name in folders
-            if is_recursive and not name.startswith(".") and Path(place, name).resolve() != left_out
-        )
-        is_mesh = {name: Path(name).suffix.lower() in READABLE for name in sorted(names)}
-        found += [Path(place, n) for n, is_one in is_mesh.items() if is_one and n[0] != "."]
+        inner = [name for name in sorted(folders) if is_recursive and name[0] != "."]
+        folders[:] = [name for name in inner if Path(place, name).resolve() != left_out]
+        paths = [Path(place, name) for name in sorted(names) if name[0] != "."]
+        found += [path for path in paths if path.suffix.lower() in READABLE]
     return found
 
 
@@ -90,14 +87,12 @@ def _named(places: dict[Path, PurePath]) -> list[Source]:
 def _names(path: Path, place: PurePath) -> list[Source]:
     """Return a file with its names, each with more of what tells it from others."""
     short, label = place.with_suffix("").as_posix(), place.as_posix()
+    long = f"{short}_{path.suffix[1:]}"
     folder = path.parents[len(place.parts) - 1].name or "root"
     digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
-    long = f"{short}_{path.suffix[1:]}"
-    in_folder = (f"{folder}/{long}", f"{folder}/{long}_{digest}")
-    return [
-        *(Source(path, name, label) for name in (short, long)),
-        *(Source(path, name, f"{folder}/{label}") for name in in_folder),
-    ]
+    names = {short: label, long: label}
+    names |= dict.fromkeys((f"{folder}/{long}", f"{folder}/{long}_{digest}"), f"{folder}/{label}")
+    return [Source(path, name, label) for name, label in names.items()]
 
 
 def _folded(name: str) -> str:

@@ -21,15 +21,7 @@ def table(files: dict[Job, dict[str, Any]]) -> list[str]:
     """Return the lines: one per file and cubeness; of a file that failed, why."""
     rows = [HEAD, *(row for job, about in files.items() for row in _rows(job.label, about))]
     widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
-    lines = []
-    for row in rows:
-        spaces = [" " * (width - _width(cell)) for cell, width in zip(row, widths, strict=True)]
-        cells = enumerate(zip(row, spaces, strict=True))
-        aligned = (
-            cell + space if n in LEFT_ALIGNED else space + cell for n, (cell, space) in cells
-        )
-        lines.append("  ".join(aligned).rstrip())
-    return lines
+    return ["  ".join(map(_aligned, row, widths, range(len(HEAD)))).rstrip() for row in rows]
 
 
 def summary(about: dict[str, Any]) -> str:
@@ -77,6 +69,11 @@ def _runs(objects: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
             "energy": sum(run["energy"]["total"] for run in runs),
             "converged": all(run["converged"] for run in runs),
         }
+
+
+def _aligned(text: str, width: int, column: int) -> str:
+    space = " " * (width - _width(text))
+    return text + space if column in LEFT_ALIGNED else space + text
 
 
 def _width(text: str) -> int:

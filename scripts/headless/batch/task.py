@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do one file of a batch in a process of its own, unless it is done already.
 
-The standard input of the process is a pipe that is never written to. It ends when the process at
-the other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
+The standard input of the process is a pipe with its settings. It ends when the process at the
+other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ from ..output_files import remove_left_behind
 from ..threads import thread_variables
 from .plan import Job
 
-__all__ = ("DONE", "FAILED", "KEPT", "PATIENCE", "Batch", "do", "end_processes", "key_of")
+__all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "end_processes", "key_of")
 
 DONE, KEPT, FAILED = "done", "kept", "failed"
 PATIENCE = 10.0
@@ -42,6 +42,8 @@ class Batch(NamedTuple):
     """what starts the script; an empty word is the Python of the worker"""
     threads: int | None
     """of the processor for each file; None for all"""
+    settings: str
+    """from `plan.settings_of`"""
     decides: str
     """from `plan.decisive`"""
     is_forced: bool
@@ -68,13 +70,10 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if report and (made_by == batch.name or not batch.is_forced):
             return _success(DONE if made_by == batch.name else KEPT, report)
         code, words = _run(job, batch, key, is_wanted)
-        if code:
-            return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
         report, _ = _report(job, key)
-        if not report:
-            error = "its results are not those that its process has written"
-            return {"status": FAILED, "error": error, "words": words}
-        return _success(DONE, report) | {"words": words}
+        if report and not code:
+            return _success(DONE, report) | {"words": words}
+        return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
@@ -115,13 +114,16 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
             process = subprocess.Popen(
                 [*command, *limit, f"--worker={key}:{batch.name}"],
                 stdin=subprocess.PIPE,
+                bufsize=0,
                 stdout=subprocess.DEVNULL,
                 stderr=words,
-                env=os.environ | (thread_variables(batch.threads) if batch.threads else {}),
+                env=os.environ | thread_variables(batch.threads),
                 start_new_session=True,  # Ctrl-C is for the batch, which then ends it
                 creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
             )
             _running.add(process)
+        with contextlib.suppress(OSError):  # what ends at once says itself why
+            process.stdin.write(f"{batch.settings}\n".encode())
         while process.returncode is None:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(1)
@@ -138,12 +140,13 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
 def end_processes() -> None:
     """End all that run, and wait until they are gone; nothing more is said of them."""
     _ending.acquire()
-    for process in list(_running):
+    for process in _running:
+        process.stdin.close()
+    for process in _running:
         _end(process)
 
 
 def _end(process: subprocess.Popen) -> None:
-    assert process.stdin is not None
     process.stdin.close()
     with contextlib.suppress(subprocess.TimeoutExpired):
         process.wait(PATIENCE)
@@ -152,6 +155,8 @@ def _end(process: subprocess.Popen) -> None:
 
 def _why_failed(job: Job, code: int, words: str) -> str:
     """Say in one line why a process has failed."""
+    if not code:
+        return "its results are not those that its process has written"
     if code < 0:
         name = signal.strsignal(-code) or f"signal {-code}"
         return f"{'was ended from outside' if -code in FROM_OUTSIDE else 'crashed'} ({name})"
