@@ -25,8 +25,10 @@ def columns(matrices):
 
 def from_columns(entries):
     """Return the vectors (n,3) or matrices (n,3,3) that have these entries (n,)."""
-    stacked = np.stack(entries, axis=1)
-    return stacked if len(entries) == 3 else stacked.reshape(-1, 3, 3)
+    result = np.empty((len(entries[0]), len(entries)))
+    for column, entry in enumerate(entries):
+        result[:, column] = entry
+    return result if len(entries) == 3 else result.reshape(-1, 3, 3)
 
 
 def dot(a, b, c, x, y, z):
@@ -77,7 +79,9 @@ def product(*entries):
 
 def gram(*A):
     """Return the scalar products of the columns of a matrix."""
-    return [dot(*A[i::3], *A[j::3]) for i in range(3) for j in range(3)]
+    a, b, c = A[::3], A[1::3], A[2::3]
+    ab, ac, bc = dot(*a, *b), dot(*a, *c), dot(*b, *c)
+    return [dot(*a, *a), ab, ac, ab, dot(*b, *b), bc, ac, bc, dot(*c, *c)]
 
 
 def adjugate(a, d, e, _d, b, f, _e, _f, c):
@@ -97,7 +101,7 @@ def size_squared(a, d, e, _d, b, f, _e, _f, c):
     return a * a + b * b + c * c + 2 * (d * d + e * e + f * f)
 
 
-def shifted(a, b, c, d, e, f, g, h, i, shift):
+def shifted(shift, a, b, c, d, e, f, g, h, i):
     """Return a matrix with more on its diagonal."""
     return [a + shift, b, c, d, e + shift, f, g, h, i + shift]
 

@@ -35,4 +35,4 @@ class HostRows:
     def put(self, rows, R, s, fit, cost):
         """Set rotations (k,3,3) and subgradients (k,3), and their fit (k,) and cost (k,)."""
         self._R[rows], self._s[rows] = R, s
-        self._energies[rows, 1], self._energies[rows, 2] = fit, cost
+        self._energies[rows, 1:] = np.stack([fit, cost], axis=1)

@@ -134,7 +134,7 @@ def newton_step(kind: ti.template(), L, p, excess, kappa):
     is_sound = ti.static([is_definite(kind.real(MIN_CURVATURE), *K, *inverse)])[0]
     if not is_sound:
         shift = ti.sqrt(ti.static([size_squared(*K)])[0])
-        K = kind.mat3(ti.static(shifted(*K, shift)))
+        K = kind.mat3(ti.static(shifted(shift, *K)))
         inverse = kind.mat3(ti.static(adjugate(*K)))
     inverse /= ti.static([determinant(*K, *inverse)])[0]
     w = kind.vec3(ti.static(times(*inverse, *axial(*L))))

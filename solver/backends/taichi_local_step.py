@@ -184,12 +184,11 @@ class TaichiLocalStep:
     def _summed(self, U, sum_on_device):
         """Return the energies where kernels sum them up."""
         sum_on_device()
-        sums = self.arrays.fetch(self._sums)
-        if sums[:, 2].any():
+        arap, cubic, uncertified = self.arrays.fetch(self._sums).T
+        if uncertified.any():
             self._solve_by_admm(U, self._uncertified())
             sum_on_device()
-            sums = self.arrays.fetch(self._sums)
-        arap, cubic, _ = sums.T.astype(np.float64)
+            arap, cubic, _ = self.arrays.fetch(self._sums).T
         count = self._rest.topology.component_count
         return tuple(np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
 

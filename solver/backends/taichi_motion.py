@@ -40,7 +40,7 @@ class TaichiMotion:
         self._scale = keep(multigrid.scale)
         topology = rest.topology
         bounds, self._component = topology.chunks
-        self._bounds, self._chunk_component = keep(bounds), keep(self._component)
+        self._bounds, self._kept_component = keep(bounds), keep(self._component)
         weight = rest.areas + 1e-300
         share = weight / topology.sum_parts(weight)[topology.component]
         self._centre = topology.sum_parts(share[:, None] * rest.V)
@@ -133,7 +133,7 @@ class TaichiMotion:
         real = self._local.real
         return (
             self._bounds,
-            self._chunk_component,
+            self._kept_component,
             self._V,
             self._scale,
             self._cycle.X,

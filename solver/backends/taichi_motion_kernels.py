@@ -116,10 +116,10 @@ def make_motion_kernels(real):
         for c in range(sums.shape[0]):
             total = vec3(0.0)
             for i in range(bounds[c], bounds[c + 1]):
-                e = energies[i]
+                quadratic, fit, cost = energies[i]
                 total += vec3(
-                    real(0.75) * e[0] - e[1] - at_rest[i],
-                    cubic_weight[i] * e[2],
+                    real(0.75) * quadratic - fit - at_rest[i],
+                    cubic_weight[i] * cost,
                     ti.cast(certified[i] == 0, real),
                 )
             sums[c] = total

@@ -89,7 +89,7 @@ def _kernels(precision):
             i = rows[k]
             R[i] = R_few[k]
             subgradients[i] = s_few[k]
-            e = energies_few[k]
-            energies[i] = vec3(energies[i][0], e[1], e[2])
+            _, fit, cost = energies_few[k]
+            energies[i] = vec3(energies[i][0], fit, cost)
 
     return SimpleNamespace(take=take, put=put)

@@ -153,7 +153,7 @@ def _newton_step(problem, R, G, s, active):
     kappa = number * (np.abs(h) + lam)
     K = curvature_on_tangent(kappa, *columns(L), *p.T)
     is_sound = is_definite(MIN_CURVATURE, *K, *adjugate(*K))
-    K = shifted(*K, np.where(is_sound, 0.0, np.sqrt(size_squared(*K))))
+    K = shifted(np.where(is_sound, 0.0, np.sqrt(size_squared(*K))), *K)
     inverse = adjugate(*K)
     divisor = determinant(*K, *inverse)
     is_zero = divisor == 0.0  # without any force

@@ -110,7 +110,7 @@ def test_symmetric_matrices_are_inverted_by_their_adjugates(check):
     check(inverted, [SYMMETRIC], determinants[:, None, None] * IDENTITY)
     check(determinant, [SYMMETRIC], determinants)
     check(algebra.size_squared, [SYMMETRIC], (SYMMETRIC**2).sum(axis=(1, 2)))
-    check(algebra.shifted, [SYMMETRIC, a[:, :1]], SYMMETRIC + a[:, :1, None] * IDENTITY)
+    check(algebra.shifted, [a[:, :1], SYMMETRIC], SYMMETRIC + a[:, :1, None] * IDENTITY)
 
 
 def test_a_turn_is_the_rotation_of_its_quaternion(check):
