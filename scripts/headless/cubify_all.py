@@ -116,7 +116,7 @@ def _check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
     wanted += [("--map", options.map)] if options.map else []
     for option, group in wanted:
         if group not in there:
-            has = ", ".join(repr(name) for name in there) or "no vertex group at all"
+            has = ", ".join(f'"{name}"' for name in there) or "no vertex group at all"
             raise InputError(f"{option} {group}: no such vertex group; the input has {has}")
 
 

@@ -125,10 +125,10 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
     there = dict.fromkeys(group.name for obj in loaded.objects for group in obj.vertex_groups)
     if given.group in there:
         return (
-            f"no vertex weighs {given.threshold:g} or more in the vertex group {given.group!r};"
+            f'no vertex weighs {given.threshold:g} or more in the vertex group "{given.group}";'
             " lower the threshold"
         )
-    has = ", ".join(map(repr, there)) or "no vertex group at all"
+    has = ", ".join(f'"{name}"' for name in there) or "no vertex group at all"
     return f"no such vertex group: {given.group}; the input has {has}"
 
 
