@@ -93,8 +93,8 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         session = self._session
         if session.error:
             self.report({"ERROR"}, session.error)
-        elif session.farewell:
-            self.report({"WARNING"}, session.farewell)
+        elif session.end_message:
+            self.report({"WARNING"}, session.end_message)
         if session.summary or session.problems:
             return report_all(self, session.summary, session.problems)
         return {"CANCELLED"}

@@ -24,7 +24,7 @@ class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
         if not poll_panel_mesh(cls, context):
             return False
         preset = preset_of(live.shared_properties(panel_mesh(context)))
-        if preset is None or preset.is_own:
+        if preset is None or preset.is_included:
             cls.poll_message_set(
                 "Choose one of your own presets first; included presets cannot be removed"
             )

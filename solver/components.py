@@ -37,9 +37,9 @@ def components(F, n, pairs=None):
 
 
 def _ends(label):
-    """Return for each entry where the chain label[label[...]] of it ends."""
+    """Return the end of the chain label[label[...]] of each entry."""
     while True:
-        further = label[label]
-        if np.array_equal(further, label):
+        ends = label[label]
+        if np.array_equal(ends, label):
             return label
-        label = further
+        label = ends

@@ -91,7 +91,7 @@ _ENDINGS = {
     )
 }
 
-_FAREWELLS = {
+_END_MESSAGES = {
     Event.NOTHING_LEFT: "Live has ended because there was nothing left to undo, and the shape is"
     " as before Live",
     Event.MODE_LEFT: "Live has ended because the mode was changed, and the shape is as before Live",
@@ -144,18 +144,18 @@ class Machine:
     Attributes
     ----------
     state : State
-    farewell : str
+    end_message : str
         Why it has ended, if the artist must be told.
     """
 
     def __init__(self):
         self.state = State.WORKING
-        self.farewell = ""
+        self.end_message = ""
 
     def on(self, event):
         """Process an Event and return a tuple of Actions."""
         before = self.state
         self.state, actions = _TABLE[before].get(event, (before, ()))
         if self.state is State.ENDED and before is not State.ENDED:
-            self.farewell = _FAREWELLS.get(event, "")
+            self.end_message = _END_MESSAGES.get(event, "")
         return actions

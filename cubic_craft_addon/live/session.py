@@ -106,9 +106,9 @@ class Session:
         return self._machine.state is State.ENDED
 
     @property
-    def farewell(self):
+    def end_message(self):
         """The message about the end of the session, besides `error`."""
-        return self._machine.farewell
+        return self._machine.end_message
 
     @property
     def is_finishing(self):

@@ -10,12 +10,12 @@ from pathlib import Path
 import bpy
 
 from . import pictures
-from .files import OWN_FOLDER
+from .files import INCLUDED_FOLDER
 from .selector import forget
 
 __all__ = ("register", "unregister")
 
-_ASSETS = str(Path(OWN_FOLDER).parents[1])
+_ASSETS = str(Path(INCLUDED_FOLDER).parents[1])
 
 
 def register():

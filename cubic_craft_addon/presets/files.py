@@ -16,7 +16,7 @@ from ...solver import CubicCraftError
 from ..object_properties import PROPERTY
 
 SUBFOLDER = "cubic_craft"
-OWN_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
+INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 """folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
 SETTINGS = ("cubeness", "solidity", "together", "refine", "rotation", "hold_rest")
@@ -50,9 +50,9 @@ class Preset:
         return bpy.path.display_name(self.path.stem, title_case=False)
 
     @property
-    def is_own(self):
+    def is_included(self):
         """Whether it is included with the extension."""
-        return self.path.parent == OWN_FOLDER
+        return self.path.parent == INCLUDED_FOLDER
 
     @property
     def picture(self):
@@ -105,7 +105,7 @@ def save(name: str, properties: Any) -> Path:
     stem = name.strip().translate(_FORBIDDEN).strip("_")
     if not stem:
         raise CubicCraftError("a preset needs a name")
-    taken = {preset.identifier.lower() for preset in presets() if preset.is_own}
+    taken = {preset.identifier.lower() for preset in presets() if preset.is_included}
     if stem.lower() in taken:
         raise CubicCraftError(f'"{name}" is included with CubicCraft; choose another name')
     lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
@@ -127,7 +127,7 @@ def remove(preset: Preset) -> None:
     CubicCraftError
         It is an included preset, or cannot be deleted.
     """
-    if preset.is_own:
+    if preset.is_included:
         raise CubicCraftError(f'"{preset.name}" is included with CubicCraft and cannot be removed')
     try:
         preset.path.unlink()
@@ -145,9 +145,9 @@ def _forget():
 
 def _place(path):
     """Return a sort key: included presets first, from soft to hard."""
-    is_own = path.parent == OWN_FOLDER
-    place = _ORDER.index(path.stem) if is_own and path.stem in _ORDER else len(_ORDER)
-    return not is_own, place, path.stem.lower()
+    is_included = path.parent == INCLUDED_FOLDER
+    place = _ORDER.index(path.stem) if is_included and path.stem in _ORDER else len(_ORDER)
+    return not is_included, place, path.stem.lower()
 
 
 def _read(path):

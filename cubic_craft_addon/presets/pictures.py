@@ -5,9 +5,9 @@ from typing import Any
 
 import bpy.utils.previews
 
-from .files import OWN_FOLDER, Preset
+from .files import INCLUDED_FOLDER, Preset
 
-_WITHOUT = OWN_FOLDER.parents[1] / "preset_without_picture.png"
+_WITHOUT = INCLUDED_FOLDER.parents[1] / "preset_without_picture.png"
 
 _collection: Any = None
 

@@ -184,7 +184,7 @@ def _read_back(prepared, positions, rotations):
         is_still = (positions[part] == at_rest[part]).all(axis=1) | prepared.is_idle
         own[is_still] = member.shape.original[is_still]
         turned = None if rotations is None else placement.read_rotations_back(rotations[part])
-        member.whole.settle(own, is_held[part] | is_still)
+        member.whole.symmetrize(own, is_held[part] | is_still)
         if turned is not None:
             member.whole.settle_rotations(turned, is_held[part])
         found.append((own, turned))

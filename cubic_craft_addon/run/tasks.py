@@ -186,6 +186,8 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
     runs = [task.run for task in tasks]
+    statuses = [run.status for run in runs]
+    waits = [(id(solution.result), solution.total_seconds) for solution in solutions]
     written, problems = 0, new_taichi_warnings() if tasks else []
     try:
         for task, run in zip(tasks, runs, strict=True):
@@ -196,11 +198,11 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
         reason = in_words(error)
         problems.append(f"Writing failed ({reason}); meshes that were not written are unchanged")
     if written == 1:
-        return f"Cubified: {runs[0].status}", problems
+        return f"Cubified: {statuses[0]}", problems
     if written:
         # Objects that were solved together took their time only once.
-        waits = {id(s.result): s.total_seconds for s in solutions[:written]}
-        return f"Cubified {written} meshes in {sum(waits.values()):.2f} s", problems
+        seconds = sum(dict(waits[:written]).values())
+        return f"Cubified {written} meshes in {seconds:.2f} s", problems
     return "", problems
 
 

@@ -238,7 +238,7 @@ class Whole:
             sides |= (points[:, axis] < 0.0).astype(np.intp) << number
         return sides
 
-    def settle(self, positions, is_held):
+    def symmetrize(self, positions, is_held):
         """Make new positions (n,3) float32 of the mesh exactly symmetric, in place.
 
         Vertices in the plane of a modifier keep their distance from it, which merges the

@@ -139,7 +139,7 @@ def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> lis
     if name is not None:
         chosen = [obj for obj in found if obj.name == name]
         if not chosen:
-            there = ", ".join(repr(obj.name) for obj in found[:8]) or "no mesh object at all"
+            there = ", ".join(f'"{obj.name}"' for obj in found[:8]) or "no mesh object at all"
             raise InputError(f"--object {name}: {source} has no such mesh object; it has {there}")
         return chosen
     chosen = [obj for obj in found if obj.data.polygons and obj.visible_get()]
@@ -148,5 +148,5 @@ def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> lis
         raise InputError(f"{source}: holds {what}; export it again with a visible mesh with faces")
     for obj in found:
         if obj not in chosen:
-            print(f"{obj.name!r} is left out: it is hidden or has no faces", file=sys.stderr)
+            print(f'"{obj.name}" is left out: it is hidden or has no faces', file=sys.stderr)
     return chosen

@@ -22,7 +22,7 @@ __all__ = ("groups_of", "handles_of_all", "start_of")
 def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
     """Return the names of all vertex groups, and the same for a message."""
     there = list(dict.fromkeys(group.name for obj in objects for group in obj.vertex_groups))
-    return there, ", ".join(map(repr, there)) or "no vertex group at all"
+    return there, ", ".join(f'"{name}"' for name in there) or "no vertex group at all"
 
 
 def start_of(obj: bpy.types.Object) -> str:
@@ -130,7 +130,7 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
     there, has = groups_of(loaded.objects)
     if given.group in there:
         return (
-            f"no vertex weighs {given.threshold:g} or more in the vertex group {given.group!r};"
+            f'no vertex weighs {given.threshold:g} or more in the vertex group "{given.group}";'
             " lower the threshold"
         )
     return f"no such vertex group: {given.group}; the input has {has}"

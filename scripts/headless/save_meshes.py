@@ -129,7 +129,7 @@ def _save_obj(path: Path, copies: list[bpy.types.Object], loaded: Loaded) -> Non
 
 def _rows_in_file(path: Path, layout: ObjLayout, name: str) -> np.ndarray:
     if name not in layout.rows:
-        message = f"{path}: Blender has changed the vertices of {name!r} on reading"
+        message = f'{path}: Blender has changed the vertices of "{name}" on reading'
         raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
     return layout.rows[name]
 

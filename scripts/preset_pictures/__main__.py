@@ -50,7 +50,7 @@ def main() -> None:
         bear.data.materials.append(fur)
         scene = _studio(options.samples)
         _render_presets(scene, bear, extension, options.only)
-        folder = extension.presets.OWN_FOLDER.parents[1]
+        folder = extension.presets.INCLUDED_FOLDER.parents[1]
         if not options.only or WITHOUT in options.only:
             bear.data.materials[0] = surface("Grey", GREY, roughness=0.5)
             _render(scene, folder / f"{WITHOUT}.png")
@@ -61,7 +61,7 @@ def _render_presets(
 ) -> None:
     original = extension.mesh_bridge.original_positions(bear.data)
     for preset in extension.presets.presets():
-        if preset.is_own and (not only or preset.identifier in only):
+        if preset.is_included and (not only or preset.identifier in only):
             settings = extension.settings.Settings(symmetry=(True, False, False), **preset.values)
             member = extension.member.read_member(bear, settings)
             (solution,) = extension.pipeline.solve(extension.assembly.prepare([member]))

@@ -25,7 +25,7 @@ def files(rooms):
     module = rooms("cubic_craft_addon.presets.files")
     yield module
     for preset in module.presets():
-        if not preset.is_own:
+        if not preset.is_included:
             module.remove(preset)
 
 
@@ -49,7 +49,7 @@ def shape_of(obj):
 def test_ours_are_there_without_a_user_folder(files, monkey):
     assert not Path(bpy.utils.user_resource("SCRIPTS", path="presets/cubic_craft")).exists()
     assert [preset.identifier for preset in files.presets()] == OURS
-    assert all(preset.is_own and preset.description for preset in files.presets())
+    assert all(preset.is_included and preset.description for preset in files.presets())
 
 
 def test_each_of_ours_is_another_look(files, monkey):
@@ -100,7 +100,7 @@ def test_a_file_that_is_opened_in_a_new_session_knows_its_preset(files, monkey, 
 
 def test_saving_again_replaces_and_removing_leaves_the_settings(files, monkey):
     assert save("Mine", cubeness=0.9) == save("Mine", cubeness=0.8) == {"FINISHED"}
-    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values["cubeness"] == 0.8
     assert bpy.ops.cubic_craft.preset_remove() == {"FINISHED"}
     assert not preset.path.exists()
@@ -124,7 +124,7 @@ def test_a_name_that_is_none_is_refused(files, monkey, name):
 
 def test_any_other_name_becomes_a_file(files, monkey):
     assert save("../Größe 2: {dick}", cubeness=0.6) == {"FINISHED"}
-    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.path.parent.name == "cubic_craft"
     assert preset.name.startswith("Größe 2")
 
@@ -157,7 +157,7 @@ bpy.context.object.location = (1, 2, 3)
     (path.parent / "broken.py").write_text("cubeness = (")
     (path.parent / "empty.py").write_text("")
     files._forget()
-    (preset,) = [preset for preset in files.presets() if not preset.is_own]
+    (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
     assert shape_of(monkey) == (0.7, 0.1, "SELECTION", "AUTO", "KEEP", True)
@@ -221,7 +221,7 @@ def test_pictures(files, rooms, monkey):
         pictures.icon_of(preset)  # without a window all are 0
     shown = dict(pictures._collection)
     assert set(shown) == {
-        str(pictures._WITHOUT), *(str(p.picture) for p in files.presets() if p.is_own)
+        str(pictures._WITHOUT), *(str(p.picture) for p in files.presets() if p.is_included)
     }  # fmt: skip
     for path, picture in shown.items():
         assert tuple(picture.image_size) == (160, 160)

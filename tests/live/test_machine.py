@@ -54,17 +54,17 @@ def test_every_ending_puts_back_first_and_cleans_up_last(state, event):
 def test_endings_that_nobody_asked_for_are_told(state, event, word):
     m = in_state(state)
     m.on(event)
-    told = m.farewell
+    told = m.end_message
     assert told.startswith("Live has ended") and word in told
     m.on(Event.CANCEL)
-    assert m.farewell == told
+    assert m.end_message == told
 
 
 @pytest.mark.parametrize("event", [Event.CANCEL, Event.CLOSED, Event.LOAD, Event.DISABLED])
 def test_endings_that_were_asked_for_are_not(event):
     m = Machine()
     m.on(event)
-    assert m.state is State.ENDED and m.farewell == ""
+    assert m.state is State.ENDED and m.end_message == ""
 
 
 @pytest.mark.parametrize("event", Event)

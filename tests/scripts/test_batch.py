@@ -89,7 +89,7 @@ def test_what_is_left_out_of_a_file_is_said(tmp_path):
     process = batch("one.obj", "two.obj", cwd=tmp_path)
     assert process.returncode == 0, process.stderr
     for name in ("one.obj", "two.obj"):
-        assert f"{name}: 'dust' is left out" in process.stderr
+        assert f'{name}: "dust" is left out' in process.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")

@@ -72,7 +72,7 @@ CONTENT = {
     "infinite text .ply": (["text.ply"], ["text.ply", "vertex 2", "finite"]),
     "infinite binary .stl": (["inf.stl"], ["inf.stl", "vertex 2", "finite"]),
     "infinite text .stl": (["text.stl"], ["text.stl", "vertex 2", "finite"]),
-    "no such object": (["ok.obj", "--object", "Cube"], ["--object", "Cube", "'ok'"]),
+    "no such object": (["ok.obj", "--object", "Cube"], ["--object", "Cube", '"ok"']),
     "no such pin group": (["ok.obj", "--pin", "hand"], ["--pin", "hand", "vertex group"]),
     "no such map group": (["ok.obj", "--map", "hand"], ["--map", "hand", "vertex group"]),
 }
