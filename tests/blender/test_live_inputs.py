@@ -7,13 +7,12 @@ import pytest
 from live_steps import STEPS, bits, confirm, tick_to_rest
 from posing import LEFT, RIGHT, add_posable, follow, pin, pose
 from rich_mesh import position_of
-from scene import add_monkey, add_triangles, select
+from scene import add_empty, add_monkey, add_triangles, select
 
 
 def test_the_frame_object_restarts_it(live, begin):
     obj = add_triangles()
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
+    frame = add_empty("Frame")
     session = begin(obj, space="FRAME", frame=frame)
     assert live.live_properties().frame == "Frame"
     tick_to_rest(session)
@@ -49,8 +48,7 @@ def test_it_follows_the_object_that_is_turned_in_the_world(live, begin):
 
 def test_the_frame_object_may_be_deleted(live, begin):
     obj = add_monkey()
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
+    frame = add_empty("Frame")
     session = begin(obj, space="FRAME", frame=frame)
     tick_to_rest(session)
     bpy.data.objects.remove(frame)

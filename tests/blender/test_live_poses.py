@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from live_steps import bits, check_gone, confirm, tick_to_rest
 from mathutils import Matrix
-from posing import LEFT, RIGHT, add_posable, follow, mapped, pin
+from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin
 from rich_mesh import position_of
 from scene import select
 
@@ -14,7 +14,6 @@ UP, FAR_UP = (
     tuple(np.array(Matrix.Translation((0, 0, z)), dtype=np.float32).astype(float).ravel())
     for z in (0.5, 1.25)
 )
-IDENTITY = tuple(np.eye(4).ravel())
 
 
 def add_pinned():

@@ -52,23 +52,14 @@ def test_undo_step(bridge, state):
 
 
 @pytest.mark.parametrize("state", STATES)
-def test_file(bridge, state, tmp_path):
-    obj = add_monkey(bridge, state)
-    path = str(tmp_path / "saved.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = the_monkey()
+def test_file(bridge, state, reopen):
+    add_monkey(bridge, state)
+    obj = reopen("Suzanne")
     before = snapshot_object(obj)
     show_some(bridge, obj.data)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = the_monkey()
+    obj = reopen("Suzanne")
     assert bridge.end_all_previews() == [obj.data.name]
     assert differences(before, snapshot_object(obj)) == []
-
-
-def the_monkey():
-    return next(obj for obj in bpy.data.objects if obj.type == "MESH")
 
 
 def test_linked_mesh_is_left_alone(bridge, plain_monkey, tmp_path):
