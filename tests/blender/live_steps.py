@@ -5,6 +5,7 @@ import importlib
 
 import bpy
 import numpy as np
+from scene import select
 
 STEPS = 4000
 
@@ -20,7 +21,7 @@ def tick_to_rest(session):
         session.tick(bpy.context)
         bpy.context.view_layer.update()
         if session.is_ended or session._timer is None:
-            return
+            return session
     raise AssertionError("Live does not come to rest")
 
 
@@ -29,8 +30,23 @@ def tick_to_sight(session):
     for _ in range(STEPS):
         session.tick(bpy.context)
         if all(mesh.is_seen for mesh in session.meshes):
-            return
+            return session
     raise AssertionError("Live shows nothing")
+
+
+def wake_to_rest(session):
+    """Let it see what has been done to the objects."""
+    bpy.context.view_layer.update()
+    session.wake()
+    tick_to_rest(session)
+
+
+def check_same_as_cubify(obj):
+    """Check that Cubify, with the settings that Live has left, gives the shape that is there."""
+    shape = bits(obj)
+    select(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
 
 
 def confirm(live, session):

@@ -103,8 +103,7 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
             bpy.ops.object.transform_apply(scale=True)
         changed = bits(obj)
         if is_live:
-            session = begin(obj, start=start, cubeness=0.3)
-            tick_to_rest(session)
+            session = tick_to_rest(begin(obj, start=start, cubeness=0.3))
             session.on(live.Event.CANCEL)
             assert bits(obj) == changed and obj.cubic_craft.start == start
             session = begin(obj)

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 from faults import places
 from rich_mesh import add_rich_monkey, cubic_like, points_of, set_points, set_position
-from snapshot import differences, snapshot_object
+from snapshot import differences, snapshot_object, unchanged
 
 
 def test_good_mesh(bridge, monkey):
-    before = snapshot_object(monkey)
-    bridge.check_editable(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        bridge.check_editable(monkey)
 
 
 def test_no_mesh(bridge, error):

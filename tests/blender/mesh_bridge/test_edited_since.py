@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from rich_mesh import points_of, position_of, set_points, set_position
 from scene import add_copy, bmesh_of, edit_mode
-from snapshot import STORED, differences, snapshot_object, unchanged
+from snapshot import STORED, unchanged
 
 NOTE = "cubic_craft_note"
 
@@ -53,11 +53,10 @@ def test_restore_gives_the_original(bridge, cubify, monkey):
     monkey.active_shape_key_index = 0
     with edit_mode(monkey):  # which turns -0 into 0 in shape keys
         pass
-    before = snapshot_object(monkey)
-    cubify(monkey)
-    move_some(monkey)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        cubify(monkey)
+        move_some(monkey)
+        bridge.restore(monkey)
     assert not bridge.has_traces(mesh)
 
 
@@ -65,13 +64,12 @@ def test_from_here_replaces_the_original(bridge, cubify, monkey):
     mesh = monkey.data
     cubify(monkey)
     move_some(monkey)
-    before = snapshot_object(monkey)
-    cubify(monkey, seed=3)
-    assert not bridge.is_edited(mesh)
-    stored = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
-    assert len(stored) == (8 if mesh.shape_keys else 4)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
+    with unchanged(monkey, STORED):
+        cubify(monkey, seed=3)
+        assert not bridge.is_edited(mesh)
+        stored = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
+        assert len(stored) == (8 if mesh.shape_keys else 4)
+        bridge.restore(monkey)
     assert NOTE not in mesh
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from rich_mesh import add_rich_monkey, points_of, position_of
 from scene import add_copy, add_monkey, bmesh_of, select
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 
 def add_cube(**where):
@@ -129,10 +129,8 @@ def test_shape_keys(bridge, cubify, keyed):
     (matrix,) = join(one, other)
     mesh, count = one.data, len(expected["Basis"][0])
     assert not bridge.is_edited(mesh)
-    before = snapshot_object(one)
-    bridge.restore(one)
-    changed = (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)
-    assert differences(before, snapshot_object(one), ignore=changed) == []
+    with unchanged(one, (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)):
+        bridge.restore(one)
     for name, parts in expected.items():
         for number, rows in enumerate((slice(0, count), slice(count, None))):
             values = parts.get(number, expected["Basis"][number])

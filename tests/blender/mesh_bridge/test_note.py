@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import cubic_like, points_of, position_of
-from snapshot import differences, snapshot_object
+from snapshot import differences, snapshot_object, unchanged
 
 NOTE = "cubic_craft_note"
 KEY = {"name": "Wide", "fingerprint": "0", "base": "0", "offsets": [], "made_basis": False}
@@ -16,12 +16,11 @@ KEY = {"name": "Wide", "fingerprint": "0", "base": "0", "offsets": [], "made_bas
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
 def test_property_of_the_artist_called_cubic_craft(bridge, cubify, monkey, result):
     monkey.data["cubic_craft"] = "rounded by hand"
-    before = snapshot_object(monkey)
-    for seed in (1, 2):
-        cubify(monkey, result, seed)
-        assert monkey.data["cubic_craft"] == "rounded by hand"
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        for seed in (1, 2):
+            cubify(monkey, result, seed)
+            assert monkey.data["cubic_craft"] == "rounded by hand"
+        bridge.restore(monkey)
 
 
 @pytest.mark.parametrize(
@@ -73,11 +72,10 @@ def test_valid_note_is_not_in_the_way(bridge, cubify, keyed_monkey):
 
 def test_attribute_of_the_artist_with_a_similar_name(bridge, cubify, monkey):
     monkey.data.attributes.new("cubic_craft_originality", "FLOAT", "POINT")
-    before = snapshot_object(monkey)
-    assert not bridge.has_traces(monkey.data)
-    cubify(monkey)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        assert not bridge.has_traces(monkey.data)
+        cubify(monkey)
+        bridge.restore(monkey)
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
@@ -109,13 +107,12 @@ def test_stale(bridge, cubify, error, plain_monkey, what):
         mesh.vertices[0].co.x += 1
     elif what == "key":
         plain_monkey.shape_key_remove(mesh.shape_keys.key_blocks["Cubic"])
-    before = snapshot_object(plain_monkey)
-    shape = position_of(mesh).tobytes()
-    assert bridge.has_traces(mesh) and not bridge.has_original(mesh)
-    assert bridge.original_positions(mesh).tobytes() == shape
-    with pytest.raises(error, match=r"'Suzanne' has been edited since .* original now: Apply"):
-        bridge.restore(plain_monkey)
-    assert differences(before, snapshot_object(plain_monkey)) == []
+    with unchanged(plain_monkey):
+        shape = position_of(mesh).tobytes()
+        assert bridge.has_traces(mesh) and not bridge.has_original(mesh)
+        assert bridge.original_positions(mesh).tobytes() == shape
+        with pytest.raises(error, match=r"'Suzanne' has been edited since .* original now: Apply"):
+            bridge.restore(plain_monkey)
     bridge.discard_original(mesh)
     assert not bridge.has_traces(mesh)
     assert NOTE not in mesh

@@ -7,7 +7,7 @@ import pytest
 from previewed import NOTE, STATES, add_monkey, live_attributes, show_some
 from rich_mesh import cubic_like, points_of, position_of
 from scene import add_copy
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 
 @pytest.mark.parametrize("state", STATES)
@@ -103,14 +103,13 @@ def snapshot_shapes(obj):
 
 
 def test_a_second_preview_ends_the_first(bridge, monkey):
-    before = snapshot_object(monkey)
-    base = bridge.read_positions(monkey.data)
-    show_some(bridge, monkey.data)
-    preview = bridge.Preview(monkey.data)
-    assert bridge.read_positions(monkey.data).tobytes() == base.tobytes()
-    preview.show(monkey.data, *cubic_like(base, 4))
-    bridge.end_preview(monkey.data)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        base = bridge.read_positions(monkey.data)
+        show_some(bridge, monkey.data)
+        preview = bridge.Preview(monkey.data)
+        assert bridge.read_positions(monkey.data).tobytes() == base.tobytes()
+        preview.show(monkey.data, *cubic_like(base, 4))
+        bridge.end_preview(monkey.data)
 
 
 def test_nothing_shown_yet(bridge, monkey):
@@ -125,32 +124,29 @@ def test_position_that_differs_from_the_basis(bridge, keyed_monkey):
     mesh = keyed_monkey.data
     flat = np.float32(position_of(mesh) + 0.25).ravel()
     mesh.attributes["position"].data.foreach_set("vector", flat)
-    before = snapshot_object(keyed_monkey)
-    show_some(bridge, mesh)
-    bridge.end_preview(mesh)
-    assert differences(before, snapshot_object(keyed_monkey)) == []
+    with unchanged(keyed_monkey):
+        show_some(bridge, mesh)
+        bridge.end_preview(mesh)
 
 
 def test_attributes_keep_their_order_and_active_one(bridge, plain_monkey):
     mesh = plain_monkey.data
     for place in range(len(mesh.attributes)):
         mesh.attributes.active_index = place
-        before = snapshot_object(plain_monkey)
-        name = mesh.attributes[place].name
-        show_some(bridge, mesh, [1])
-        assert mesh.attributes[mesh.attributes.active_index].name == name
-        bridge.end_preview(mesh)
-        assert differences(before, snapshot_object(plain_monkey)) == []
+        with unchanged(plain_monkey):
+            name = mesh.attributes[place].name
+            show_some(bridge, mesh, [1])
+            assert mesh.attributes[mesh.attributes.active_index].name == name
+            bridge.end_preview(mesh)
 
 
 def test_property_in_the_way(bridge, error, plain_monkey):
     plain_monkey.data[NOTE] = "of somebody else"
-    before = snapshot_object(plain_monkey)
-    with pytest.raises(error, match="rename"):
-        bridge.Preview(plain_monkey.data)
-    assert not bridge.has_preview(plain_monkey.data)
-    assert not bridge.end_preview(plain_monkey.data)
-    assert differences(before, snapshot_object(plain_monkey)) == []
+    with unchanged(plain_monkey):
+        with pytest.raises(error, match="rename"):
+            bridge.Preview(plain_monkey.data)
+        assert not bridge.has_preview(plain_monkey.data)
+        assert not bridge.end_preview(plain_monkey.data)
 
 
 def test_edit_mode_and_changed_meshes_are_refused(bridge, error, plain_monkey):

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import cubic_like, points_of, position_of, set_position
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 LOOSE = slice(-4, None)  # what the rich monkey has in no face
 CHANGED = POSITIONS + SHAPE_KEY_POINTS + STORED
@@ -12,11 +12,10 @@ CHANGED = POSITIONS + SHAPE_KEY_POINTS + STORED
 
 def test_only_positions_change(bridge, monkey):
     mesh = monkey.data
-    before = snapshot_object(monkey)
-    base = bridge.read_positions(mesh)
-    positions, rotations = cubic_like(base)
-    bridge.write_mesh(mesh, positions, rotations)
-    assert differences(before, snapshot_object(monkey), ignore=CHANGED) == []
+    with unchanged(monkey, CHANGED):
+        base = bridge.read_positions(mesh)
+        positions, rotations = cubic_like(base)
+        bridge.write_mesh(mesh, positions, rotations)
     expected = np.vstack((positions[:-4], base[LOOSE]))
     assert bridge.read_positions(mesh).tobytes() == expected.tobytes()
     assert position_of(mesh).tobytes() == expected.tobytes()
@@ -28,24 +27,22 @@ def test_other_attributes_keep_their_order_and_active_one(bridge, cubify, monkey
     mesh = monkey.data
     for place in range(len(mesh.attributes)):
         mesh.attributes.active_index = place
-        before = snapshot_object(monkey)
-        names = [a.name for a in mesh.attributes]
-        cubify(monkey)
-        assert mesh.attributes[mesh.attributes.active_index].name == names[place]
-        kept = [a.name for a in mesh.attributes if not a.name.startswith("cubic_craft")]
-        assert kept == names
-        bridge.restore(monkey)
-        assert differences(before, snapshot_object(monkey)) == []
+        with unchanged(monkey):
+            names = [a.name for a in mesh.attributes]
+            cubify(monkey)
+            assert mesh.attributes[mesh.attributes.active_index].name == names[place]
+            kept = [a.name for a in mesh.attributes if not a.name.startswith("cubic_craft")]
+            assert kept == names
+            bridge.restore(monkey)
 
 
 def test_result_equal_to_base_changes_no_bit(bridge, monkey):
     """Also zeros of either sign and tiny numbers, which arithmetic would lose."""
     mesh = monkey.data
-    before = snapshot_object(monkey)
-    positions = bridge.read_positions(mesh)
-    unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
-    bridge.write_mesh(mesh, positions + 0.0, unturned)
-    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
+    with unchanged(monkey, STORED):
+        positions = bridge.read_positions(mesh)
+        unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
+        bridge.write_mesh(mesh, positions + 0.0, unturned)
 
 
 def test_blender_notices(bridge, monkey):

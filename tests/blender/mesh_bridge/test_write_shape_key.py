@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import cubic_like, points_of, position_of, set_points
-from snapshot import STORED, differences, snapshot_object
+from snapshot import STORED, differences, snapshot_object, unchanged
 
 # Our key in a snapshot, and that there are keys at all.
 OUR_KEY = (
@@ -21,14 +21,10 @@ def result_of(bridge, mesh, seed=0):
 def test_nothing_else_changes(bridge, monkey):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    had_keys = mesh.shape_keys is not None
-    before = snapshot_object(monkey)
     positions, _ = cubic_like(base)
-    bridge.write_shape_key(monkey, positions)
-    ignore = OUR_KEY if had_keys else NEW_KEYS
-    # The evaluated shape is now that of the key.
-    ignore += ("*rna/dimensions",)
-    assert differences(before, snapshot_object(monkey), ignore=ignore) == []
+    ignore = OUR_KEY if mesh.shape_keys else NEW_KEYS
+    with unchanged(monkey, (*ignore, "*rna/dimensions")):  # the evaluated shape is the key's now
+        bridge.write_shape_key(monkey, positions)
     key = mesh.shape_keys.key_blocks["Cubic"]
     assert (key.value, key.mute, key.slider_min, key.slider_max) == (1.0, False, 0.0, 1.0)
     assert key.relative_key == mesh.shape_keys.reference_key
@@ -85,14 +81,13 @@ def test_again_keeps_what_the_artist_did_with_the_key(bridge, cubify, monkey):
 
 def test_renamed_key_is_still_ours(bridge, cubify, monkey):
     mesh = monkey.data
-    before = snapshot_object(monkey)
-    cubify(monkey, "SHAPE_KEY", seed=1)
-    mesh.shape_keys.key_blocks["Cubic"].name = "Blocky"
-    names = [key.name for key in mesh.shape_keys.key_blocks]
-    cubify(monkey, "SHAPE_KEY", seed=2)
-    assert [key.name for key in mesh.shape_keys.key_blocks] == names
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with unchanged(monkey):
+        cubify(monkey, "SHAPE_KEY", seed=1)
+        mesh.shape_keys.key_blocks["Cubic"].name = "Blocky"
+        names = [key.name for key in mesh.shape_keys.key_blocks]
+        cubify(monkey, "SHAPE_KEY", seed=2)
+        assert [key.name for key in mesh.shape_keys.key_blocks] == names
+        bridge.restore(monkey)
 
 
 def test_key_of_the_artist_called_cubic_is_not_ours(bridge, keyed_monkey):
@@ -121,10 +116,9 @@ def test_basis_of_ours_stays_while_another_key_needs_it(bridge, cubify, plain_mo
 
 def test_basis_of_the_artist_stays(bridge, cubify, plain_monkey):
     plain_monkey.shape_key_add(name="Basis", from_mix=False)
-    before = snapshot_object(plain_monkey)
-    cubify(plain_monkey, "SHAPE_KEY")
-    bridge.restore(plain_monkey)
-    assert differences(before, snapshot_object(plain_monkey)) == []
+    with unchanged(plain_monkey):
+        cubify(plain_monkey, "SHAPE_KEY")
+        bridge.restore(plain_monkey)
 
 
 def test_key_made_the_reference_is_not_ours_any_more(bridge, cubify, keyed_monkey):
@@ -173,11 +167,10 @@ def test_absolute_keys_are_refused(bridge, error, keyed_monkey):
     """Among them "Cubic" would be a pose in time, which its value does not dial."""
     mesh = keyed_monkey.data
     mesh.shape_keys.use_relative = False
-    before = snapshot_object(keyed_monkey)
-    positions = result_of(bridge, mesh)[0]
-    with pytest.raises(error, match=r"'Suzanne' has absolute shape keys.*switch on Relative"):
-        bridge.write_shape_key(keyed_monkey, positions)
-    assert differences(before, snapshot_object(keyed_monkey)) == []
+    with unchanged(keyed_monkey):
+        positions = result_of(bridge, mesh)[0]
+        with pytest.raises(error, match=r"'Suzanne' has absolute shape keys.*switch on Relative"):
+            bridge.write_shape_key(keyed_monkey, positions)
     mesh.shape_keys.use_relative = True
     bridge.write_shape_key(keyed_monkey, positions)
 
