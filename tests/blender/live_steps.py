@@ -5,9 +5,16 @@ import importlib
 
 import bpy
 import numpy as np
-from scene import select
+import scene
 
 STEPS = 4000
+
+
+def add_monkey(name="Suzanne", **where):
+    """Add a monkey that is solved as it is: refined it would take several times as long."""
+    obj = scene.add_monkey(name, **where)
+    obj.cubic_craft.refine = "OFF"
+    return obj
 
 
 def bits(obj):
@@ -17,6 +24,7 @@ def bits(obj):
 
 
 def tick_to_rest(session):
+    bpy.context.view_layer.update()
     for _ in range(STEPS):
         session.tick(bpy.context)
         bpy.context.view_layer.update()
@@ -36,7 +44,6 @@ def tick_to_sight(session):
 
 def wake_to_rest(session):
     """Let it see what has been done to the objects."""
-    bpy.context.view_layer.update()
     session.wake()
     tick_to_rest(session)
 
@@ -44,7 +51,7 @@ def wake_to_rest(session):
 def check_same_as_cubify(obj):
     """Check that Cubify, with the settings that Live has left, gives the shape that is there."""
     shape = bits(obj)
-    select(obj)
+    scene.select(obj)
     bpy.ops.cubic_craft.cubify()
     assert bits(obj) == shape
 

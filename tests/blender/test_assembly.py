@@ -222,7 +222,6 @@ def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
     else:
         bpy.data.objects.remove(trio.pop())
         before.pop()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert [bits(obj) for obj in trio] != before
     assert len(session.meshes) == len(trio)
@@ -255,7 +254,6 @@ def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkey
     tick_to_rest(session)
     assert len(looked) == 1
     trio[1].location.x += 0.1
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert len(looked) == 2
     confirm(live, session)
@@ -264,14 +262,12 @@ def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkey
 def test_live_goes_on_without_the_one_that_cannot_be_used(live, begin, trio):
     session = tick_to_rest(begin(*trio))
     trio[2].cubic_craft.map_group = "Missing"
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     (problem,) = session.all_problems
     assert "Missing" in problem and "Mirrored" in problem
     assert session.mesh_of(trio[2]).solution is None
     assert session.mesh_of(trio[0]).solution.objects == 2
     trio[2].cubic_craft.map_group = ""
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.all_problems and session.mesh_of(trio[2]).solution.objects == 3
     confirm(live, session)

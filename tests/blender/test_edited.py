@@ -8,9 +8,9 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits, confirm, tick_to_rest
+from live_steps import add_monkey, bits, confirm, tick_to_rest
 from rich_mesh import position_of
-from scene import add_monkey, cubify, reports_of, select
+from scene import cubify, reports_of, select
 
 
 @pytest.fixture

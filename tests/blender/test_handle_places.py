@@ -118,6 +118,5 @@ def test_only_a_live_mesh_has_them(places, live, begin):
     obj.hide_set(False)
     bpy.context.view_layer.objects.active = obj
     obj.scale.x = 0.0
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert places.places_of(obj, places.Middles()) == [], "no motion of the world could be mapped"

@@ -7,16 +7,16 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from rich_mesh import add_rich_monkey
-from scene import add_monkey, add_triangles, cubify, select
+from scene import add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh, snapshot_object
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
-    twin = add_monkey("Twin")
-    obj = add_monkey()
+    twin, obj = add_monkey("Twin"), add_monkey()
+    twin.cubic_craft.refine = obj.cubic_craft.refine = "AUTO"  # the default
     session = tick_to_rest(begin(obj, result=result, cubeness=0.7))
     confirm(live, session)
     check_gone(live)

@@ -5,8 +5,8 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
-from scene import add_monkey, select
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from scene import select
 
 
 @pytest.mark.parametrize("is_at_rest", [False, True])

@@ -4,10 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import STEPS, bits, check_same_as_cubify, confirm, tick_to_rest
+from live_steps import STEPS, add_monkey, bits, check_same_as_cubify, confirm, tick_to_rest
 from posing import LEFT, RIGHT, add_posable, follow, pin, pose
 from rich_mesh import position_of
-from scene import add_empty, add_monkey, add_triangles
+from scene import add_empty, add_triangles
 
 
 def test_the_frame_object_restarts_it(live, begin):
@@ -18,7 +18,6 @@ def test_the_frame_object_restarts_it(live, begin):
     tick_to_rest(session)
     before = bits(obj)
     frame.rotation_euler = (0.3, 0.2, 0.5)
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
@@ -30,11 +29,9 @@ def test_it_follows_the_object_that_is_turned_in_the_world(live, begin):
     session = tick_to_rest(begin(obj, together="PARTS"))
     before = bits(obj)
     obj.location.x += 1.0
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) == before, "where it stands does not matter"
     obj.rotation_euler.z = 0.6
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
@@ -124,7 +121,6 @@ def test_a_handle_added_live_counts(live, begin):
     session = tick_to_rest(begin(obj, cubeness=0.9))
     assert np.abs(position_of(obj.data) - original)[left].max() > 1e-3
     bpy.ops.cubic_craft.handle_add(group=LEFT)
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert np.array_equal(position_of(obj.data)[left], original[left])
     live.live_properties().use_handles = False

@@ -163,7 +163,6 @@ def test_an_empty_that_is_added_moves_it_on_from_there(live, begin):
     tick_to_rest(session)
     check_right(obj, right, original, UP)
     empty.location.x += 1
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     wanted = mapped(original[right], UP) + np.float32([1, 0, 0])
     np.testing.assert_allclose(position_of(obj.data)[right], wanted, atol=1e-6)

@@ -4,10 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, wake_to_rest
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, wake_to_rest
 from mathutils import Euler, Matrix
 from rich_mesh import add_rich_monkey, points_of, position_of
-from scene import add_monkey, cubify, select
+from scene import cubify, select
 
 
 def set_origin(obj):

@@ -3,9 +3,9 @@
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from mathutils import Matrix
-from scene import add_monkey, add_triangles, select
+from scene import add_triangles, select
 
 
 def add_monkey_and_step():
@@ -146,14 +146,11 @@ def test_taking_back_ends_live_where_blender_has_undone_all_of_it(live, begin):
     bpy.data.objects["Frame"].location.x = 1.0
     bpy.ops.ed.undo_push(message="Moved")
     bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     bpy.ops.ed.redo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.take_back(), "the move is Blender's to undo"
     bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.is_ended
     assert session.take_back() and session.is_ended

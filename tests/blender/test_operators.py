@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from rich_mesh import add_rich_monkey, points_of, position_of
+from rich_mesh import add_rich_monkey, position_of
 from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, reports_of, select
 from snapshot import POSITIONS, STORED, differences, snapshot_object
 
@@ -92,19 +92,6 @@ def test_apply_keeps_the_shape_and_forgets_the_original():
     assert position_of(obj.data).tobytes() == cubic.tobytes()
     assert not [a.name for a in obj.data.attributes if a.name.startswith("cubic_craft")]
     assert not bpy.ops.cubic_craft.restore.poll()
-
-
-def test_saving_and_loading_between_cubify_and_restore_loses_nothing(reopen):
-    obj = add_rich_monkey(keys=True)
-    names = [key.name for key in obj.data.shape_keys.key_blocks]
-    before = {name: points_of(obj.data, name) for name in names}
-    cubify(cubeness=0.7)
-    obj = reopen("Suzanne")
-    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
-    select(obj)
-    bpy.ops.cubic_craft.restore()
-    for name, points in before.items():
-        assert points_of(obj.data, name).tobytes() == points.tobytes()
 
 
 def test_the_settings_of_the_object_are_used_and_kept():

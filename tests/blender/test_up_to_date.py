@@ -5,8 +5,9 @@ import importlib
 
 import bpy
 import pytest
+from live_steps import add_monkey
 from posing import LEFT, add_posable, follow
-from scene import add_empty, add_monkey, cubify, given, select
+from scene import add_empty, cubify, given, select
 
 
 @pytest.fixture
