@@ -16,11 +16,33 @@ __all__ = (
     "extension",
     "live",
     "one_phase",
+    "posed",
     "pytest_sessionfinish",
     "pytest_unconfigure",
+    "reopen",
 )
 
 pytest.register_assert_rewrite("live_steps")  # what fails there is then explained as in a test
+
+
+@pytest.fixture
+def posed(extension):
+    """Return `object_handles` of the installed extension."""
+    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
+    return importlib.import_module(module).object_handles
+
+
+@pytest.fixture
+def reopen(tmp_path):
+    """Return a function that saves the file, opens it anew and returns the object of a name."""
+
+    def save_and_open(name):
+        path = str(tmp_path / "file.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        return bpy.data.objects[name]
+
+    return save_and_open
 
 
 @pytest.fixture

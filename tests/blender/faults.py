@@ -26,21 +26,24 @@ class Place:
         return f"{self.file}:{self.line} {self.name}"
 
 
-def places(run, folder):
-    """Return the functions below a folder that an operator calls, and how often: {Place: int}."""
+def places(run, folder, *, in_operator=True):
+    """Return the functions below a folder that an operator calls, and how often: {Place: int}.
+
+    Without `in_operator` those are meant that are called in any way.
+    """
     found = {}
 
     def note(place):
         found[place] = found.get(place, 0) + 1
 
-    with _watching(folder, note):
+    with _watching(folder, note, in_operator):
         run()
     return found
 
 
 @contextlib.contextmanager
-def failing(place, error, folder, call=1):
-    """Let a function raise `error` when the operator enters it for the given time.
+def failing(place, error, folder, call=1, *, in_operator=True):
+    """Let a function raise `error` when it is entered for the given time, as in `places`.
 
     Yields a list that holds the place once it has raised.
     """
@@ -55,13 +58,13 @@ def failing(place, error, folder, call=1):
             raised.append(place)
             raise error
 
-    with _watching(folder, fail):
+    with _watching(folder, fail, in_operator):
         yield raised
 
 
 @contextlib.contextmanager
-def _watching(folder, on_call):
-    """Call `on_call(place)` for each call of a function below the folder, within `execute`.
+def _watching(folder, on_call, in_operator):
+    """Call `on_call(place)` for each call of a function below the folder, or those in `execute`.
 
     Of generators only for their begin: raising where one goes on would skip what it puts back, as
     no exception of the real world does.
@@ -76,7 +79,7 @@ def _watching(folder, on_call):
         code = frame.f_code
         if event != "call" or not code.co_filename.startswith(folder):
             return
-        if execute is None:
+        if in_operator and execute is None:
             if code.co_qualname.endswith(".execute"):
                 execute = frame
             return

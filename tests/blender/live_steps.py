@@ -5,8 +5,16 @@ import importlib
 
 import bpy
 import numpy as np
+import scene
 
 STEPS = 4000
+
+
+def add_monkey(name="Suzanne", **where):
+    """Add a monkey that is solved as it is: refined it would take several times as long."""
+    obj = scene.add_monkey(name, **where)
+    obj.cubic_craft.refine = "OFF"
+    return obj
 
 
 def bits(obj):
@@ -16,11 +24,12 @@ def bits(obj):
 
 
 def tick_to_rest(session):
+    bpy.context.view_layer.update()
     for _ in range(STEPS):
         session.tick(bpy.context)
         bpy.context.view_layer.update()
         if session.is_ended or session._timer is None:
-            return
+            return session
     raise AssertionError("Live does not come to rest")
 
 
@@ -29,8 +38,22 @@ def tick_to_sight(session):
     for _ in range(STEPS):
         session.tick(bpy.context)
         if all(mesh.is_seen for mesh in session.meshes):
-            return
+            return session
     raise AssertionError("Live shows nothing")
+
+
+def wake_to_rest(session):
+    """Let it see what has been done to the objects."""
+    session.wake()
+    tick_to_rest(session)
+
+
+def check_same_as_cubify(obj):
+    """Check that Cubify, with the settings that Live has left, gives the shape that is there."""
+    shape = bits(obj)
+    scene.select(obj)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(obj) == shape
 
 
 def confirm(live, session):

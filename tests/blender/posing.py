@@ -8,6 +8,8 @@ from scene import add_triangles, select
 
 LEFT, RIGHT = "Left", "Right"
 """vertex groups of `add_posable`"""
+IDENTITY = tuple(np.eye(4).ravel())
+"""the matrix of a handle at rest"""
 
 
 def add_posable(name="Body", **where):

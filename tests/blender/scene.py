@@ -4,6 +4,7 @@
 import contextlib
 import io
 
+import bmesh
 import bpy
 import numpy as np
 from mathutils import Euler, Matrix
@@ -17,6 +18,24 @@ def add_monkey(name="Suzanne", **where):
     return obj
 
 
+def add_empty(name, **where):
+    """Add an object without data; `where` are its location, rotation_euler or matrix_world."""
+    empty = bpy.data.objects.new(name, None)
+    bpy.context.collection.objects.link(empty)
+    for attribute, value in where.items():
+        setattr(empty, attribute, value)
+    return empty
+
+
+def add_copy(obj, *, is_linked=False):
+    """Add a copy of an object, which shares its mesh if `is_linked`."""
+    copy = obj.copy()
+    if not is_linked:
+        copy.data = obj.data.copy()
+    bpy.context.collection.objects.link(copy)
+    return copy
+
+
 def add_triangles():
     """Add a shape without symmetry, in one part and of triangles only."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
@@ -27,6 +46,29 @@ def add_triangles():
     obj.data.transform(Euler((0.1, 0.2, 0.05)).to_matrix().to_4x4())
     obj.data.update()
     return obj
+
+
+@contextlib.contextmanager
+def bmesh_of(mesh):
+    """Edit a mesh from outside of Edit Mode."""
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    edited.verts.ensure_lookup_table()
+    yield edited
+    edited.to_mesh(mesh)
+    edited.free()
+
+
+@contextlib.contextmanager
+def edit_mode(obj):
+    """Enter Edit Mode, leave it in the end; yields what is edited there."""
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    edited = bmesh.from_edit_mesh(obj.data)
+    edited.verts.ensure_lookup_table()
+    yield edited
+    bmesh.update_edit_mesh(obj.data)
+    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def select(*objects):

@@ -7,9 +7,10 @@ at: all attributes and all simple RNA properties of the version of Blender at ha
 `differences` names the paths that are not the same.
 """
 
+import contextlib
 import fnmatch
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import bpy
@@ -62,6 +63,14 @@ def differences(
     """Name the paths whose values differ, save those that match a pattern of `ignore`."""
     paths = [p for p in before | after if before.get(p, "absent") != after.get(p, "absent")]
     return [p for p in paths if not any(fnmatch.fnmatch(p, pattern) for pattern in ignore)]
+
+
+@contextlib.contextmanager
+def unchanged(obj: Any, ignore: Iterable[str] = ()) -> Iterator[None]:
+    """Check that an object is in the end as it was, save for what `ignore` says."""
+    before = snapshot_object(obj)
+    yield
+    assert differences(before, snapshot_object(obj), ignore) == []
 
 
 def snapshot_object(obj: Any) -> dict[str, Any]:

@@ -207,8 +207,7 @@ def test_where_the_map_is_0_the_surface_stays_to_the_bit(refine):
 
 @pytest.mark.parametrize("change", ["place", "solidity", "map", "together", "gone"])
 def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
-    session = begin(*trio, cubeness=0.5)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(*trio, cubeness=0.5))
     before = [bits(obj) for obj in trio]
     group = trio[1].vertex_groups.new(name="Map")
     group.add(range(100), 1.0, "REPLACE")
@@ -223,7 +222,6 @@ def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
     else:
         bpy.data.objects.remove(trio.pop())
         before.pop()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert [bits(obj) for obj in trio] != before
     assert len(session.meshes) == len(trio)
@@ -256,24 +254,20 @@ def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkey
     tick_to_rest(session)
     assert len(looked) == 1
     trio[1].location.x += 0.1
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert len(looked) == 2
     confirm(live, session)
 
 
 def test_live_goes_on_without_the_one_that_cannot_be_used(live, begin, trio):
-    session = begin(*trio)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(*trio))
     trio[2].cubic_craft.map_group = "Missing"
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     (problem,) = session.all_problems
     assert "Missing" in problem and "Mirrored" in problem
     assert session.mesh_of(trio[2]).solution is None
     assert session.mesh_of(trio[0]).solution.objects == 2
     trio[2].cubic_craft.map_group = ""
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.all_problems and session.mesh_of(trio[2]).solution.objects == 3
     confirm(live, session)

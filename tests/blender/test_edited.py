@@ -8,9 +8,9 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits, confirm, tick_to_rest
+from live_steps import add_monkey, bits, confirm, tick_to_rest
 from rich_mesh import position_of
-from scene import add_monkey, cubify, reports_of, select
+from scene import cubify, reports_of, select
 
 
 @pytest.fixture
@@ -103,8 +103,7 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
             bpy.ops.object.transform_apply(scale=True)
         changed = bits(obj)
         if is_live:
-            session = begin(obj, start=start, cubeness=0.3)
-            tick_to_rest(session)
+            session = tick_to_rest(begin(obj, start=start, cubeness=0.3))
             session.on(live.Event.CANCEL)
             assert bits(obj) == changed and obj.cubic_craft.start == start
             session = begin(obj)

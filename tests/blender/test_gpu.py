@@ -37,8 +37,7 @@ def test_cubify_gives_the_shape_of_numpy_and_restore_the_original_bits():
 
 def test_live_leaves_the_bits_of_cubify(live, begin):
     twin, obj = add_triangles(), add_triangles()
-    session = begin(obj, device="GPU", cubeness=0.2)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, device="GPU", cubeness=0.2))
     live.live_properties().cubeness = 0.5
     confirm(live, session)
     check_gone(live)

@@ -8,18 +8,9 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from posing import LEFT, RIGHT, add_posable, follow, pin, pose
+from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, pin, pose
 from rich_mesh import position_of
-from scene import add_monkey, cubify, select
-
-IDENTITY = tuple(np.eye(4).ravel())
-
-
-@pytest.fixture
-def posed(extension):
-    """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
-    return importlib.import_module(module).object_handles
+from scene import add_empty, add_monkey, cubify, select
 
 
 @pytest.fixture
@@ -233,8 +224,7 @@ def test_remove_leaves_a_target_that_something_else_uses(use):
     elif use == "child":
         add_monkey().parent = empty
     else:
-        empty = bpy.data.objects.new("Target", None)
-        bpy.context.collection.objects.link(empty)
+        empty = add_empty("Target")
         obj.cubic_craft.handles[1].target = empty
     select(obj)
     bpy.ops.cubic_craft.handle_remove()
@@ -255,9 +245,7 @@ def test_move_changes_places_and_stops_at_the_ends():
 def test_reset_pose_puts_every_target_back(posed):
     obj, _, _ = add_posable(location=(5, 6, 7), rotation_euler=(1, 2, 3))
     own = pose(obj)
-    free = bpy.data.objects.new("Target", None)
-    bpy.context.collection.objects.link(free)
-    free.location = (5, 7, 7)
+    free = add_empty("Target", location=(5, 7, 7))
     select(obj)
     obj.cubic_craft.handles[0].target = free
     place = own.matrix_basis.copy()

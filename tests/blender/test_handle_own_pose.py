@@ -1,25 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pose that a handle has of itself: where it counts, and what becomes of it."""
 
-import importlib
-
 import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from posing import LEFT, RIGHT, add_posable, follow, mapped, pin
+from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin
 from rich_mesh import position_of
 from scene import cubify, given, select
 
-IDENTITY = tuple(np.eye(4).ravel())
 BENT = Matrix.LocRotScale((0.4, -0.2, 0.5), Matrix.Rotation(0.6, 3, "Y"), (1.2, 0.8, 1.5))
-
-
-@pytest.fixture
-def posed(extension):
-    """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
-    return importlib.import_module(module).object_handles
 
 
 def numbers(matrix):
@@ -81,15 +71,12 @@ def test_reset_pose_takes_it_away_in_one_undo_step():
     assert not bpy.ops.cubic_craft.handle_reset_pose.poll()
 
 
-def test_it_is_saved_and_copied(posed, tmp_path):
+def test_it_is_saved_and_copied(posed, reopen):
     obj, _, _ = add_bent()
     select(obj)
     bpy.ops.object.duplicate()
     bpy.context.object.name = "Copy"
-    path = str(tmp_path / "bent.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    one, other = (bpy.data.objects[name] for name in ("Body", "Copy"))
+    one, other = reopen("Body"), bpy.data.objects["Copy"]
     assert posed(one)[1].matrix == posed(other)[1].matrix == numbers(BENT)
     other.cubic_craft.handles[1].pose = Matrix()
     assert posed(one)[1].matrix == numbers(BENT), "a copy has a pose of its own"

@@ -69,8 +69,7 @@ def test_what_follows_an_object_is_moved_by_that(places, live, begin):
     obj, _, _ = add_posable()
     pin(obj, LEFT)
     empty = follow(obj, RIGHT)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     middles = places.Middles()
     assert [place.number for place in places.places_of(obj, middles)] == [0]
     select(empty)
@@ -83,8 +82,7 @@ def test_what_follows_an_object_is_moved_by_that(places, live, begin):
 def test_the_list_may_change_while_live_runs(places, live, begin):
     obj, _, right = add_pinned()
     rest = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     middles = places.Middles()
     before = [place.centre for place in places.places_of(obj, middles)]
     obj.cubic_craft.active_handle = 1
@@ -109,8 +107,7 @@ def test_only_a_live_mesh_has_them(places, live, begin):
     other, _, _ = add_posable(name="Other", location=(4, 0, 0))
     pin(other, LEFT)
     assert places.live_object(bpy.context) is None
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     assert places.live_object(bpy.context) == obj
     select(other)
     assert places.live_object(bpy.context) is None
@@ -121,6 +118,5 @@ def test_only_a_live_mesh_has_them(places, live, begin):
     obj.hide_set(False)
     bpy.context.view_layer.objects.active = obj
     obj.scale.x = 0.0
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert places.places_of(obj, places.Middles()) == [], "no motion of the world could be mapped"

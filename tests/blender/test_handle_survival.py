@@ -1,23 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What becomes of a pose when object and empties are renamed, saved, copied or moved."""
 
-import importlib
-
 import bpy
 import numpy as np
-import pytest
 from posing import LEFT, RIGHT, add_posable, mapped, pose
 from rich_mesh import position_of
-from scene import cubify, select
+from scene import add_empty, cubify, select
 
 FAR = {"location": (40, -30, 20), "rotation_euler": (1, 2, 3), "scale": (2, 2, 2)}
-
-
-@pytest.fixture
-def posed(extension):
-    """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
-    return importlib.import_module(module).object_handles
 
 
 def put(obj, where):
@@ -40,29 +30,23 @@ def test_renaming_object_and_empty(posed):
     assert posed(obj) == before
 
 
-def test_saving_and_loading(posed, tmp_path):
+def test_saving_and_loading(posed, reopen):
     obj, left, right = add_posable(**FAR)
     pose(obj)
     before, original = posed(obj), position_of(obj.data)
-    path = str(tmp_path / "posed.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Body"]
+    obj = reopen("Body")
     assert posed(obj) == before
     after = solved(obj)
     np.testing.assert_allclose(after[right], mapped(original[right], before[1].matrix), atol=1e-6)
     assert after[left].tobytes() == original[left].tobytes()
 
 
-def test_a_deleted_target_stays_deleted_in_the_file(posed, tmp_path):
+def test_a_deleted_target_stays_deleted_in_the_file(posed, reopen):
     obj, _, _ = add_posable()
     select(pose(obj))
     bpy.ops.object.delete()
     before = posed(obj)
-    path = str(tmp_path / "deleted.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert posed(bpy.data.objects["Body"]) == before
+    assert posed(reopen("Body")) == before
 
 
 def duplicate(*objects, linked=False):
@@ -135,8 +119,7 @@ def test_parents_of_the_object_do_not_matter(posed):
     obj, _, _ = add_posable()
     pose(obj)
     before = posed(obj)
-    parent = bpy.data.objects.new("Parent", None)
-    bpy.context.collection.objects.link(parent)
+    parent = add_empty("Parent")
     obj.parent = parent
     put(parent, FAR)
     assert posed(obj) == before
@@ -158,9 +141,7 @@ def test_an_empty_that_is_animated_poses_frame_by_frame(posed):
 def test_an_empty_with_a_constraint_goes_where_that_puts_it(posed):
     obj, _, _ = add_posable(location=(1, 2, 3))
     empty = pose(obj)
-    other = bpy.data.objects.new("Other", None)
-    bpy.context.collection.objects.link(other)
-    other.location = (4, 4, 4)
+    other = add_empty("Other", location=(4, 4, 4))
     empty.constraints.new("COPY_LOCATION").target = other
     bpy.context.view_layer.update()
     matrix = np.reshape(posed(obj)[1].matrix, (4, 4))
@@ -182,13 +163,10 @@ def test_renaming_a_vertex_group(posed):
     assert solved(obj)[left].tobytes() == before[left].tobytes()
 
 
-def test_renaming_a_vertex_group_after_loading(tmp_path):
+def test_renaming_a_vertex_group_after_loading(reopen):
     obj, _, _ = add_posable()
     pose(obj)
-    path = str(tmp_path / "posed.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Body"]
+    obj = reopen("Body")
     obj.vertex_groups[LEFT].name = "Foot"
     bpy.context.view_layer.update()
     assert [handle.group for handle in obj.cubic_craft.handles] == ["Foot", RIGHT]

@@ -1,24 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Handles: what is held stays or goes where it is told, and the rest follows."""
 
-import importlib
-
 import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from posing import LEFT, RIGHT, add_posable, follow, mapped, pin, pose
+from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin, pose
 from rich_mesh import position_of
-from scene import cubify, given, reports_of, select
-
-IDENTITY = tuple(np.eye(4).ravel())
-
-
-@pytest.fixture
-def posed(extension):
-    """Return `object_handles` of the installed extension."""
-    module = f"{extension.__name__}.cubic_craft_addon.handles.pose"
-    return importlib.import_module(module).object_handles
+from scene import add_copy, add_empty, cubify, given, reports_of, select
 
 
 @pytest.mark.parametrize("cubeness", [0.0, 0.6])
@@ -147,9 +136,7 @@ def test_a_deleted_target_leaves_the_vertices_at_rest_and_undo_of_it_would_not(p
 
 
 def test_any_object_can_be_the_target_of_several_meshes(posed):
-    target = bpy.data.objects.new("Target", None)
-    bpy.context.collection.objects.link(target)
-    target.location = (1, 2, 3)
+    target = add_empty("Target", location=(1, 2, 3))
     objects = [add_posable(name, location=(n, 0, 0))[0] for n, name in enumerate("AB")]
     for obj in objects:
         pin(obj, RIGHT).target = target
@@ -199,12 +186,9 @@ def test_moving_the_object_with_its_empty_changes_no_bit(posed):
 
 def test_moving_object_and_free_target_together_keeps_a_still_handle_exactly_still(posed):
     obj, _, _ = add_posable(location=(10, 20, 30))
-    target = bpy.data.objects.new("Target", None)
-    bpy.context.collection.objects.link(target)
-    target.location = (11, 20, 30)
+    target = add_empty("Target", location=(11, 20, 30))
     pin(obj, RIGHT).target = target
-    parent = bpy.data.objects.new("Both", None)
-    bpy.context.collection.objects.link(parent)
+    parent = add_empty("Both")
     for child in (obj, target):
         child.parent = parent
     for _ in move_about(parent):
@@ -214,8 +198,7 @@ def test_moving_object_and_free_target_together_keeps_a_still_handle_exactly_sti
 @pytest.mark.parametrize("culprit", ["target", "object"])
 def test_a_scale_of_zero_is_refused_with_the_cure(posed, culprit):
     obj, _, _ = add_posable()
-    target = bpy.data.objects.new("Target", None)
-    bpy.context.collection.objects.link(target)
+    target = add_empty("Target")
     pin(obj, RIGHT).target = target
     (target if culprit == "target" else obj).scale = (0, 1, 1)
     bpy.context.view_layer.update()
@@ -227,8 +210,7 @@ def test_a_scale_of_zero_is_refused_with_the_cure(posed, culprit):
 
 def test_a_target_of_zero_scale_is_not_taken(posed):
     obj, _, _ = add_posable()
-    target = bpy.data.objects.new("Target", None)
-    bpy.context.collection.objects.link(target)
+    target = add_empty("Target")
     target.scale.x = 0
     handle = pin(obj, RIGHT)
     handle.target = target
@@ -342,8 +324,7 @@ def test_a_pose_that_is_not_in_the_mesh_is_still_done_after_apply(posed, how):
 def test_apply_counts_for_all_objects_that_share_the_mesh(posed):
     obj, _, _ = add_posable()
     pose(obj)
-    twin = obj.copy()
-    bpy.context.collection.objects.link(twin)
+    twin = add_copy(obj, is_linked=True)
     twin.location.x = 5
     select(obj)
     cubify()

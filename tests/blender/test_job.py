@@ -5,9 +5,9 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits
+from live_steps import add_monkey, bits
 from mathutils import Matrix
-from scene import add_monkey, cubify, select
+from scene import cubify, select
 
 
 @pytest.fixture

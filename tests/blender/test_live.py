@@ -7,18 +7,17 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from rich_mesh import add_rich_monkey
-from scene import add_monkey, add_triangles, cubify, select
+from scene import add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh, snapshot_object
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
-    twin = add_monkey("Twin")
-    obj = add_monkey()
-    session = begin(obj, result=result, cubeness=0.7)
-    tick_to_rest(session)
+    twin, obj = add_monkey("Twin"), add_monkey()
+    twin.cubic_craft.refine = obj.cubic_craft.refine = "AUTO"  # the default
+    session = tick_to_rest(begin(obj, result=result, cubeness=0.7))
     confirm(live, session)
     check_gone(live)
     one = snapshot_mesh(bpy.context.object.data)
@@ -48,8 +47,7 @@ def test_the_path_does_not_matter(live, begin):
 def test_a_change_that_had_to_wait_is_not_forgotten(live, begin, one_phase):
     """Runs are left alone until they are seen; confirming at once must not write such a run."""
     twin, obj = add_monkey("Twin"), add_monkey()
-    session = begin(obj, cubeness=0.2)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, cubeness=0.2))
     live.live_properties().cubeness = 0.6
     session.tick(bpy.context)
     session._last_restart = float("inf")  # the run stays young until it has ended
@@ -63,8 +61,7 @@ def test_a_change_that_had_to_wait_is_not_forgotten(live, begin, one_phase):
 
 def test_a_change_restarts_within_one_tick(live, begin, one_phase):
     obj = add_triangles()
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     assert session.meshes[0].iteration > 10
     live.live_properties().cubeness = 0.8
     assert session._timer is not None, "the change has not woken it"
@@ -103,8 +100,7 @@ def test_cancelling_leaves_all_as_before(live, begin, cubified):
 
 def test_idle_does_nothing_until_something_happens(live, begin):
     obj = add_monkey()
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     assert session._timer is None
     bpy.context.view_layer.update()  # the last change of Live itself does not wake it
     assert session._timer is None
@@ -165,8 +161,7 @@ def test_a_mesh_of_two_objects_is_solved_once(live, begin):
 
 def test_shape_keys_are_carried_along_in_the_preview(live, begin):
     obj = add_rich_monkey(keys=True)
-    session = begin(obj, cubeness=0.8)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, cubeness=0.8))
     shown = {key.name: bytes(_points(key)) for key in obj.data.shape_keys.key_blocks}
     confirm(live, session)
     written = {key.name: bytes(_points(key)) for key in obj.data.shape_keys.key_blocks}

@@ -5,16 +5,15 @@ import importlib
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
-from scene import add_monkey, select
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from scene import select
 
 
 @pytest.mark.parametrize("is_at_rest", [False, True])
 @pytest.mark.parametrize("how", ["operator", "data"])
 def test_deleting_the_object_ends_it(live, begin, how, is_at_rest):
     obj = add_monkey()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     if is_at_rest:
         tick_to_rest(session)
     if how == "operator":
@@ -45,8 +44,7 @@ def test_deleting_one_of_two_goes_on_with_the_other(live, begin):
 
 def test_renaming_does_not_matter(live, begin):
     obj = add_monkey()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     obj.name, obj.data.name = "Other", "Mesh"
     confirm(live, session)
     assert session.summary
@@ -55,8 +53,7 @@ def test_renaming_does_not_matter(live, begin):
 def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
     obj = add_monkey()
     old, original = obj.data, bits(obj)
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     obj.data = bpy.data.meshes.new("Another")
     session.tick(bpy.context)
     assert session.is_ended
@@ -69,8 +66,7 @@ def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
 def test_another_mode_cancels_it(live, begin, mode):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     bpy.ops.object.mode_set(mode=mode)
     session.tick(bpy.context)
     assert session.is_ended and not session.error
@@ -82,8 +78,7 @@ def test_another_mode_cancels_it(live, begin, mode):
 def test_a_file_saved_in_the_middle_has_the_mesh_as_before(live, begin, tmp_path):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     shown = bits(obj)
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
@@ -101,8 +96,7 @@ def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp
     """As Blender's autosave does, which tells nobody."""
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     path = str(tmp_path / "behind.blend")
     bpy.data.libraries.write(path, {bpy.context.scene})
     session.on(live.Event.CANCEL)
@@ -114,8 +108,7 @@ def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp
 def test_disabling_the_extension_ends_it(live, begin, extension):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     try:
         assert session.is_ended and bits(obj) == original
@@ -131,8 +124,7 @@ def test_an_exception_in_the_solver_loses_nothing(
 ):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     solver = importlib.import_module(f"{extension.__name__}.solver")
 
     def fail(*_args, **_options):
@@ -150,8 +142,7 @@ def test_a_run_that_is_lost_on_the_gpu_can_be_started_again(
     live, begin, one_phase, extension, monkeypatch
 ):
     obj = add_monkey()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     solver = importlib.import_module(f"{extension.__name__}.solver")
 
     def fail(*_args):
@@ -169,8 +160,7 @@ def test_a_run_that_is_lost_on_the_gpu_can_be_started_again(
 def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkeypatch):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     room = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.result"
     results = importlib.import_module(f"{room}.results")
 
@@ -189,8 +179,7 @@ def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkey
 def test_another_add_on_that_resets_taichi_does_no_harm(live, begin, one_phase):
     ti = pytest.importorskip("taichi")
     twin, obj = add_monkey("Twin"), add_monkey()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     ti.init(arch=ti.cpu, default_fp=ti.f32, log_level=ti.WARN)
     session.tick(bpy.context)
     ti.reset()

@@ -4,55 +4,44 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import STEPS, bits, confirm, tick_to_rest
+from live_steps import STEPS, add_monkey, bits, check_same_as_cubify, confirm, tick_to_rest
 from posing import LEFT, RIGHT, add_posable, follow, pin, pose
 from rich_mesh import position_of
-from scene import add_monkey, add_triangles, select
+from scene import add_empty, add_triangles
 
 
 def test_the_frame_object_restarts_it(live, begin):
     obj = add_triangles()
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
+    frame = add_empty("Frame")
     session = begin(obj, space="FRAME", frame=frame)
     assert live.live_properties().frame == "Frame"
     tick_to_rest(session)
     before = bits(obj)
     frame.rotation_euler = (0.3, 0.2, 0.5)
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
-    shape = bits(obj)
-    bpy.ops.cubic_craft.cubify()
-    assert bits(obj) == shape
+    check_same_as_cubify(obj)
 
 
 def test_it_follows_the_object_that_is_turned_in_the_world(live, begin):
     obj = add_monkey()
-    session = begin(obj, together="PARTS")
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, together="PARTS"))
     before = bits(obj)
     obj.location.x += 1.0
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) == before, "where it stands does not matter"
     obj.rotation_euler.z = 0.6
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
-    shape = bits(obj)
-    bpy.ops.cubic_craft.cubify()
-    assert bits(obj) == shape
+    check_same_as_cubify(obj)
 
 
 def test_the_frame_object_may_be_deleted(live, begin):
     obj = add_monkey()
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
-    session = begin(obj, space="FRAME", frame=frame)
-    tick_to_rest(session)
+    frame = add_empty("Frame")
+    session = tick_to_rest(begin(obj, space="FRAME", frame=frame))
     bpy.data.objects.remove(frame)
     live.live_properties().cubeness = 0.5
     tick_to_rest(session)
@@ -66,8 +55,7 @@ def test_painted_weights_restart_it(live, begin):
     obj = add_triangles()
     group = obj.vertex_groups.new(name="Map")
     group.add(range(len(obj.data.vertices)), 1.0, "REPLACE")
-    session = begin(obj, map_group="Map", cubeness=0.8)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, map_group="Map", cubeness=0.8))
     before = bits(obj)
     bpy.context.view_layer.update()
     group.add(range(len(obj.data.vertices) // 2), 0.0, "REPLACE")
@@ -77,9 +65,7 @@ def test_painted_weights_restart_it(live, begin):
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
-    shape = bits(obj)
-    bpy.ops.cubic_craft.cubify()
-    assert bits(obj) == shape
+    check_same_as_cubify(obj)
 
 
 def test_weights_changed_before_the_last_shape_is_evaluated_count(live, begin):
@@ -116,8 +102,7 @@ def test_a_handle_is_posed_live(live, begin):
     obj, _, right = add_posable()
     pin(obj, LEFT)
     empty = follow(obj, RIGHT)
-    session = begin(obj, cubeness=0.0)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, cubeness=0.0))
     before = position_of(obj.data)
     empty.location.x += 0.7
     bpy.context.view_layer.update()
@@ -127,20 +112,15 @@ def test_a_handle_is_posed_live(live, begin):
     np.testing.assert_allclose(moved[right], [[0.7, 0.0, 0.0]] * len(right), atol=1e-5)
     assert not session.take_back(), "Ctrl-Z is for Blender, which has moved the empty"
     confirm(live, session)
-    shape = bits(obj)
-    select(obj)
-    bpy.ops.cubic_craft.cubify()
-    assert bits(obj) == shape
+    check_same_as_cubify(obj)
 
 
 def test_a_handle_added_live_counts(live, begin):
     obj, left, _ = add_posable()
     original = position_of(obj.data)
-    session = begin(obj, cubeness=0.9)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, cubeness=0.9))
     assert np.abs(position_of(obj.data) - original)[left].max() > 1e-3
     bpy.ops.cubic_craft.handle_add(group=LEFT)
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert np.array_equal(position_of(obj.data)[left], original[left])
     live.live_properties().use_handles = False
@@ -164,8 +144,7 @@ def test_moving_object_and_handles_together_restarts_nothing(live, begin):
 
 def test_a_setting_that_cannot_be_used_waits_for_a_better_one(live, begin):
     obj = add_monkey()
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     live.live_properties().map_group = "Missing"
     tick_to_rest(session)
     assert "Missing" in session.all_problems[0]

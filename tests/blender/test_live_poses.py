@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from live_steps import bits, check_gone, confirm, tick_to_rest
 from mathutils import Matrix
-from posing import LEFT, RIGHT, add_posable, follow, mapped, pin
+from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin
 from rich_mesh import position_of
 from scene import select
 
@@ -14,7 +14,6 @@ UP, FAR_UP = (
     tuple(np.array(Matrix.Translation((0, 0, z)), dtype=np.float32).astype(float).ravel())
     for z in (0.5, 1.25)
 )
-IDENTITY = tuple(np.eye(4).ravel())
 
 
 def add_pinned():
@@ -37,8 +36,7 @@ def check_right(obj, right, original, pose):
 def test_confirming_keeps_the_pose_and_leaves_the_bits_of_cubify(live, begin):
     obj, right = add_pinned()
     original = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     live.set_pose(obj, handle_of(obj), UP)
     assert session._timer is not None, "the pose has not woken it"
     assert handle_of(obj).pose == Matrix(), "until Live is confirmed the object keeps its own"
@@ -62,14 +60,18 @@ def test_cancelling_leaves_the_pose_from_before(live, begin, before):
     obj, _ = add_pinned()
     handle_of(obj).pose = Matrix(np.reshape(before, (4, 4)).tolist())
     original = bits(obj)
-    session = begin(obj)
-    tick_to_rest(session)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
+    session = raised(live, begin(obj), obj)
     session.on(live.Event.CANCEL)
     check_gone(live)
     assert live.pose_of(obj, handle_of(obj)) == before
     assert bits(obj) == original
+
+
+def raised(live, session, obj):
+    """Let it come to rest before and after the handle is moved up; returns the session."""
+    tick_to_rest(session)
+    live.set_pose(obj, handle_of(obj), UP)
+    return tick_to_rest(session)
 
 
 def drag(live, session, obj, *poses):
@@ -87,8 +89,7 @@ def test_every_drag_is_one_change_to_take_back(live, begin, monkeypatch):
     monkeypatch.setattr(f"{live.__name__}.history.PAUSE", 0.0)  # as if it took long
     obj, right = add_pinned()
     original = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     at_rest = bits(obj)
     drag(live, session, obj, UP, FAR_UP)
     monkeypatch.setattr(f"{live.__name__}.history.PAUSE", 1e9)  # as if the next came at once
@@ -108,8 +109,7 @@ def test_reset_pose_is_a_change_to_take_back(live, begin):
     obj, right = add_pinned()
     original = position_of(obj.data)
     handle_of(obj).pose = Matrix.Translation((0, 0, 0.5))
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     check_right(obj, right, original, UP)
     assert bpy.ops.cubic_craft.handle_reset_pose("EXEC_DEFAULT", True) == {"CANCELLED"}
     tick_to_rest(session)
@@ -124,10 +124,7 @@ def test_reset_pose_is_a_change_to_take_back(live, begin):
 def test_blenders_undo_steps_leave_the_poses_of_live(live, begin):
     obj, right = add_pinned()
     original, name = position_of(obj.data), obj.name
-    session = begin(obj)
-    tick_to_rest(session)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
+    session = raised(live, begin(obj), obj)
     obj.cubic_craft.active_handle = 1
     assert bpy.ops.cubic_craft.handle_move("EXEC_DEFAULT", True, direction="UP") == {"FINISHED"}
     tick_to_rest(session)
@@ -145,10 +142,7 @@ def test_blenders_undo_steps_leave_the_poses_of_live(live, begin):
 def test_a_file_saved_in_the_middle_has_the_pose_from_before(live, begin, tmp_path):
     obj, right = add_pinned()
     original = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
+    session = raised(live, begin(obj), obj)
     path = str(tmp_path / "middle.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
     tick_to_rest(session)
@@ -162,17 +156,13 @@ def test_a_file_saved_in_the_middle_has_the_pose_from_before(live, begin, tmp_pa
 def test_an_empty_that_is_added_moves_it_on_from_there(live, begin):
     obj, right = add_pinned()
     original = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
+    session = raised(live, begin(obj), obj)
     obj.cubic_craft.active_handle = 1
     assert bpy.ops.cubic_craft.handle_follow() == {"FINISHED"}
     empty = bpy.context.object
     tick_to_rest(session)
     check_right(obj, right, original, UP)
     empty.location.x += 1
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     wanted = mapped(original[right], UP) + np.float32([1, 0, 0])
     np.testing.assert_allclose(position_of(obj.data)[right], wanted, atol=1e-6)
@@ -181,10 +171,7 @@ def test_an_empty_that_is_added_moves_it_on_from_there(live, begin):
 def test_a_new_object_takes_the_pose_and_the_old_one_keeps_its_own(live, begin):
     obj, right = add_pinned()
     original = position_of(obj.data)
-    session = begin(obj, result="NEW_OBJECT")
-    tick_to_rest(session)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
+    session = raised(live, begin(obj, result="NEW_OBJECT"), obj)
     confirm(live, session)
     made = bpy.context.object
     assert made != obj and bits(obj) == original.tobytes()
@@ -199,8 +186,7 @@ def test_of_two_objects_each_has_its_poses(live, begin):
     pin(other, LEFT)
     empty = follow(other, RIGHT)
     original = position_of(obj.data)
-    session = begin(obj, other, together="OFF")
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, other, together="OFF"))
     before = bits(other)
     live.set_pose(obj, handle_of(obj), UP)
     tick_to_rest(session)

@@ -4,10 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, wake_to_rest
 from mathutils import Euler, Matrix
 from rich_mesh import add_rich_monkey, points_of, position_of
-from scene import add_monkey, cubify, select
+from scene import cubify, select
 
 
 def set_origin(obj):
@@ -34,8 +34,7 @@ def begin_on_monkey(begin, transform, was_cubic):
         bpy.context.view_layer.update()
     if was_cubic:
         cubify()
-    session = begin(obj, cubeness=0.8)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj, cubeness=0.8))
     return obj, before, session
 
 
@@ -51,9 +50,7 @@ def test_the_original_goes_along(begin, live, transform, ending, was_cubic):
     obj, before, session = begin_on_monkey(begin, transform, was_cubic)
     way = transform(obj)
     if ending != "cancel at once":
-        bpy.context.view_layer.update()
-        session.wake()
-        tick_to_rest(session)
+        wake_to_rest(session)
     if ending == "confirm":
         confirm(live, session)
     else:
@@ -71,8 +68,7 @@ def test_confirming_gives_what_cubify_gives_of_the_transformed_mesh(begin, live,
     transform(other)
     cubify(max_iterations=1000)
     select(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     transform(obj)
     bpy.context.view_layer.update()
     session.wake()
@@ -83,13 +79,10 @@ def test_confirming_gives_what_cubify_gives_of_the_transformed_mesh(begin, live,
 def test_a_shape_key_that_is_added_is_taken_in(begin, live):
     obj = add_monkey()
     before = position_of(obj.data)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     for _ in range(2):
         bpy.ops.object.shape_key_add(from_mix=False)
-        bpy.context.view_layer.update()
-        session.wake()
-        tick_to_rest(session)
+        wake_to_rest(session)
     confirm(live, session)
     assert len(obj.data.shape_keys.key_blocks) == 2
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
@@ -100,12 +93,9 @@ def test_shape_keys_go_along(begin, live):
     obj = add_rich_monkey(keys=True)
     smile = points_of(obj.data, "Smile")
     select(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     set_origin(obj)
-    bpy.context.view_layer.update()
-    session.wake()
-    tick_to_rest(session)
+    wake_to_rest(session)
     session.on(live.Event.CANCEL)
     offset = points_of(obj.data, "Smile") - smile
     assert np.linalg.norm(offset[0]) > 0.1
@@ -124,9 +114,7 @@ def test_it_does_so_after_an_undo_to_the_moment_of_the_transform(
     bpy.ops.ed.undo_push(message="Live")
     way = transform(obj)
     bpy.ops.ed.undo_push(message="Transform")
-    bpy.context.view_layer.update()
-    session.wake()
-    tick_to_rest(session)
+    wake_to_rest(session)
     bpy.ops.ed.undo_push(message="Something else")
     if not is_live:
         session.on(live.Event.CANCEL)

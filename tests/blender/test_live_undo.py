@@ -3,9 +3,9 @@
 
 import bpy
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
 from mathutils import Matrix
-from scene import add_monkey, add_triangles, select
+from scene import add_triangles, select
 
 
 def add_monkey_and_step():
@@ -21,8 +21,7 @@ def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
     obj.location.x = 1.0
     bpy.ops.ed.undo_push(message="Moved")
     original = bits(obj)
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     assert bits(obj) != original
     bpy.ops.ed.undo()
     obj = bpy.data.objects["Suzanne"]
@@ -37,8 +36,7 @@ def test_undo_goes_on_with_what_blender_has_brought_back(live, begin):
 
 def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
     obj, original = add_monkey_and_step()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     bpy.data.objects["Suzanne"].location.x = 1.0
     bpy.ops.ed.undo_push(message="Moved in the middle of Live")
     session.tick(bpy.context)
@@ -53,8 +51,7 @@ def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
 
 def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
     obj, original = add_monkey_and_step()
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     bpy.ops.object.mode_set(mode="EDIT")
     # It holds the preview, and the attributes, but not the note: that is Edit Mode's way.
     bpy.ops.ed.undo_push(message="Toggle Edit Mode")
@@ -70,8 +67,7 @@ def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
 
 def test_a_step_of_live_comes_back_sound_out_of_edit_mode(live, begin):
     obj, original = add_monkey_and_step()
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     bpy.ops.ed.undo_push(message="Select")
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.ed.undo_push(message="Toggle Edit Mode")
@@ -90,8 +86,7 @@ def test_undo_of_the_object_ends_it(live, begin):
     bpy.ops.ed.undo_push(message="Empty")
     obj = add_monkey()
     bpy.ops.ed.undo_push(message="Monkey")
-    session = begin(obj)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj))
     bpy.ops.ed.undo()
     assert "Suzanne" not in bpy.data.objects
     session.tick(bpy.context)
@@ -104,8 +99,7 @@ def test_undo_to_another_shape_starts_from_that(live, begin):
     bpy.ops.ed.undo_push(message="Monkey")
     obj.data.transform(Matrix.Scale(2.0, 4, (1, 0, 0)))
     bpy.ops.ed.undo_push(message="Stretched")
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     bpy.ops.ed.undo()
     confirm(live, session)
     obj = bpy.data.objects["Suzanne"]
@@ -119,8 +113,7 @@ def test_undo_to_another_shape_starts_from_that(live, begin):
 def test_taking_back_goes_through_the_settings_first(live, begin):
     obj = add_monkey()
     original = bits(obj)
-    session = begin(obj, cubeness=0.4)
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj, cubeness=0.4))
     live.live_properties().cubeness = 0.9
     session.tick(bpy.context)
     assert session.take_back()
@@ -133,8 +126,7 @@ def test_taking_back_goes_through_the_settings_first(live, begin):
 
 def test_taking_back_leaves_moved_objects_to_blender(live, begin):
     obj = add_monkey()
-    session = begin(obj, space="WORLD")
-    tick_to_sight(session)
+    session = tick_to_sight(begin(obj, space="WORLD"))
     obj.rotation_euler.x = 0.5
     bpy.context.view_layer.update()
     session.tick(bpy.context)
@@ -150,19 +142,15 @@ def test_taking_back_ends_live_where_blender_has_undone_all_of_it(live, begin):
     obj.cubic_craft.space, obj.cubic_craft.frame = "FRAME", frame
     bpy.ops.ed.undo_push(message="Before Live")
     name, original = obj.name, bits(obj)
-    session = begin(obj)
-    tick_to_rest(session)
+    session = tick_to_rest(begin(obj))
     bpy.data.objects["Frame"].location.x = 1.0
     bpy.ops.ed.undo_push(message="Moved")
     bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     bpy.ops.ed.redo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.take_back(), "the move is Blender's to undo"
     bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
     tick_to_rest(session)
     assert not session.is_ended
     assert session.take_back() and session.is_ended

@@ -4,8 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from rich_mesh import add_rich_monkey, points_of, position_of
-from scene import add_monkey, add_triangles, cubify, reports_of, select
+from rich_mesh import add_rich_monkey, position_of
+from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, reports_of, select
 from snapshot import POSITIONS, STORED, differences, snapshot_object
 
 # What a run leaves on the object beside its mesh: its settings and the text of its last run.
@@ -94,22 +94,6 @@ def test_apply_keeps_the_shape_and_forgets_the_original():
     assert not bpy.ops.cubic_craft.restore.poll()
 
 
-def test_saving_and_loading_between_cubify_and_restore_loses_nothing(tmp_path):
-    obj = add_rich_monkey(keys=True)
-    names = [key.name for key in obj.data.shape_keys.key_blocks]
-    before = {name: points_of(obj.data, name) for name in names}
-    cubify(cubeness=0.7)
-    path = str(tmp_path / "file.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Suzanne"]
-    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
-    select(obj)
-    bpy.ops.cubic_craft.restore()
-    for name, points in before.items():
-        assert points_of(obj.data, name).tobytes() == points.tobytes()
-
-
 def test_the_settings_of_the_object_are_used_and_kept():
     obj = add_monkey()
     obj.cubic_craft.cubeness = 0.7
@@ -136,8 +120,7 @@ def test_the_settings_of_the_active_object_are_those_of_all():
 
 def test_several_objects_and_a_shared_mesh():
     first = add_monkey("First")
-    twin = first.copy()
-    bpy.context.collection.objects.link(twin)
+    twin = add_copy(first, is_linked=True)
     other = add_monkey("Other", location=(3, 0, 0))
     select(other, first, twin)
     before = position_of(first.data)
@@ -151,8 +134,7 @@ def test_several_objects_and_a_shared_mesh():
 
 def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
     first = add_monkey("First")
-    twin = first.copy()
-    bpy.context.collection.objects.link(twin)
+    twin = add_copy(first, is_linked=True)
     twin.scale, twin.rotation_euler = (1.0, 1.0, 3.0), (0.5, 0.0, 0.0)
     bpy.context.view_layer.update()
     select(first, twin)
@@ -168,9 +150,8 @@ def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
 
 def test_the_object_that_differs_from_its_twin_is_named():
     first = add_monkey("First")
-    twin = first.copy()
+    twin = add_copy(first, is_linked=True)
     twin.name = "Twin"
-    bpy.context.collection.objects.link(twin)
     twin.scale.z = 3.0
     bpy.context.view_layer.update()
     select(first, twin)
@@ -212,8 +193,7 @@ def test_a_frame_of_the_same_name_in_a_library_is_not_mixed_up(tmp_path):
     linked.rotation_euler = (0.3, 0.4, 0.5)
     bpy.data.libraries.write(library, {linked}, fake_user=True)
     bpy.data.objects.remove(linked)
-    local = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(local)
+    add_empty("Frame")
     with bpy.data.libraries.load(library, link=True) as (_, wanted):
         wanted.objects = ["Frame"]
     linked = wanted.objects[0]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mathutils import Euler
 from rich_mesh import position_of
-from scene import add_monkey, add_triangles, cubify, select
+from scene import add_empty, add_monkey, add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh
 
 
@@ -85,9 +85,7 @@ def test_an_imported_obj_turns_about_the_axis_that_is_up(tmp_path):
 
 
 def test_the_frame_object_gives_the_orientation():
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
-    frame.rotation_euler = (0.2, -0.3, 0.4)
+    frame = add_empty("Frame", rotation_euler=(0.2, -0.3, 0.4))
     obj = add_monkey()
     cubify(space="FRAME", frame="Frame")
     by_frame = position_of(obj.data)
@@ -130,9 +128,7 @@ def add_turned_box(space, **where):
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror):
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
-    frame.rotation_euler = (0.5, 0.1, 0.2)
+    frame = add_empty("Frame", rotation_euler=(0.5, 0.1, 0.2))
     obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3))
     obj.scale.x = mirror
     obj.cubic_craft.frame = frame

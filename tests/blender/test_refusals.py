@@ -7,7 +7,7 @@ import bpy
 import pytest
 from rich_mesh import add_rich_monkey
 from scene import add_monkey, cubify, given, select
-from snapshot import differences, snapshot_object
+from snapshot import differences, snapshot_object, unchanged
 
 # Before Blender 5 the settings appear among the object's custom properties once they are read.
 READ = ("custom/custom cubic_craft",)
@@ -66,11 +66,10 @@ def test_refusals_name_the_object_and_change_nothing(spoil, options, message, re
     if spoil:
         spoil(obj)
     bpy.context.view_layer.update()
-    before = snapshot_object(obj)
-    objects = len(bpy.data.objects)
-    with pytest.raises(RuntimeError, match=message):
-        cubify(result=result, **options)
-    assert differences(before, snapshot_object(obj), READ) == []
+    with unchanged(obj, READ):
+        objects = len(bpy.data.objects)
+        with pytest.raises(RuntimeError, match=message):
+            cubify(result=result, **options)
     assert len(bpy.data.objects) == objects
 
 

@@ -9,7 +9,7 @@ from live_steps import bits, confirm
 from mathutils import Euler, Matrix
 from posing import pin
 from rich_mesh import position_of, set_position
-from scene import add_monkey, cubify, select
+from scene import add_empty, add_monkey, cubify, select
 
 FLIP_X = np.array([-1.0, 1.0, 1.0], np.float32)
 
@@ -199,9 +199,7 @@ def test_the_plane_of_another_object():
     obj = add_monkey()
     modifier = halve(obj)
     turn = Matrix.LocRotScale((0.5, -1.0, 0.3), Euler((0.2, 0.1, 0.7)), None)
-    empty = bpy.data.objects.new("Plane", None)
-    bpy.context.collection.objects.link(empty)
-    empty.matrix_world = turn
+    empty = add_empty("Plane", matrix_world=turn)
     obj.data.transform(turn)
     modifier.mirror_object = empty
     bpy.context.view_layer.update()

@@ -5,8 +5,9 @@ import importlib
 
 import bpy
 import pytest
+from live_steps import add_monkey
 from posing import LEFT, add_posable, follow
-from scene import add_monkey, cubify, given, select
+from scene import add_empty, cubify, given, select
 
 
 @pytest.fixture
@@ -94,8 +95,7 @@ def test_how_the_object_stands_does_not_count(changes):
 
 def test_a_frame_that_turns_counts_while_it_is_used(changes):
     obj = add_monkey()
-    frame = bpy.data.objects.new("Frame", None)
-    bpy.context.collection.objects.link(frame)
+    frame = add_empty("Frame")
     obj.cubic_craft.frame = frame
     cubify(space="FRAME")
     assert changes(obj) == []
@@ -195,14 +195,11 @@ def test_a_new_object_is_up_to_date_and_its_source_has_no_run(changes, last_run)
     assert changes(made) == ["Cubeness"]
 
 
-def test_it_is_saved_with_the_file(changes, last_run, tmp_path):
+def test_it_is_saved_with_the_file(changes, last_run, reopen):
     obj = add_monkey()
     cubify(cubeness=0.35, orientation=(0.1, 0.2, 0.3))
     before = last_run(obj)
-    path = str(tmp_path / "file.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Suzanne"]
+    obj = reopen("Suzanne")
     assert last_run(obj) == before and changes(obj) == []
 
 

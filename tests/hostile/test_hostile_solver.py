@@ -174,9 +174,9 @@ def test_what_cannot_be_used_is_refused(mesh, data):
 
 
 @pytest.mark.parametrize("device", sorted(set(DEVICES)))
-def test_ten_thousand_parts(device):
+def test_thousands_of_parts(device):
     """Each part does as it would alone, and none moves away."""
-    count = 10_000
+    count = 10_000 if device == "cpu" else 2_000  # NumPy is slower
     rng = np.random.default_rng(3)
     part = PIECES["ball"](rng, 1)
     turns = np.linalg.qr(rng.normal(size=(count, 3, 3)))[0]

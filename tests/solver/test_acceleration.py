@@ -9,11 +9,13 @@ from devices import by_device
 from solver import Setup, Stylization, rest_mesh, stylize
 from solver.acceleration import Momentum
 
+SHAPES = {"blob": shapes.blob(2), "sphere": shapes.sphere(), "skewed_blob": shapes.skewed_blob()}
 
-@pytest.mark.parametrize("name", ["blob", "skewed_blob", "sphere"])
+
+@pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("cubeness", [0.2, 0.8])
 def test_it_ends_where_the_plain_iteration_does_in_fewer_iterations(name, cubeness, device):
-    V, F = shapes.ALL[name]()
+    V, F = SHAPES[name]
     runs = [
         stylize(V, F, cubeness, device=device, is_accelerated=is_accelerated, tolerance=1e-5)
         for is_accelerated in (True, False)

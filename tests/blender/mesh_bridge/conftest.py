@@ -2,7 +2,8 @@
 import importlib
 
 import pytest
-from rich_mesh import add_rich_monkey
+from results import write
+from rich_mesh import add_rich_monkey, cubic_like
 
 
 @pytest.fixture
@@ -47,21 +48,11 @@ def keyed_monkey():
 
 
 @pytest.fixture
-def fail_once(bridge, monkeypatch):
-    """Let one call of a function fail, as the second of ``"memory.original.write_note"``."""
+def cubify(bridge):
+    """Return a function that gives an object a made-up result, and returns what has it."""
 
-    def fail(name, *, call):
-        file, function = name.rsplit(".", 1)
-        module = importlib.import_module(f"{bridge.__name__}.{file}")
-        real = getattr(module, function)
-        calls = []
+    def give(obj, result="MESH", seed=0, start="HERE"):
+        made = cubic_like(bridge.original_positions(obj.data, start), seed)
+        return write(bridge, obj, result, *made, start)
 
-        def failing(*args, **named):
-            calls.append(args)
-            if len(calls) == call:
-                raise RuntimeError("disk on fire")
-            return real(*args, **named)
-
-        monkeypatch.setattr(module, function, failing)
-
-    return fail
+    return give

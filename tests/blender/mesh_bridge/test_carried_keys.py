@@ -22,20 +22,20 @@ def test_offsets_turn_with_their_vertices(bridge, keyed_monkey):
         np.testing.assert_allclose(carried, turned, atol=1e-6)
 
 
-def test_vertices_without_offset_lie_on_the_other_key(bridge, keyed_monkey):
+def test_vertices_without_offset_lie_on_the_other_key(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
     still = (points_of(mesh, "Wide") == points_of(mesh, "Basis")).all(axis=1)
     assert 0 < still.sum() < len(still)
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     assert np.array_equal(points_of(mesh, "Wide")[still], points_of(mesh, "Basis")[still])
 
 
-def test_loose_vertices_keep_their_keys(bridge, keyed_monkey):
+def test_loose_vertices_keep_their_keys(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
     points = points_of(mesh, "Wide")
     points[-4:] += 0.3
     set_points(mesh, "Wide", points)
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     assert points_of(mesh, "Wide")[-4:].tobytes() == points[-4:].tobytes()
 
 
@@ -57,7 +57,7 @@ def test_keys_in_a_circle_keep_their_offset_from_the_base(bridge, keyed_monkey, 
     assert differences(before, snapshot_object(keyed_monkey)) == []
 
 
-def test_position_unequal_to_basis_is_restored(bridge, keyed_monkey):
+def test_position_unequal_to_basis_is_restored(bridge, cubify, keyed_monkey):
     """A script may leave them unequal; while ours is on the mesh both are the cubic shape."""
     mesh = keyed_monkey.data
     set_position(mesh, position_of(mesh) * 2)
@@ -65,19 +65,19 @@ def test_position_unequal_to_basis_is_restored(bridge, keyed_monkey):
     base = points_of(mesh, "Basis")
     assert bridge.read_positions(mesh).tobytes() == base.tobytes()
     for seed in (1, 2):
-        bridge.write_mesh(mesh, *cubic_like(bridge.original_positions(mesh), seed))
+        cubify(keyed_monkey, seed=seed)
         assert bridge.original_positions(mesh).tobytes() == base.tobytes()
         assert position_of(mesh).tobytes() == points_of(mesh, "Basis").tobytes()
     bridge.restore(keyed_monkey)
     assert differences(before, snapshot_object(keyed_monkey)) == []
 
 
-def test_renamed_key_is_restored_exactly(bridge, keyed_monkey):
+def test_renamed_key_is_restored_exactly(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
     before = points_of(mesh, "Smile")
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     mesh.shape_keys.key_blocks["Smile"].name = "Grin"
-    bridge.write_mesh(mesh, *cubic_like(bridge.original_positions(mesh), 1))
+    cubify(keyed_monkey, seed=1)
     bridge.restore(keyed_monkey)
     assert points_of(mesh, "Grin").tobytes() == before.tobytes()
 
@@ -134,9 +134,9 @@ def test_key_added_to_the_cubic_shape_is_carried_back(bridge, monkey, relative_t
     np.testing.assert_allclose(back, rotations[30].T @ (0, 0, 0.5), atol=1e-6)
 
 
-def test_deleted_rotations_leave_offsets_unturned(bridge, keyed_monkey):
+def test_deleted_rotations_leave_offsets_unturned(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     mesh.attributes.remove(mesh.attributes["cubic_craft_rotation"])
     points = points_of(mesh, "Wide")
     points[20] += (0, 0, 0.5)
@@ -147,10 +147,10 @@ def test_deleted_rotations_leave_offsets_unturned(bridge, keyed_monkey):
     np.testing.assert_allclose(restored, offset, atol=1e-6)
 
 
-def test_deleted_key_attribute_is_carried_back(bridge, keyed_monkey):
+def test_deleted_key_attribute_is_carried_back(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
     before = points_of(mesh, "Wide")
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     for name in [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_original.key")]:
         mesh.attributes.remove(mesh.attributes[name])
     bridge.restore(keyed_monkey)
@@ -168,12 +168,12 @@ def test_all_keys_deleted_after_the_result(bridge, keyed_monkey):
     assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
 
 
-def test_another_reference_key_makes_it_the_original(bridge, keyed_monkey):
+def test_another_reference_key_makes_it_the_original(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
-    bridge.write_mesh(mesh, *cubic_like(bridge.read_positions(mesh)))
+    cubify(keyed_monkey)
     keyed_monkey.shape_key_remove(mesh.shape_keys.reference_key)
     assert mesh.shape_keys.reference_key.name == "Smile"
     assert not bridge.has_original(mesh)
     assert bridge.original_positions(mesh).tobytes() == points_of(mesh, "Smile").tobytes()
-    bridge.write_mesh(mesh, *cubic_like(bridge.original_positions(mesh)))
+    cubify(keyed_monkey)
     assert bridge.has_original(mesh)

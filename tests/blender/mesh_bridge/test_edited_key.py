@@ -1,40 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whose a shape key is: ours only as we wrote it, or as Blender moved it along with Basis."""
 
-from typing import Any
-
-import bmesh
-import bpy
 import numpy as np
 import pytest
 from rich_mesh import cubic_like, points_of, set_points, set_position
+from scene import edit_mode
 from snapshot import STORED, differences, snapshot_object
-
-
-def cubify(bridge, obj, result="SHAPE_KEY", seed=0):
-    positions, rotations = cubic_like(bridge.original_positions(obj.data), seed)
-    if result == "SHAPE_KEY":
-        bridge.write_shape_key(obj, positions)
-    else:
-        bridge.write_mesh(obj.data, positions, rotations)
-    return positions
 
 
 def edit_by_hand(obj, name, change=0.25):
     """Move a vertex of a shape key in Edit Mode."""
-    mesh: Any = obj.data
-    obj.active_shape_key_index = mesh.shape_keys.key_blocks.find(name)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.verts.ensure_lookup_table()
-    bm.verts[20].co.y += change
-    bmesh.update_edit_mesh(mesh)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.active_shape_key_index = obj.data.shape_keys.key_blocks.find(name)
+    with edit_mode(obj) as bm:
+        bm.verts[20].co.y += change
 
 
-def test_new_key_of_the_artist_under_the_same_name(bridge, error, keyed_monkey):
+def test_new_key_of_the_artist_under_the_same_name(bridge, cubify, error, keyed_monkey):
     mesh = keyed_monkey.data
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     keyed_monkey.shape_key_remove(mesh.shape_keys.key_blocks["Cubic"])
     keyed_monkey.shape_key_add(name="Cubic", from_mix=False)
     before = snapshot_object(keyed_monkey)
@@ -42,22 +25,23 @@ def test_new_key_of_the_artist_under_the_same_name(bridge, error, keyed_monkey):
     with pytest.raises(error, match="edited since"):
         bridge.restore(keyed_monkey)
     assert differences(before, snapshot_object(keyed_monkey)) == []
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     bridge.restore(keyed_monkey)
     assert differences(before, snapshot_object(keyed_monkey), ignore=STORED) == []
     assert not bridge.has_traces(mesh)
 
 
 @pytest.mark.parametrize("change", [0.25, 1e-6])
-def test_key_edited_by_hand_is_left_for_a_new_one(bridge, monkey, change):
+def test_key_edited_by_hand_is_left_for_a_new_one(bridge, cubify, monkey, change):
     mesh = monkey.data
-    cubify(bridge, monkey, seed=1)
+    cubify(monkey, "SHAPE_KEY", seed=1)
     edit_by_hand(monkey, "Cubic", change)
     points = points_of(mesh, "Cubic")
     assert not bridge.has_original(mesh)
     count = len(mesh.shape_keys.key_blocks)
     for seed in (2, 3):
-        positions = cubify(bridge, monkey, seed=seed)
+        cubify(monkey, "SHAPE_KEY", seed=seed)
+        positions, _ = cubic_like(bridge.read_positions(mesh), seed)
         assert points_of(mesh, "Cubic").tobytes() == points.tobytes()
         assert points_of(mesh, "Cubic.001")[:-4].tobytes() == positions[:-4].tobytes()
         assert len(mesh.shape_keys.key_blocks) == count + 1
@@ -66,62 +50,59 @@ def test_key_edited_by_hand_is_left_for_a_new_one(bridge, monkey, change):
     assert len(mesh.shape_keys.key_blocks) == count
 
 
-def test_key_edited_by_hand_is_carried_like_any_other(bridge, monkey):
+def test_key_edited_by_hand_is_carried_like_any_other(bridge, cubify, monkey):
     mesh = monkey.data
-    cubify(bridge, monkey, seed=1)
+    cubify(monkey, "SHAPE_KEY", seed=1)
     edit_by_hand(monkey, "Cubic")
     points = points_of(mesh, "Cubic")
-    cubify(bridge, monkey, "MESH", seed=2)
+    cubify(monkey, "MESH", seed=2)
     assert "Cubic" in mesh.shape_keys.key_blocks
     bridge.restore(monkey)
     assert points_of(mesh, "Cubic").tobytes() == points.tobytes()
     assert not bridge.has_traces(mesh)
 
 
-def test_key_and_basis_edited_by_hand(bridge, monkey):
+def test_key_and_basis_edited_by_hand(bridge, cubify, monkey):
     """That Basis has changed as well does not make the key ours."""
     mesh = monkey.data
-    cubify(bridge, monkey, seed=1)
+    cubify(monkey, "SHAPE_KEY", seed=1)
     edit_by_hand(monkey, "Cubic")
     edit_by_hand(monkey, mesh.shape_keys.reference_key.name, 0.5)
     points = points_of(mesh, "Cubic")
-    cubify(bridge, monkey, seed=2)
+    cubify(monkey, "SHAPE_KEY", seed=2)
     bridge.restore(monkey)
     assert points_of(mesh, "Cubic").tobytes() == points.tobytes()
 
 
-def test_basis_edited_under_our_key(bridge, monkey):
+def test_basis_edited_under_our_key(bridge, cubify, monkey):
     """Again and again, here by numbers that round, and with our key under another name."""
     mesh = monkey.data
-    cubify(bridge, monkey, seed=1)
+    cubify(monkey, "SHAPE_KEY", seed=1)
     basis = mesh.shape_keys.reference_key.name
     mesh.shape_keys.key_blocks["Cubic"].name = "Blocky"
     points = points_of(mesh, "Blocky")
     count = len(mesh.shape_keys.key_blocks)
     monkey.active_shape_key_index = 0
     for angle in (0.1, -0.7, 1.3):
-        bpy.ops.object.mode_set(mode="EDIT")
-        bm = bmesh.from_edit_mesh(mesh)
         cos, sin = np.cos(angle), np.sin(angle)
-        for vertex in bm.verts:
-            x, y, z = vertex.co
-            vertex.co = (cos * x - sin * y + angle, sin * x + cos * y, z / 3)
-        bmesh.update_edit_mesh(mesh)
-        bpy.ops.object.mode_set(mode="OBJECT")
+        with edit_mode(monkey) as bm:
+            for vertex in bm.verts:
+                x, y, z = vertex.co
+                vertex.co = (cos * x - sin * y + angle, sin * x + cos * y, z / 3)
     assert np.abs(points_of(mesh, "Blocky") - points).max() > 0.5
     edited = points_of(mesh, basis)
     assert bridge.has_original(mesh)
-    cubify(bridge, monkey, seed=2)
+    cubify(monkey, "SHAPE_KEY", seed=2)
     assert len(mesh.shape_keys.key_blocks) == count
     edit_by_hand(monkey, basis)
-    cubify(bridge, monkey, "MESH")
+    cubify(monkey, "MESH")
     assert "Blocky" not in (mesh.shape_keys.key_blocks if mesh.shape_keys else ())
     bridge.restore(monkey)
     edited[20, 1] += 0.25
     assert bridge.read_positions(mesh).tobytes() == edited.tobytes()
 
 
-def test_edit_mode_and_back_leaves_our_key_ours(bridge, monkey):
+def test_edit_mode_and_back_leaves_our_key_ours(bridge, cubify, monkey):
     """Blender turns -0 into 0 there, in the key and in Basis."""
     mesh = monkey.data
     positions, _ = cubic_like(bridge.read_positions(mesh))
@@ -129,15 +110,15 @@ def test_edit_mode_and_back_leaves_our_key_ours(bridge, monkey):
     bridge.write_shape_key(monkey, positions)
     for index in (0, mesh.shape_keys.key_blocks.find("Cubic")):
         monkey.active_shape_key_index = index
-        for mode in ("EDIT", "OBJECT"):
-            bpy.ops.object.mode_set(mode=mode)
+        with edit_mode(monkey):
+            pass
         assert bridge.has_original(mesh)
     assert not np.signbit(points_of(mesh, "Cubic")[::2, 0][:-4]).any()
     bridge.restore(monkey)
     assert not bridge.has_traces(mesh)
 
 
-def test_unedited_key_of_the_artist_is_never_ours(bridge, keyed_monkey):
+def test_unedited_key_of_the_artist_is_never_ours(bridge, cubify, keyed_monkey):
     """Also where our result was equal to Basis, as each new key of the artist is at first."""
     mesh = keyed_monkey.data
     bridge.write_shape_key(keyed_monkey, bridge.read_positions(mesh))
@@ -147,15 +128,15 @@ def test_unedited_key_of_the_artist_is_never_ours(bridge, keyed_monkey):
     keyed_monkey.active_shape_key_index = 0
     edit_by_hand(keyed_monkey, "Basis")
     assert not bridge.has_original(mesh)
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     bridge.restore(keyed_monkey)
     assert "Blink" in mesh.shape_keys.key_blocks
 
 
-def test_basis_edited_by_a_script(bridge, keyed_monkey):
+def test_basis_edited_by_a_script(bridge, cubify, keyed_monkey):
     """Nothing shifts the keys then: ours has its bits."""
     mesh = keyed_monkey.data
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     edited = bridge.read_positions(mesh) * 2
     set_points(mesh, "Basis", edited)
     set_position(mesh, edited)
@@ -164,18 +145,15 @@ def test_basis_edited_by_a_script(bridge, keyed_monkey):
     assert bridge.read_positions(mesh).tobytes() == edited.tobytes()
 
 
-def test_other_number_of_vertices(bridge, keyed_monkey):
+def test_other_number_of_vertices(bridge, cubify, keyed_monkey):
     """Nobody can tell then what else was done to the key: it is the artist's."""
     mesh = keyed_monkey.data
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     keyed_monkey.active_shape_key_index = 0
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.verts.new((0, 0, 9))
-    bmesh.update_edit_mesh(mesh)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with edit_mode(keyed_monkey) as bm:
+        bm.verts.new((0, 0, 9))
     points = points_of(mesh, "Cubic")
     assert not bridge.has_original(mesh)
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey, "SHAPE_KEY")
     assert points_of(mesh, "Cubic").tobytes() == points.tobytes()
     assert "Cubic.001" in mesh.shape_keys.key_blocks

@@ -7,50 +7,37 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from rich_mesh import cubic_like, points_of, position_of, set_points, set_position
-from snapshot import STORED, differences, snapshot_object
+from rich_mesh import points_of, position_of, set_points, set_position
+from scene import add_copy, bmesh_of, edit_mode
+from snapshot import STORED, unchanged
 
 NOTE = "cubic_craft_note"
-
-
-def cubify(bridge, obj, seed=0, start="HERE"):
-    base = bridge.original_positions(obj.data, start)
-    bridge.write_mesh(obj.data, *cubic_like(base, seed), start=start)
 
 
 def move_some(obj, rows=slice(40, 60), change=(0.1, -0.2, 0.3)):
     """Move vertices by hand in Edit Mode, which shifts all shape keys if Basis is active."""
     obj.active_shape_key_index = 0
-    bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for vertex in bm.verts[rows]:
-        vertex.co = tuple(np.add(vertex.co, change))
-    bmesh.update_edit_mesh(obj.data)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with edit_mode(obj) as bm:
+        for vertex in bm.verts[rows]:
+            vertex.co = tuple(np.add(vertex.co, change))
 
 
 def run_in_edit_mode(obj, rows, *operators):
     """Select vertices in Edit Mode and call operators on them."""
-    mesh: Any = obj.data
-    bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.select_mode = {"VERT"}
-    for index, vertex in enumerate(bm.verts):
-        vertex.select = index in rows
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(mesh)
-    for run in operators:
-        run()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    with edit_mode(obj) as bm:
+        bm.select_mode = {"VERT"}
+        for index, vertex in enumerate(bm.verts):
+            vertex.select = index in rows
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(obj.data)
+        for run in operators:
+            run()
 
 
-def test_both_are_offered(bridge, monkey):
+def test_both_are_offered(bridge, cubify, monkey):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     assert not bridge.is_edited(mesh)
     move_some(monkey)
     edited = bridge.read_positions(mesh)
@@ -61,55 +48,42 @@ def test_both_are_offered(bridge, monkey):
     assert bridge.starts_here(mesh) and not bridge.starts_here(mesh, "ORIGINAL")
 
 
-def test_restore_gives_the_original(bridge, monkey):
+def test_restore_gives_the_original(bridge, cubify, monkey):
     mesh = monkey.data
     monkey.active_shape_key_index = 0
-    for mode in ("EDIT", "OBJECT"):
-        bpy.ops.object.mode_set(mode=mode)  # turns -0 into 0 in shape keys
-    before = snapshot_object(monkey)
-    cubify(bridge, monkey)
-    move_some(monkey)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+    with edit_mode(monkey):  # which turns -0 into 0 in shape keys
+        pass
+    with unchanged(monkey):
+        cubify(monkey)
+        move_some(monkey)
+        bridge.restore(monkey)
     assert not bridge.has_traces(mesh)
 
 
-def test_from_here_replaces_the_original(bridge, monkey):
+def test_from_here_replaces_the_original(bridge, cubify, monkey):
     mesh = monkey.data
-    cubify(bridge, monkey)
+    cubify(monkey)
     move_some(monkey)
-    before = snapshot_object(monkey)
-    cubify(bridge, monkey, 3)
-    assert not bridge.is_edited(mesh)
-    stored = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
-    assert len(stored) == (8 if mesh.shape_keys else 4)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
+    with unchanged(monkey, STORED):
+        cubify(monkey, seed=3)
+        assert not bridge.is_edited(mesh)
+        stored = [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
+        assert len(stored) == (8 if mesh.shape_keys else 4)
+        bridge.restore(monkey)
     assert NOTE not in mesh
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
-def test_from_the_original(bridge, monkey, result):
+def test_from_the_original(bridge, cubify, monkey, result):
     """As if there had been no edit."""
     base = bridge.read_positions(monkey.data)
-    twin = monkey.copy()
-    twin.data = monkey.data.copy()
-    bpy.context.collection.objects.link(twin)
-    cubify(bridge, monkey)
+    twin = add_copy(monkey)
+    cubify(monkey)
     move_some(monkey)
-    for obj, start in ((monkey, "ORIGINAL"), (twin, "HERE")):
-        positions, rotations = cubic_like(base, 2)
-        if result == "MESH":
-            bridge.write_mesh(obj.data, positions, rotations, start=start)
-        elif result == "SHAPE_KEY":
-            bridge.write_shape_key(obj, positions, start=start)
-        else:
-            made = bridge.write_new_object(obj, positions, rotations, start=start)
-            assert made.data.attributes["cubic_craft_original"]
-            if obj == monkey:
-                assert bridge.is_edited(obj.data)  # the source stays as it is
-                first = made
-    one, other = (first.data, made.data) if result == "NEW_OBJECT" else (monkey.data, twin.data)
+    one = cubify(monkey, result, 2, "ORIGINAL").data
+    other = cubify(twin, result, 2).data
+    if result == "NEW_OBJECT":
+        assert bridge.is_edited(monkey.data)  # the source stays as it is
     assert np.array_equal(position_of(one), position_of(other))
     assert np.array_equal(bridge.original_positions(one), base)
     for key in one.shape_keys.key_blocks if one.shape_keys else ():
@@ -117,11 +91,11 @@ def test_from_the_original(bridge, monkey, result):
 
 
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.9, 1.0])
-def test_however_much_is_edited(bridge, plain_monkey, share):
+def test_however_much_is_edited(bridge, cubify, plain_monkey, share):
     """Nobody can tell a mesh that was all sculpted from nothing that was moved: it is in place."""
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     points = position_of(mesh)
     rng = np.random.default_rng(3)
     rows = rng.permutation(len(points))[: round(share * len(points))]
@@ -132,10 +106,10 @@ def test_however_much_is_edited(bridge, plain_monkey, share):
 
 
 @pytest.mark.parametrize("share", [0.05, 0.5, 1.0])
-def test_transformed_and_edited(bridge, plain_monkey, share):
+def test_transformed_and_edited(bridge, cubify, plain_monkey, share):
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     linear = np.array([[0, -2, 0], [2, 0, 0], [0, 0, 2]], float)
     points = position_of(mesh) @ linear.T + (1, 2, 3)
     rows = np.random.default_rng(3).permutation(len(points))[: round(share * len(points))]
@@ -148,33 +122,30 @@ def test_transformed_and_edited(bridge, plain_monkey, share):
     np.testing.assert_allclose(bridge.original_positions(mesh, "ORIGINAL"), expected, atol=atol)
 
 
-def test_tiny_edit_is_seen(bridge, plain_monkey):
+def test_tiny_edit_is_seen(bridge, cubify, plain_monkey):
     mesh = plain_monkey.data
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     points = position_of(mesh)
     points[10, 0] += 2e-5
     set_position(mesh, points)
     assert bridge.is_edited(mesh)
 
 
-def test_edit_of_a_shape_key_is_none_of_the_mesh(bridge, keyed_monkey):
+def test_edit_of_a_shape_key_is_none_of_the_mesh(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey)
     points = points_of(mesh, "Wide")
     points[40:60] += 0.2
     set_points(mesh, "Wide", points)
     assert not bridge.is_edited(mesh)
 
 
-def test_added_vertex_stays_where_it_is(bridge, plain_monkey):
+def test_added_vertex_stays_where_it_is(bridge, cubify, plain_monkey):
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, plain_monkey)
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    bm.verts.new((0, 0, 9))
-    bm.to_mesh(mesh)
-    bm.free()
+    cubify(plain_monkey)
+    with bmesh_of(mesh) as bm:
+        bm.verts.new((0, 0, 9))
     assert bridge.has_original(mesh) and not bridge.is_edited(mesh)
     expected = np.vstack([base, np.float32([[0, 0, 9]])])
     assert np.array_equal(bridge.original_positions(mesh), expected)
@@ -183,22 +154,22 @@ def test_added_vertex_stays_where_it_is(bridge, plain_monkey):
     assert not any(a.name.startswith("cubic_craft") for a in mesh.attributes)
 
 
-def test_lost_note_loses_nothing(bridge, monkey):
+def test_lost_note_loses_nothing(bridge, cubify, monkey):
     base = bridge.read_positions(monkey.data)
-    cubify(bridge, monkey)
+    cubify(monkey)
     del monkey.data[NOTE]
     bridge.restore(monkey)
     assert np.array_equal(bridge.read_positions(monkey.data), base)
 
 
 @pytest.mark.parametrize("also_moved", [False, True])
-def test_deleted_vertices(bridge, monkey, also_moved):
+def test_deleted_vertices(bridge, cubify, monkey, also_moved):
     """The others have their originals still; also where some of them were moved."""
     mesh = monkey.data
     base = bridge.read_positions(mesh)
     names = mesh.shape_keys.key_blocks.keys() if mesh.shape_keys else []
     keys = {name: points_of(mesh, name) for name in names}
-    cubify(bridge, monkey)
+    cubify(monkey)
     rows = range(50, 80)
     run_in_edit_mode(monkey, rows, lambda: bpy.ops.mesh.delete(type="VERT"))
     assert len(mesh.vertices) == len(base) - 30
@@ -211,10 +182,10 @@ def test_deleted_vertices(bridge, monkey, also_moved):
         np.testing.assert_allclose(points_of(mesh, name), np.delete(points, rows, 0), atol=1e-6)
 
 
-def test_vertices_in_between_get_what_is_in_between(bridge, plain_monkey):
+def test_vertices_in_between_get_what_is_in_between(bridge, cubify, plain_monkey):
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     run_in_edit_mode(plain_monkey, range(len(base)), bpy.ops.mesh.subdivide)
     count = len(mesh.vertices)
     assert count > len(base)
@@ -231,13 +202,13 @@ def test_vertices_in_between_get_what_is_in_between(bridge, plain_monkey):
         np.testing.assert_allclose(restored[new], base[pair].mean(axis=0), atol=1e-6)
 
 
-def test_extruded_side_goes_along(bridge):
+def test_extruded_side_goes_along(bridge, cubify):
     """What is moved as a whole has the original of the side that it was made from, moved alike."""
     bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
     obj: Any = bpy.context.object
     mesh = obj.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, obj)
+    cubify(obj)
     written = bridge.read_positions(mesh)
     rows = np.flatnonzero(base[:, 2] > 0.3)
 
@@ -257,10 +228,10 @@ def test_extruded_side_goes_along(bridge):
         np.testing.assert_allclose(point, base[row] + (0, 0, 0.5 * is_up), atol=1e-5)
 
 
-def test_extruded_and_shaped_is_the_original(bridge, error, plain_monkey):
+def test_extruded_and_shaped_is_the_original(bridge, cubify, error, plain_monkey):
     """Nobody can tell the originals of new vertices that were moved each its own way."""
     mesh = plain_monkey.data
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
 
     def extrude():
         bpy.ops.mesh.extrude_region_move(TRANSFORM_OT_translate={"value": (0, 0, 0.5)})
@@ -275,12 +246,11 @@ def test_extruded_and_shaped_is_the_original(bridge, error, plain_monkey):
     assert not bridge.has_original(mesh) and bridge.has_traces(mesh) and bridge.starts_here(mesh)
     for start in ("HERE", "ORIGINAL"):
         assert bridge.original_positions(mesh, start).tobytes() == shape.tobytes()
-    before = snapshot_object(plain_monkey)
-    with pytest.raises(
-        error, match=r'"Suzanne" has been edited .* no longer be determined.* Apply'
+    with (
+        unchanged(plain_monkey),
+        pytest.raises(error, match=r'"Suzanne" has been edited .* no longer be determined.* Apply'),
     ):
         bridge.restore(plain_monkey)
-    assert differences(before, snapshot_object(plain_monkey)) == []
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     bridge.restore(plain_monkey)
     assert bridge.read_positions(mesh).tobytes() == shape.tobytes()

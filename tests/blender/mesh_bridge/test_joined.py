@@ -5,13 +5,9 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from rich_mesh import add_rich_monkey, cubic_like, points_of, position_of
-from scene import add_monkey, select
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
-
-
-def cubify(bridge, obj, seed=0):
-    bridge.write_mesh(obj.data, *cubic_like(bridge.original_positions(obj.data), seed))
+from rich_mesh import add_rich_monkey, points_of, position_of
+from scene import add_copy, add_monkey, bmesh_of, select
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 
 def add_cube(**where):
@@ -40,11 +36,11 @@ def moved(points, matrix):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def test_two_results(bridge):
+def test_two_results(bridge, cubify):
     one, other = add_monkey(location=(1, 2, 3), rotation=(0.1, 0.2, 0.3)), add_sphere()
     first, second = position_of(one.data), position_of(other.data)
-    cubify(bridge, one)
-    cubify(bridge, other, 2)
+    cubify(one)
+    cubify(other, seed=2)
     (matrix,) = join(one, other)
     mesh = one.data
     assert bridge.has_original(mesh) and not bridge.is_edited(mesh)
@@ -57,10 +53,10 @@ def test_two_results(bridge):
 
 
 @pytest.mark.parametrize("into", ["cubic", "plain"])
-def test_with_one_that_was_never_cubified(bridge, into):
+def test_with_one_that_was_never_cubified(bridge, cubify, into):
     cube, monkey = add_cube(location=(0, 0, 2)), add_monkey(rotation=(0.3, 0, 1))
     plain, base = position_of(cube.data), position_of(monkey.data)
-    cubify(bridge, monkey)
+    cubify(monkey)
     if into == "cubic":
         obj, (matrix,) = monkey, join(monkey, cube)
         expected = np.vstack([base, moved(plain, matrix)])
@@ -69,7 +65,7 @@ def test_with_one_that_was_never_cubified(bridge, into):
         expected = np.vstack([plain, moved(base, matrix)])
     assert not bridge.is_edited(obj.data)
     np.testing.assert_allclose(bridge.original_positions(obj.data), expected, atol=2e-6)
-    cubify(bridge, obj, 1)
+    cubify(obj, seed=1)
     stored = {a.name for a in obj.data.attributes if a.name.startswith("cubic_craft")}
     assert len(stored) == 4
     bridge.restore(obj)
@@ -78,16 +74,14 @@ def test_with_one_that_was_never_cubified(bridge, into):
 
 
 @pytest.mark.parametrize("also", ["nothing", "applied", "moved by hand", "deleted"])
-def test_copies_of_a_result(bridge, also):
+def test_copies_of_a_result(bridge, cubify, also):
     """They have the same marks, and are told apart by their order."""
     one = add_monkey(rotation=(0.1, 0.2, 0.3))
     base = position_of(one.data)
-    cubify(bridge, one)
+    cubify(one)
     copies = []
     for number in (1, 2, 3):
-        copy = one.copy()
-        copy.data = one.data.copy()
-        bpy.context.collection.objects.link(copy)
+        copy = add_copy(one)
         copy.location, copy.scale = (3 * number, number, 0), (1, -1 / number, 1)
         copies.append(copy)
     matrices = [np.eye(4), *join(one, *copies)]
@@ -107,12 +101,8 @@ def test_copies_of_a_result(bridge, also):
         assert bridge.is_edited(mesh)
     elif also == "deleted":
         gone = slice(2 * count + 100, 2 * count + 200)
-        edited = bmesh.new()
-        edited.from_mesh(mesh)
-        edited.verts.ensure_lookup_table()
-        bmesh.ops.delete(edited, geom=edited.verts[gone], context="VERTS")
-        edited.to_mesh(mesh)
-        edited.free()
+        with bmesh_of(mesh) as bm:
+            bmesh.ops.delete(bm, geom=bm.verts[gone], context="VERTS")
         expected = np.delete(expected, gone, axis=0)
     assert bridge.is_edited(mesh) == (also == "moved by hand")
     bridge.restore(one)
@@ -120,7 +110,7 @@ def test_copies_of_a_result(bridge, also):
 
 
 @pytest.mark.parametrize("keyed", ["active", "other", "both"])
-def test_shape_keys(bridge, keyed):
+def test_shape_keys(bridge, cubify, keyed):
     """What of a key can be told exactly is; else it is carried, and nothing is lost."""
     one, other = add_rich_monkey(keys=keyed != "other"), add_rich_monkey(keys=keyed != "active")
     for obj, twist in ((one, 0.0), (other, 0.7)):
@@ -135,14 +125,12 @@ def test_shape_keys(bridge, keyed):
         for name in names or ["Basis"]:
             values = points_of(mesh, name) if names else position_of(mesh)
             expected.setdefault(name, {})[number] = values
-        cubify(bridge, obj, number)
+        cubify(obj, seed=number)
     (matrix,) = join(one, other)
     mesh, count = one.data, len(expected["Basis"][0])
     assert not bridge.is_edited(mesh)
-    before = snapshot_object(one)
-    bridge.restore(one)
-    changed = (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)
-    assert differences(before, snapshot_object(one), ignore=changed) == []
+    with unchanged(one, (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)):
+        bridge.restore(one)
     for name, parts in expected.items():
         for number, rows in enumerate((slice(0, count), slice(count, None))):
             values = parts.get(number, expected["Basis"][number])
@@ -151,11 +139,11 @@ def test_shape_keys(bridge, keyed):
             np.testing.assert_allclose(points_of(mesh, name)[rows], values, atol=3e-6)
 
 
-def test_taken_apart(bridge):
+def test_taken_apart(bridge, cubify):
     one, other = add_monkey(), add_sphere()
     first = position_of(one.data)
-    cubify(bridge, one)
-    cubify(bridge, other)
+    cubify(one)
+    cubify(other)
     join(one, other)
     select(one)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -170,10 +158,10 @@ def test_taken_apart(bridge):
     assert rows >= {tuple(point) for point in first.tolist()}
 
 
-def test_modifiers_that_copy(bridge):
+def test_modifiers_that_copy(bridge, cubify):
     obj = add_monkey()
     base = position_of(obj.data)
-    cubify(bridge, obj)
+    cubify(obj)
     mirror = obj.modifiers.new("Mirror", "MIRROR")
     mirror.use_axis = (False, False, True)
     mirror.use_mirror_merge = False
@@ -194,20 +182,17 @@ def test_modifiers_that_copy(bridge):
         assert abs(offset[0, 1]) > 1
 
 
-def test_one_lost_part_is_no_original(bridge, error):
+def test_one_lost_part_is_no_original(bridge, cubify, error):
     """It would be put together of the original of one and the result of the other."""
     one, other = add_monkey(), add_sphere()
-    cubify(bridge, one)
-    cubify(bridge, other)
+    cubify(one)
+    cubify(other)
     join(one, other)
-    edited = bmesh.new()
-    edited.from_mesh(one.data)
-    edited.verts.ensure_lookup_table()
-    for vertex in bmesh.ops.subdivide_edges(edited, edges=edited.edges[:50], cuts=1)["geom_inner"]:
-        if isinstance(vertex, bmesh.types.BMVert):
-            vertex.co.z += 0.1 * np.sin(50 * vertex.co.x)
-    edited.to_mesh(one.data)
-    edited.free()
+    with bmesh_of(one.data) as bm:
+        made = bmesh.ops.subdivide_edges(bm, edges=bm.edges[:50], cuts=1)["geom_inner"]
+        for vertex in made:
+            if isinstance(vertex, bmesh.types.BMVert):
+                vertex.co.z += 0.1 * np.sin(50 * vertex.co.x)
     assert not bridge.has_original(one.data)
     with pytest.raises(error, match="can no longer be determined"):
         bridge.restore(one)

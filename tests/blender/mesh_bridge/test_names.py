@@ -10,10 +10,6 @@ NAMES = ("cubic_craft_original", "cubic_craft_rotation", "cubic_craft_original.k
 NUMBERED = "cubic_craft_original.001"  # what Blender calls an attribute, ours being there already
 
 
-def cubify(bridge, obj):
-    bridge.write_mesh(obj.data, *cubic_like(bridge.original_positions(obj.data)))
-
-
 def add_groups(obj):
     """Add vertex groups of our names, with all vertices in them."""
     for number, name in enumerate(NAMES):
@@ -28,13 +24,13 @@ def without_group_names(taken):
 
 @pytest.mark.parametrize("when", ["before", "after", "between two"])
 @pytest.mark.parametrize("end", ["restore", "discard_original"])
-def test_groups_cost_neither_the_original_nor_themselves(bridge, monkey, when, end):
+def test_groups_cost_neither_the_original_nor_themselves(bridge, cubify, monkey, when, end):
     original = position_of(monkey.data).tobytes()
     if when != "before":
-        cubify(bridge, monkey)
+        cubify(monkey)
     add_groups(monkey)
     if when != "after":
-        cubify(bridge, monkey)
+        cubify(monkey)
     assert bridge.has_original(monkey.data)
     groups = without_group_names(snapshot_object(monkey))["groups"]
     weights = [[(e.group, e.weight) for e in v.groups] for v in monkey.data.vertices]
@@ -58,8 +54,8 @@ def test_preview_under_groups_of_its_names(bridge, monkey):
     assert differences(before, snapshot_mesh(monkey.data)) == []
 
 
-def test_groups_get_another_name_on_the_next_update(bridge, plain_monkey):
-    cubify(bridge, plain_monkey)
+def test_groups_get_another_name_on_the_next_update(bridge, cubify, plain_monkey):
+    cubify(plain_monkey)
     plain_monkey.vertex_groups.new(name="cubic_craft_original.002")
     group = plain_monkey.vertex_groups.new(name="Ear")
     group.name = "cubic_craft_original"
@@ -71,8 +67,8 @@ def test_groups_get_another_name_on_the_next_update(bridge, plain_monkey):
     assert "cubic_craft_original.002" in plain_monkey.vertex_groups
 
 
-def test_new_name_of_a_group_is_free(bridge, plain_monkey):
-    cubify(bridge, plain_monkey)
+def test_new_name_of_a_group_is_free(bridge, cubify, plain_monkey):
+    cubify(plain_monkey)
     plain_monkey.data.uv_layers[0].name = NUMBERED
     plain_monkey.vertex_groups.new(name="cubic_craft_original.002")
     group = plain_monkey.vertex_groups.new(name="cubic_craft_original")
@@ -86,8 +82,8 @@ def test_groups_of_a_mesh_without_ours_keep_their_names(plain_monkey):
     assert set(NAMES) <= set(plain_monkey.vertex_groups.keys())
 
 
-def test_group_of_another_object_with_the_mesh(bridge, plain_monkey):
-    cubify(bridge, plain_monkey)
+def test_group_of_another_object_with_the_mesh(bridge, cubify, plain_monkey):
+    cubify(plain_monkey)
     other = bpy.data.objects.new("Other", plain_monkey.data)
     bpy.context.collection.objects.link(other)
     other.vertex_groups[0].name = "cubic_craft_original"
@@ -95,9 +91,9 @@ def test_group_of_another_object_with_the_mesh(bridge, plain_monkey):
     assert plain_monkey.vertex_groups[0].name == other.vertex_groups[0].name == NUMBERED
 
 
-def test_groups_get_another_name_when_a_file_is_opened(extension, bridge, tmp_path):
+def test_groups_get_another_name_when_a_file_is_opened(extension, bridge, cubify, tmp_path):
     obj = add_rich_monkey(keys=False)
-    cubify(bridge, obj)
+    cubify(obj)
     obj.vertex_groups[0].name = "cubic_craft_original"
     path = str(tmp_path / "clash.blend")
     bpy.data.libraries.write(path, {bpy.context.scene}, fake_user=True)
@@ -105,8 +101,8 @@ def test_groups_get_another_name_when_a_file_is_opened(extension, bridge, tmp_pa
     assert bpy.data.objects["Suzanne"].vertex_groups[0].name == NUMBERED
 
 
-def test_settings_follow_a_group_to_its_other_name(bridge, plain_monkey):
-    cubify(bridge, plain_monkey)
+def test_settings_follow_a_group_to_its_other_name(bridge, cubify, plain_monkey):
+    cubify(plain_monkey)
     group = plain_monkey.vertex_groups[0]
     plain_monkey.cubic_craft.map_group = group.name
     bpy.context.view_layer.update()
@@ -116,11 +112,11 @@ def test_settings_follow_a_group_to_its_other_name(bridge, plain_monkey):
 
 
 @pytest.mark.parametrize("rename", ["group", "new", "twice"])
-def test_group_in_edit_mode(bridge, plain_monkey, rename):
+def test_group_in_edit_mode(bridge, cubify, plain_monkey, rename):
     """Blender 5.2 drops our attribute there on leaving, if nothing is done."""
     mesh = plain_monkey.data
     original = position_of(mesh).tobytes()
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     bpy.ops.object.mode_set(mode="EDIT")
     for _ in range(2 if rename == "twice" else 1):
         if rename == "new":
@@ -134,14 +130,14 @@ def test_group_in_edit_mode(bridge, plain_monkey, rename):
     assert position_of(mesh).tobytes() == original
 
 
-def test_numbered_attributes_are_the_artists(bridge, plain_monkey):
+def test_numbered_attributes_are_the_artists(bridge, cubify, plain_monkey):
     """Blender gives a number to names that are taken, here by ours."""
     mesh = plain_monkey.data
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     mesh.uv_layers.new(name="cubic_craft_original")
     mesh.color_attributes.new("cubic_craft_original", "FLOAT_COLOR", "POINT")
     mesh.attributes.new("cubic_craft_rotation", "FLOAT_VECTOR", "POINT")
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     bridge.restore(plain_monkey)
     left = {a.name for a in mesh.attributes if a.name.startswith("cubic_craft")}
     assert left == {NUMBERED, "cubic_craft_original.002", "cubic_craft_rotation.001"}
@@ -175,14 +171,14 @@ def test_attribute_of_the_artist_in_the_way(bridge, error, monkey, kind, name):
     assert differences(before, snapshot_object(monkey)) == []
 
 
-def test_restore_beside_an_attribute_in_the_way(bridge, error, plain_monkey):
+def test_restore_beside_an_attribute_in_the_way(bridge, cubify, error, plain_monkey):
     """Our name that is not in use on this mesh: only Cubify needs it."""
     mesh = plain_monkey.data
     original = position_of(mesh).tobytes()
-    cubify(bridge, plain_monkey)
+    cubify(plain_monkey)
     mesh.uv_layers[0].name = "cubic_craft_original.key1"
     with pytest.raises(error, match=r'attribute "cubic_craft_original\.key1"'):
-        cubify(bridge, plain_monkey)
+        cubify(plain_monkey)
     bridge.restore(plain_monkey)
     assert position_of(mesh).tobytes() == original
     assert mesh.uv_layers[0].name == "cubic_craft_original.key1"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from previewed import NOTE, STATES, add_monkey, live_attributes, mesh_named, show_some
 from rich_mesh import cubic_like, points_of, position_of, set_points, set_position
-from snapshot import STORED, differences, snapshot_mesh, snapshot_object
+from snapshot import STORED, differences, snapshot_mesh, snapshot_object, unchanged
 
 
 def healed(bridge, mesh):
@@ -52,23 +52,14 @@ def test_undo_step(bridge, state):
 
 
 @pytest.mark.parametrize("state", STATES)
-def test_file(bridge, state, tmp_path):
-    obj = add_monkey(bridge, state)
-    path = str(tmp_path / "saved.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = the_monkey()
+def test_file(bridge, state, reopen):
+    add_monkey(bridge, state)
+    obj = reopen("Suzanne")
     before = snapshot_object(obj)
     show_some(bridge, obj.data)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = the_monkey()
+    obj = reopen("Suzanne")
     assert bridge.end_all_previews() == [obj.data.name]
     assert differences(before, snapshot_object(obj)) == []
-
-
-def the_monkey():
-    return next(obj for obj in bpy.data.objects if obj.type == "MESH")
 
 
 def test_linked_mesh_is_left_alone(bridge, plain_monkey, tmp_path):
@@ -98,9 +89,8 @@ def test_shape_of_the_artist_is_kept(bridge, state):
         set_points(mesh, name, points_of(mesh, name) + 0.5)
     else:
         set_position(mesh, position_of(mesh) + 0.5)
-    before = snapshot_object(obj)
-    healed(bridge, mesh)
-    assert differences(before, snapshot_object(obj), ignore=STORED) == []
+    with unchanged(obj, STORED):
+        healed(bridge, mesh)
 
 
 def test_vertex_added(bridge, plain_monkey):

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import add_rich_monkey, cubic_like, points_of, position_of, set_position
-from scene import select
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object
+from scene import add_copy, select
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 NOTE = "cubic_craft_note"
 
@@ -108,10 +108,6 @@ TRANSFORMS = {
 }
 
 
-def cubify(bridge, obj, seed=0):
-    bridge.write_mesh(obj.data, *cubic_like(bridge.original_positions(obj.data), seed))
-
-
 def all_points(mesh):
     if mesh.shape_keys is None:
         return {"": position_of(mesh)}
@@ -126,10 +122,10 @@ def affine(before, after):
 
 
 @pytest.mark.parametrize("name", TRANSFORMS)
-def test_original_goes_along(bridge, monkey, name):
+def test_original_goes_along(bridge, cubify, monkey, name):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     written = bridge.read_positions(mesh)
     TRANSFORMS[name](monkey)
     present = bridge.read_positions(mesh)
@@ -138,20 +134,18 @@ def test_original_goes_along(bridge, monkey, name):
     expected = affine(written, present)(base)
     rounding = 1e-5 * max(np.abs(expected).max(), np.abs(present).max())
     np.testing.assert_allclose(bridge.original_positions(mesh), expected, atol=rounding)
-    before = snapshot_object(monkey)
-    bridge.restore(monkey)
+    with unchanged(monkey, (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)):
+        bridge.restore(monkey)
     np.testing.assert_allclose(bridge.read_positions(mesh), expected, atol=rounding)
     np.testing.assert_allclose(position_of(mesh), expected, atol=rounding)
-    moved = (*POSITIONS, *SHAPE_KEY_POINTS, *STORED)
-    assert differences(before, snapshot_object(monkey), ignore=moved) == []
     assert not bridge.has_traces(mesh)
 
 
 @pytest.mark.parametrize("name", TRANSFORMS)
-def test_shape_keys_go_along(bridge, name):
+def test_shape_keys_go_along(bridge, cubify, name):
     """They end where those of a twin do that was never cubified."""
     one, twin = add_rich_monkey(keys=True), add_rich_monkey(keys=True)
-    cubify(bridge, one)
+    cubify(one)
     written = bridge.read_positions(one.data)
     TRANSFORMS[name](one)
     whole = affine(written, bridge.read_positions(one.data))
@@ -169,46 +163,45 @@ def test_shape_keys_go_along(bridge, name):
 
 
 @pytest.mark.parametrize("name", ["apply all", "mirror", "origin to cursor", "flat"])
-def test_next_result_starts_from_there(bridge, monkey, name):
+def test_next_result_starts_from_there(bridge, cubify, monkey, name):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     written = bridge.read_positions(mesh)
     TRANSFORMS[name](monkey)
     expected = affine(written, bridge.read_positions(mesh))(base)
     original = bridge.original_positions(mesh)
-    cubify(bridge, monkey, 2)
+    cubify(monkey, seed=2)
     assert bridge.original_positions(mesh).tobytes() == original.tobytes()
     TRANSFORMS["origin to geometry"](monkey)
     TRANSFORMS["origin to cursor"](monkey)
-    cubify(bridge, monkey, 3)
+    cubify(monkey, seed=3)
     bridge.restore(monkey)
     extent = np.ptp(bridge.read_positions(mesh), axis=0)
     np.testing.assert_allclose(extent, np.ptp(expected, axis=0), rtol=1e-3)
 
 
-def test_there_and_back_is_the_original(bridge, monkey):
+def test_there_and_back_is_the_original(bridge, cubify, monkey):
     base = bridge.read_positions(monkey.data)
-    cubify(bridge, monkey)
+    cubify(monkey)
     for scale in (2, 0.5):
         apply_all(monkey, scale=(scale,) * 3, location=(0, 0, 0), rotation_euler=(0, 0, 0))
     bridge.restore(monkey)
     assert np.array_equal(bridge.read_positions(monkey.data), base)
 
 
-def test_unit_scale_moves_nothing(bridge, monkey):
-    before = snapshot_object(monkey)
-    cubify(bridge, monkey)
-    bpy.context.scene.unit_settings.scale_length = 0.01
-    assert not bridge.is_edited(monkey.data)
-    bridge.restore(monkey)
-    assert differences(before, snapshot_object(monkey)) == []
+def test_unit_scale_moves_nothing(bridge, cubify, monkey):
+    with unchanged(monkey):
+        cubify(monkey)
+        bpy.context.scene.unit_settings.scale_length = 0.01
+        assert not bridge.is_edited(monkey.data)
+        bridge.restore(monkey)
 
 
-def test_saved_and_loaded_and_undone(bridge, monkey, tmp_path):
+def test_saved_and_loaded_and_undone(bridge, cubify, monkey, tmp_path):
     name = monkey.name
     base = bridge.read_positions(monkey.data)
-    cubify(bridge, monkey)
+    cubify(monkey)
     bpy.context.preferences.edit.use_global_undo = True
     bpy.ops.ed.undo_push(message="Cubify")
     apply_all(monkey, scale=(2, 2, 2), location=(0, 0, 0), rotation_euler=(0, 0, 0))
@@ -227,10 +220,10 @@ def test_saved_and_loaded_and_undone(bridge, monkey, tmp_path):
     assert np.array_equal(bridge.read_positions(obj.data), 2 * base)
 
 
-def test_hidden_vertices_are_applied_as_well(bridge, monkey):
+def test_hidden_vertices_are_applied_as_well(bridge, cubify, monkey):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     with edit_mode(monkey, hide=range(100)):
         pass
     monkey.scale, monkey.rotation_euler, monkey.location = (2, 2, 2), (0, 0, 0), (0, 0, 0)
@@ -243,10 +236,10 @@ def test_hidden_vertices_are_applied_as_well(bridge, monkey):
     assert hidden[:100] == [True] * 100
 
 
-def test_hidden_vertices_that_stay_are_an_edit(bridge, monkey):
+def test_hidden_vertices_that_stay_are_an_edit(bridge, cubify, monkey):
     mesh = monkey.data
     base = bridge.read_positions(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     with edit_mode(monkey, hide=range(100)):
         bpy.ops.transform.mirror(constraint_axis=(True, False, False))
     assert bridge.is_edited(mesh)
@@ -255,11 +248,11 @@ def test_hidden_vertices_that_stay_are_an_edit(bridge, monkey):
 
 
 @pytest.mark.parametrize("axes", [(1, 1, 0), (1, 0, 0), (0, 0, 0)])
-def test_scaled_to_nothing_keeps_the_lost_extent(bridge, monkey, axes):
+def test_scaled_to_nothing_keeps_the_lost_extent(bridge, cubify, monkey, axes):
     mesh = monkey.data
     monkey.location, monkey.rotation_euler = (0, 0, 0), (0, 0, 0)
     base, keys = bridge.read_positions(mesh), all_points(mesh)
-    cubify(bridge, monkey)
+    cubify(monkey)
     apply_all(monkey, scale=axes)
     assert bridge.is_edited(mesh)
     flat = bridge.read_positions(mesh)
@@ -304,12 +297,11 @@ def test_flat_meshes_keep_what_stands_out(bridge, make):
     np.testing.assert_allclose(bridge.original_positions(obj.data), expected, atol=1e-5)
 
 
-def test_shared_meshes(bridge, plain_monkey):
+def test_shared_meshes(bridge, cubify, plain_monkey):
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)
-    twin = plain_monkey.copy()
-    bpy.context.collection.objects.link(twin)
-    cubify(bridge, plain_monkey)
+    twin = add_copy(plain_monkey, is_linked=True)
+    cubify(plain_monkey)
     with edit_mode(twin):
         bpy.ops.transform.translate(value=(0, 0, 2))
     bridge.restore(plain_monkey)
@@ -332,22 +324,22 @@ def test_edit_of_a_key_survives_a_transform(bridge, keyed_monkey):
         np.testing.assert_allclose(points_of(mesh, name), points, atol=2e-5)
 
 
-def test_position_unequal_to_basis_goes_along(bridge, keyed_monkey):
+def test_position_unequal_to_basis_goes_along(bridge, cubify, keyed_monkey):
     mesh = keyed_monkey.data
     set_position(mesh, position_of(mesh) * 3)
     before = position_of(mesh)
-    cubify(bridge, keyed_monkey)
+    cubify(keyed_monkey)
     apply_all(keyed_monkey, scale=(2, 2, 2), location=(0, 0, 0), rotation_euler=(0, 0, 0))
     bridge.restore(keyed_monkey)
     assert np.array_equal(position_of(mesh), 2 * before)
 
 
-def test_results_of_the_first_version(bridge, error, monkey):
+def test_results_of_the_first_version(bridge, cubify, error, monkey):
     """They have no marks: unchanged they are restored, transformed they are what is there."""
     mesh = monkey.data
     before = snapshot_object(monkey)
     for is_moved in (False, True):
-        cubify(bridge, monkey)
+        cubify(monkey)
         for name in ("mark", "written"):
             mesh.attributes.remove(mesh.attributes[f"cubic_craft_original.{name}"])
         if is_moved:
@@ -355,7 +347,7 @@ def test_results_of_the_first_version(bridge, error, monkey):
             assert not bridge.has_original(mesh)
             with pytest.raises(error, match=r"edited since .* can no longer be determined"):
                 bridge.restore(monkey)
-            cubify(bridge, monkey)
+            cubify(monkey)
             assert bridge.has_original(mesh)
         else:
             bridge.restore(monkey)
@@ -364,10 +356,10 @@ def test_results_of_the_first_version(bridge, error, monkey):
 
 
 @pytest.mark.parametrize("name", TRANSFORMS)
-def test_our_shape_key_stays_ours(bridge, monkey, name):
+def test_our_shape_key_stays_ours(bridge, cubify, monkey, name):
     mesh = monkey.data
     count = len(mesh.shape_keys.key_blocks) if mesh.shape_keys else 0
-    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    cubify(monkey, "SHAPE_KEY")
     mesh.shape_keys.key_blocks["Cubic"].value = 0.25
     TRANSFORMS[name](monkey)
     base = bridge.read_positions(mesh)
@@ -383,11 +375,11 @@ def test_our_shape_key_stays_ours(bridge, monkey, name):
     assert not bridge.has_traces(mesh)
 
 
-def test_our_shape_key_edited_and_transformed_is_the_artists(bridge, monkey):
+def test_our_shape_key_edited_and_transformed_is_the_artists(bridge, cubify, monkey):
     mesh = monkey.data
-    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    cubify(monkey, "SHAPE_KEY")
     mesh.shape_keys.key_blocks["Cubic"].points[7].co.z += 1e-3
     apply_all(monkey, scale=(1, 2, 3))
     assert not bridge.has_original(mesh)
-    bridge.write_shape_key(monkey, cubic_like(bridge.read_positions(mesh))[0])
+    cubify(monkey, "SHAPE_KEY")
     assert "Cubic.001" in mesh.shape_keys.key_blocks

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import bpy
-import numpy as np
 import pytest
 from rich_mesh import cubic_like, points_of
 from snapshot import (
@@ -10,6 +9,7 @@ from snapshot import (
     differences,
     snapshot_mesh,
     snapshot_object,
+    unchanged,
 )
 
 # What is another data-block by nature.
@@ -38,23 +38,15 @@ def test_copy_and_source(bridge, monkey):
     assert bpy.context.view_layer.objects.active == new
 
 
-def test_shape_keys_of_the_copy(bridge, keyed_monkey):
-    result = cubic_like(bridge.read_positions(keyed_monkey.data))
-    new = bridge.write_new_object(keyed_monkey, *result)
+def test_shape_keys_of_the_copy(bridge, cubify, keyed_monkey):
+    new = cubify(keyed_monkey, "NEW_OBJECT")
     assert new.data.shape_keys != keyed_monkey.data.shape_keys
     drivers = new.data.shape_keys.animation_data.drivers
     assert [curve.data_path for curve in drivers] == ['key_blocks["Wide"].value']
-    bridge.write_mesh(keyed_monkey.data, *result)
+    cubify(keyed_monkey)
     for name in ("Smile", "Frown", "Wide"):
         ours = points_of(new.data, name)
         assert ours.tobytes() == points_of(keyed_monkey.data, name).tobytes()
-
-
-def test_copy_can_be_restored(bridge, monkey):
-    before = snapshot_object(monkey)
-    new = bridge.write_new_object(monkey, *cubic_like(bridge.read_positions(monkey.data)))
-    bridge.restore(new)
-    assert differences(before, snapshot_object(new), ignore=COPIED) == []
 
 
 @pytest.mark.parametrize("first", ["mesh", "key"])
@@ -67,53 +59,49 @@ def test_source_with_a_result_of_ours(bridge, monkey, first):
         bridge.write_mesh(monkey.data, *cubic_like(base, 1))
     else:
         bridge.write_shape_key(monkey, cubic_like(base, 1)[0])
-    before = snapshot_object(monkey)
-    new = bridge.write_new_object(monkey, *cubic_like(base, 2))
-    assert differences(before, snapshot_object(monkey), ignore=["selected"]) == []
+    with unchanged(monkey, ["selected"]):
+        new = bridge.write_new_object(monkey, *cubic_like(base, 2))
     assert differences(expected, snapshot_mesh(new.data), ignore=COPIED) == []
     assert bridge.original_positions(new.data).tobytes() == base.tobytes()
 
 
-def test_collections(bridge, plain_monkey):
+def test_collections(bridge, cubify, plain_monkey):
     rooms = [bpy.data.collections.new(name) for name in ("Hall", "Attic")]
     for room in rooms:
         bpy.context.scene.collection.children.link(room)
         room.objects.link(plain_monkey)
     bpy.context.scene.collection.objects.unlink(plain_monkey)
-    result = cubic_like(bridge.read_positions(plain_monkey.data))
-    new = bridge.write_new_object(plain_monkey, *result)
+    new = cubify(plain_monkey, "NEW_OBJECT")
     assert set(new.users_collection) == set(rooms)
 
 
-def test_rigid_body(bridge, plain_monkey):
+def test_rigid_body(bridge, cubify, plain_monkey):
     """Copying one links the copy to the collection of the rigid body world by itself."""
     bpy.ops.rigidbody.object_add()
     assert len(plain_monkey.users_collection) == 2
-    result = cubic_like(bridge.read_positions(plain_monkey.data))
-    new = bridge.write_new_object(plain_monkey, *result)
+    new = cubify(plain_monkey, "NEW_OBJECT")
     assert set(new.users_collection) == set(plain_monkey.users_collection)
     assert new.rigid_body is not None
 
 
 @pytest.mark.parametrize("place", [0, 2, 5])
-def test_active_key_of_a_source_with_our_key(bridge, keyed_monkey, place):
+def test_active_key_of_a_source_with_our_key(bridge, cubify, keyed_monkey, place):
     """Our key is not in the copy; those behind it move up there, and the active one with them."""
     keys = keyed_monkey.data.shape_keys.key_blocks
-    bridge.write_shape_key(keyed_monkey, cubic_like(bridge.read_positions(keyed_monkey.data))[0])
+    cubify(keyed_monkey, "SHAPE_KEY")
     keyed_monkey.active_shape_key_index = keys.find("Cubic")
     for _ in range(3):
         bpy.ops.object.shape_key_move(type="UP")
     assert keys.find("Cubic") == 2
     keyed_monkey.active_shape_key_index = place
     name = keys[place].name if place != 2 else keys[1].name  # the one before ours instead of ours
-    result = cubic_like(bridge.original_positions(keyed_monkey.data))
-    new = bridge.write_new_object(keyed_monkey, *result)
+    new = cubify(keyed_monkey, "NEW_OBJECT")
     assert "Cubic" not in new.data.shape_keys.key_blocks
     assert new.active_shape_key.name == name
 
 
 @pytest.mark.parametrize("painted", ["source", "another"])
-def test_mode_other_than_object_mode(bridge, plain_monkey, painted):
+def test_mode_other_than_object_mode(bridge, cubify, plain_monkey, painted):
     """An object can leave its mode only while it is active: so it stays that."""
     source = plain_monkey
     if painted == "another":
@@ -122,8 +110,7 @@ def test_mode_other_than_object_mode(bridge, plain_monkey, painted):
     active = bpy.context.object
     bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
     selected = source.select_get()
-    result = cubic_like(bridge.read_positions(source.data))
-    new = bridge.write_new_object(source, *result)
+    new = cubify(source, "NEW_OBJECT")
     assert list(new.users_collection) == list(source.users_collection)
     assert bpy.context.view_layer.objects.active == active
     assert (source.select_get(), new.select_get()) == (selected, False)
@@ -132,42 +119,18 @@ def test_mode_other_than_object_mode(bridge, plain_monkey, painted):
     assert active.mode == "OBJECT"
 
 
-def test_object_of_another_scene(bridge, plain_monkey):
+def test_object_of_another_scene(bridge, cubify, plain_monkey):
     """It is in no view layer at hand: the copy is made, and nothing is selected."""
     other = bpy.data.scenes.new("Other")
     other.collection.objects.link(plain_monkey)
     bpy.context.scene.collection.objects.unlink(plain_monkey)
-    result = cubic_like(bridge.read_positions(plain_monkey.data))
-    new = bridge.write_new_object(plain_monkey, *result)
+    new = cubify(plain_monkey, "NEW_OBJECT")
     assert list(new.users_collection) == [other.collection]
     assert bpy.context.view_layer.objects.active != new
 
 
-def test_mesh_of_two_objects(bridge, plain_monkey):
+def test_mesh_of_two_objects(bridge, cubify, plain_monkey):
     twin = bpy.data.objects.new("Twin", plain_monkey.data)
-    result = cubic_like(bridge.read_positions(plain_monkey.data))
-    new = bridge.write_new_object(plain_monkey, *result)
+    new = cubify(plain_monkey, "NEW_OBJECT")
     assert plain_monkey.data == twin.data != new.data
     assert new.data.users == 1
-
-
-def test_refused_result_leaves_no_copy(bridge, error, monkey):
-    before, blocks = snapshot_object(monkey), counts()
-    positions, rotations = cubic_like(bridge.read_positions(monkey.data))
-    positions[9] = np.nan
-    with pytest.raises(error, match=monkey.data.name):
-        bridge.write_new_object(monkey, positions, rotations)
-    assert counts() == blocks
-    assert differences(before, snapshot_object(monkey)) == []
-
-
-@pytest.mark.parametrize(
-    "failing", ["result.new_object.write_mesh", "result.new_object.select_instead"]
-)
-def test_failure_half_way_leaves_no_copy(bridge, monkey, failing, fail_once):
-    before, blocks = snapshot_object(monkey), counts()
-    fail_once(failing, call=1)
-    with pytest.raises(RuntimeError, match="disk on fire"):
-        bridge.write_new_object(monkey, *cubic_like(bridge.read_positions(monkey.data)))
-    assert counts() == blocks
-    assert differences(before, snapshot_object(monkey)) == []
