@@ -28,7 +28,7 @@ def local_step_class(device="auto", precision=None):
         An unknown device. The function raises it if Taichi is asked for and does not work.
     """
     if device not in DEVICES:
-        raise CubicCraftError(f"the device {device!r} is none of {', '.join(DEVICES)}")
+        raise CubicCraftError(f'the device "{device}" is none of {", ".join(DEVICES)}')
     if device == "numpy" or (device == "auto" and _problem):
         return NumpyLocalStep
     return partial(_taichi_local_step, device, precision)
@@ -54,7 +54,7 @@ def _taichi_local_step(device, precision, rest, lam, Q, options):
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
         if device != "auto":
             raise CubicCraftError(
-                f"the device {device!r} needs Taichi, which cannot be used ({reason});"
+                f'the device "{device}" needs Taichi, which cannot be used ({reason});'
                 " choose the device auto or numpy"
             ) from error
         global _problem

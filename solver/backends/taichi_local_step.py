@@ -67,7 +67,7 @@ class TaichiLocalStep:
         self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
         if precision not in ("f64", "f32"):
-            raise CubicCraftError(f"the precision must be f64 or f32, not {precision!r}")
+            raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         self._kernels = _kernels(precision)
