@@ -204,7 +204,7 @@ def test_steps_one_at_a_time_equal_a_run(device):
         ({"max_iterations": np.nan}, "max_iterations must"),
         ({"pinned": range(42)}, "all vertices are pinned"),
         ({"pinned": [0], "targets": np.full((42, 3), np.inf)}, "must be finite"),
-        ({"device": "abacus"}, "device 'abacus' is none of"),
+        ({"device": "abacus"}, 'device "abacus" is none of'),
         ({"tolerance": 0.0}, "tolerance must"),
         ({"max_iterations": 0}, "max_iterations must"),
     ],

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of the solver on broken meshes, and what holds for each of their results."""
+
+import importlib.util
+
+import numpy as np
+from hostile_meshes import broken_meshes
+from hostile_options import options_for
+from hypothesis import strategies as st
+
+from solver import stylize
+
+ITERATIONS = 10
+ROUNDING = 1e-9
+"""of the energy at rest: what sums of 64 bit numbers may differ by, with cotangents up to 1e3"""
+NOTHING = 1e-10
+"""an energy in the unit box that is nothing but rounding, of up to 10,000 vertices of a proxy"""
+HAS_TAICHI = importlib.util.find_spec("taichi") is not None
+DEVICES = (*4 * ["cpu"], "numpy") if HAS_TAICHI else ("numpy",)  # NumPy is slower
+
+
+@st.composite
+def cases(draw):
+    """Draw a mesh, options for it, and a device."""
+    mesh = draw(broken_meshes())
+    return mesh, draw(options_for(mesh)), draw(st.sampled_from(DEVICES))
+
+
+def run(mesh, options, device, **more):
+    """Return the Result and the energies of all iterations, the last that of the result."""
+    energies = []
+    result = stylize(
+        mesh.V,
+        mesh.triangles,
+        options.cubeness,
+        options.pinned,
+        targets=options.targets,
+        orientation=options.orientation,
+        keep_rotation=options.keep_rotation,
+        proxy=options.proxy,
+        device=device,
+        max_iterations=ITERATIONS,
+        tolerance=1e-6,
+        on_iteration=lambda state: energies.append(state.energy.total),
+        **more,
+    )
+    return result, np.array([*energies, result.energy.total])
+
+
+def check_result(mesh, options, result):
+    """Check what holds for every Result."""
+    V, n = mesh.V, len(mesh.V)
+    assert result.positions.shape == (n, 3)
+    assert np.isfinite(result.positions).all()
+    assert np.isfinite(result.energy.total)
+    R = result.rotations
+    assert np.abs(R @ R.swapaxes(1, 2) - np.eye(3)).max() < 1e-6
+    assert (np.linalg.det(R) > 0.0).all()
+    free = np.setdiff1d(np.flatnonzero(mesh.loose), options.pinned)
+    assert result.positions[free].tobytes() == V[free].tobytes()
+    held = V if options.targets is None else options.targets
+    assert result.positions[options.pinned].tobytes() == held[options.pinned].tobytes()
