@@ -5,6 +5,7 @@
 #     SUITE   Debian releases whose Blender is used (default: trixie sid); set up at first use
 # With BLENDER set, that Blender is used in place of Debian's; else this needs root on Debian.
 # --if-possible: where the tests cannot run, say so and succeed (exit code 0 in place of 2).
+# TESTS is a pattern of names, such as "test_live*" (default: all).
 # EXPECT_DEVICE, if set, is the solver backend the tests insist on; Debian's suites have a default.
 # Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
 set -uo pipefail
@@ -42,26 +43,42 @@ expected_device() {
     esac
 }
 
-# The test sees all of tests/: some make their meshes by tests/art.
-run_test() {
-    local suite=$1 test=$2 folder=$3 size
-    size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
+# Runs a script with a user folder of its own; further arguments are options.
+# It sees all of tests/: some tests make their meshes by tests/art.
+run_script() {
+    local suite=$1 script=$2 folder=$3 user=$4
+    shift 4
     if [ "$suite" = blender ]; then
-        "$HERE/kit/run_with_blender.sh" ${size:+-g "$size"} -e "$ZIP" -d "$folder" "$test"
+        "$HERE/kit/run_with_blender.sh" -u "$user" "$@" -d "$folder" "$script"
     else
-        "$HERE/kit/run_in_gui.sh" -s "$suite" ${size:+-g "$size"} -p -e "$ZIP" -d "$folder" \
-            -r "$HERE/.." -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$test"
+        "$HERE/kit/run_in_gui.sh" -s "$suite" -p -u "$user" "$@" -d "$folder" -r "$HERE/.." \
+            -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$script"
     fi
+}
+
+# Runs a test in a copy of the user folder in which the extension was installed.
+run_test() {
+    local suite=$1 test=$2 folder=$3 user=$WORK/$suite-test size
+    size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
+    rm -rf "$user"
+    cp -a "$WORK/$suite" "$user" &&
+        run_script "$suite" "$test" "$folder" "$user" ${size:+-g "$size"}
 }
 
 REASON=$(obstacle)
 [ -z "$REASON" ] || skip "window tests skipped: $REASON"
+WORK=$(mktemp -d) || exit 2
+trap 'rm -rf "$WORK"' EXIT
 
 # Runs all tests of a suite; fails if one did.
 run_suite() {
     local suite=$1 ready=1 failed=0 total=0 test name folder seconds code
     [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite" || ready=0
-    for test in "$HERE"/test_*.py; do
+    folder=$OUTPUT/$suite/install
+    mkdir -p "$folder"
+    run_script "$suite" "$HERE/install.py" "$folder" "$WORK/$suite" -e "$ZIP" >"$folder/log.txt" 2>&1 ||
+        { ready=0; cat "$folder/log.txt"; }
+    for test in "$HERE"/${TESTS:-test_*}.py; do
         name=$(basename "$test" .py)
         folder=$OUTPUT/$suite/$name
         rm -rf "$folder"

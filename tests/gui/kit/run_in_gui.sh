@@ -38,9 +38,9 @@ enter() {
         mount -o bind,ro opt/pysite "usr/local/lib/python$PYTHON/dist-packages"
     fi
     mkdir -m 700 tmp/xdg
-    # Compiled shaders (Blender starts in 2 s in place of 6) and kernels are kept; all else is new.
-    mkdir -p tmp/home/.cache tmp/user tmp/ext var/cache/gui/{blender,taichi}
-    ln -s /var/cache/gui/{blender,taichi} tmp/home/.cache/
+    # Compiled shaders are kept (Blender starts in 2 s in place of 6); all other caches are new.
+    mkdir -p tmp/home/.cache tmp/user tmp/ext var/cache/gui/blender
+    ln -s /var/cache/gui/blender tmp/home/.cache/blender
     if [ -n "$USER_DIR" ]; then
         mount --bind "$USER_DIR" tmp/user
     fi
