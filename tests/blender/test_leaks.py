@@ -10,8 +10,8 @@ from pathlib import Path
 
 import bpy
 import pytest
-from live_steps import confirm, tick_to_rest
-from scene import add_monkey, cubify, select
+from live_steps import add_monkey, confirm, tick_to_rest
+from scene import cubify, select
 from world import block_names
 
 ROUNDS = int(os.environ.get("CUBIC_CRAFT_ROUNDS", "50"))

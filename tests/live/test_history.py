@@ -62,3 +62,12 @@ def test_after_a_cut_the_next_change_is_a_step_of_its_own():
     h.record({"a": 3}, now=0.02)
     assert h.take_back() == {"a": 1}
     assert h.take_back() == {"a": 0}
+
+
+def test_a_change_soon_after_a_step_was_taken_back_is_a_step_of_its_own():
+    h = History({"a": 0})
+    h.record({"a": 1}, now=0.0)
+    h.record({"a": 2}, now=2 * history.PAUSE)
+    assert h.take_back() == {"a": 1}
+    h.record({"a": 3}, now=2.1 * history.PAUSE)
+    assert h.take_back() == {"a": 1}

@@ -9,6 +9,7 @@ from optional_marks import needs
 from procrustes import best_rotation
 
 from solver import Run, Setup, Stylization, rest_mesh, stylize
+from solver.coarse_start import _smoothed
 from solver.rest import COARSENING
 
 pytestmark = needs("fast_simplification")
@@ -177,3 +178,11 @@ def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
     assert (np.diff(counts) >= 0).all() and counts[-1] > 10
     assert run.stylization.iteration == 0
     assert min(seen) < 0.8 * np.linalg.norm(V - end, axis=1).max()
+
+
+def test_where_neighbours_differ_too_much_to_be_averaged_they_keep_their_rotations():
+    V, F = shapes.blob(2)
+    R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0]), np.diag([-1.0, 1.0, -1.0])])
+    R = R[np.arange(len(V)) % 3]
+    smoothed = _smoothed(rest_mesh(V, F), R)
+    assert (np.linalg.det(smoothed) > 0.9).all()  # the iteration does the rest
