@@ -73,6 +73,18 @@ def test_what_is_far_from_a_raised_hand_stays(cubeness):
         assert moved(base, dragged, place) > 2 * moved(base, held, place)
 
 
+def test_a_pinned_handle_is_all_that_stays():
+    obj = add_figure()
+    raise_hand(obj)
+    add_group(obj, "Foot", lambda V: V[:, 2] < 0.1)
+    pin(obj, "Foot")
+    shapes = []
+    for hold_rest in (True, False):
+        cubify(max_iterations=5, hold_rest=hold_rest)
+        shapes.append(position_of(obj.data))
+    np.testing.assert_array_equal(*shapes)
+
+
 def test_a_handle_that_becomes_cubic_keeps_its_place():
     obj = add_monkey()
     V = position_of(obj.data)

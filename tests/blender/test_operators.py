@@ -259,6 +259,15 @@ def test_the_map_scales_cubeness_and_inverts():
     np.testing.assert_array_equal(shapes["None", False], before)
 
 
+def test_half_the_weight_is_half_the_cubeness():
+    obj = add_monkey()
+    obj.vertex_groups.new(name="Half").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    cubify(cubeness=0.8, map_group="Half")
+    mapped = position_of(obj.data)
+    cubify(cubeness=0.4, map_group="")
+    np.testing.assert_allclose(mapped, position_of(obj.data), atol=1e-5)
+
+
 def test_rotation_says_whether_the_shape_may_turn():
     obj = add_triangles()
     before = position_of(obj.data)

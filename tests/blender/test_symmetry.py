@@ -110,6 +110,22 @@ def test_about_three_axes_at_once():
         assert (after[partner] == after * flip).all()
 
 
+def test_the_cube_is_mirrored_as_well():
+    """Else a turned cube would pull both halves, which are images, two ways."""
+    obj = add_lump()
+    turn = Euler((0.0, 0.4, 0.3))
+    cubify(cubeness=2.0, symmetry=(True, False, False), orientation=turn)
+    normals = np.array([polygon.normal for polygon in obj.data.polygons])
+    areas = np.array([polygon.area for polygon in obj.data.polygons])
+    right = np.array([polygon.center.x for polygon in obj.data.polygons]) > 0.0
+    axes = np.array(turn.to_matrix())
+    own, image = (
+        (areas * np.abs(normals @ cube).sum(axis=1))[right].sum() / areas[right].sum()
+        for cube in (axes, FLIP_X[:, None] * axes)
+    )
+    assert abs(own - image) > 0.1
+
+
 def test_of_an_object_that_is_turned_and_scaled():
     obj = add_lump()
     partner = partner_of(position_of(obj.data), 1e-4)
