@@ -66,10 +66,8 @@ def test_undo_is_followed(edited):
     update()
     assert edited.is_edited(bpy.data.objects["Suzanne"].data)
     bpy.ops.ed.undo()
-    update()
     assert not edited.is_edited(bpy.data.objects["Suzanne"].data)
     bpy.ops.ed.redo()
-    update()
     assert edited.is_edited(bpy.data.objects["Suzanne"].data)
 
 

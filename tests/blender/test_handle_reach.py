@@ -151,6 +151,24 @@ def test_a_handle_of_one_vertex_takes_those_around_it_along():
     assert after[near] == pytest.approx(V[near] + np.float32([0.3, 0.0, 0.4]), abs=1e-5)
 
 
+def test_what_two_small_handles_reach_goes_with_the_first():
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=192, ring_count=96)
+    obj = bpy.context.object
+    V = position_of(obj.data)
+    tip = int(np.argmax(V @ (0.6, 0.0, 0.8)))
+    distance = np.linalg.norm(V - V[tip], axis=1)
+    beside = int(np.argmin(np.abs(distance - 0.06)))
+    for name, vertex in (("Tip", tip), ("Beside", beside)):
+        obj.vertex_groups.new(name=name).add([vertex], 1.0, "REPLACE")
+        pin(obj, name)
+    obj.cubic_craft.handles[0].pose = Matrix.Translation((0.3, 0.0, 0.4))
+    cubify(cubeness=0.0)
+    after = position_of(obj.data)
+    both = (distance < 0.05) & (np.linalg.norm(V - V[beside], axis=1) < 0.05)
+    assert both.any()
+    assert after[both] == pytest.approx(V[both] + np.float32([0.3, 0.0, 0.4]), abs=1e-5)
+
+
 def test_live_gives_the_same_while_a_handle_is_dragged(begin, live):
     obj, other = add_figure(), add_figure("Other")
     for one in (obj, other):

@@ -92,6 +92,16 @@ def test_a_file_saved_in_the_middle_has_the_mesh_as_before(live, begin, tmp_path
     check_gone(live)
 
 
+def test_it_goes_on_when_the_file_cannot_be_saved(live, begin, tmp_path):
+    obj = add_monkey()
+    session = tick_to_rest(begin(obj))
+    shown = bits(obj)
+    with pytest.raises(RuntimeError, match="not"):
+        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "missing" / "live.blend"), copy=True)
+    tick_to_rest(session)
+    assert not session.is_ended and bits(obj) == shown
+
+
 def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp_path):
     """As Blender's autosave does, which tells nobody."""
     obj = add_monkey()
