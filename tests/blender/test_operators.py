@@ -355,3 +355,13 @@ def test_a_value_of_an_older_file_is_the_default():
     assert cubify() == {"FINISHED"}
     assert obj.cubic_craft.rotation == "KEEP"
     assert np.abs(position_of(obj.data) - before).max() > 0.01
+
+
+def test_a_shared_mesh_that_cannot_be_restored_is_reported_once():
+    obj = add_monkey()
+    cubify(refine="OFF")
+    obj.data.attributes.remove(obj.data.attributes["cubic_craft_original"])
+    select(obj, add_copy(obj, is_linked=True))
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.cubic_craft.restore()
+    assert str(caught.value).count("has been edited") == 1

@@ -217,3 +217,10 @@ def test_objects_of_an_obj_keep_their_place_in_the_file(tmp_path, third, names):
     )
     faces = {tuple(face) for face in obj_rows(tmp_path / "out.obj", "f")}
     assert faces == {("5", "7", "8"), ("2", "3", "4")} | ({("5", "3", "9")} if third else set())
+
+
+def test_vertices_that_gltf_had_to_split_are_joined(inputs, tmp_path):
+    arguments = ("--cubeness", 0.0, *FAST, "--save-mesh", "joined.obj")
+    headless_ok(inputs / "awkward.glb", *arguments, cwd=tmp_path)
+    positions = obj_positions(tmp_path / "joined.obj")
+    assert len(np.unique(positions, axis=0)) == len(positions)
