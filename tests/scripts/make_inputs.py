@@ -69,6 +69,7 @@ def main(folder):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     obj = bpy.data.objects.new("awkward", awkward_mesh())
     obj.vertex_groups.new(name="pinned").add([1, 2, 3, 4], 1.0, "REPLACE")
+    obj.vertex_groups.new(name="light").add([1, 2, 3, 4], 0.25, "REPLACE")
     bpy.context.collection.objects.link(obj)
     obj.matrix_world = PLACE
     bpy.context.view_layer.update()

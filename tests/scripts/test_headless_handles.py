@@ -67,6 +67,14 @@ def test_at_rest_nothing_moves(inputs, tmp_path):
     np.testing.assert_allclose(found, REST, rtol=0, atol=1e-6 * TINY)
 
 
+def test_vertices_below_the_threshold_are_not_held(inputs, tmp_path):
+    handles = write(tmp_path, {"group": "light", "threshold": 0.5})
+    common = (inputs / "awkward.blend", "--object", "twin", *FAST, "--save-mesh", "posed.abc")
+    result = headless(*common, "--handles", handles, cwd=tmp_path)
+    assert result.returncode == 2
+    assert 'weighs 0.5 or more in the vertex group "light"' in result.stderr
+
+
 def test_groups_of_a_blend_and_pins_before_handles(inputs, tmp_path):
     """The object is placed anywhere; the handle is in its own coordinates."""
     path = write(
