@@ -56,59 +56,57 @@ run_script() {
     fi
 }
 
-# Runs a test in a copy of the user folder in which the extension was installed.
-run_test() {
-    local suite=$1 test=$2 folder=$3 user=$WORK/$suite-test size
-    size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
-    rm -rf "$user"
-    cp -a "$WORK/$suite" "$user" &&
-        run_script "$suite" "$test" "$folder" "$user" ${size:+-g "$size"}
-}
-
 REASON=$(obstacle)
 [ -z "$REASON" ] || skip "window tests skipped: $REASON"
 WORK=$(mktemp -d) || exit 2
 trap 'rm -rf "$WORK"' EXIT
 
-# Runs all tests of a suite; fails if one did.
-run_suite() {
-    local suite=$1 ready=1 failed=0 total=0 test name folder seconds code
-    [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite" || ready=0
-    folder=$OUTPUT/$suite/install
+# Sets up a suite, and installs the extension once for all its tests.
+prepare() {
+    local suite=$1 folder=$OUTPUT/$1/install
+    rm -rf "$folder"
     mkdir -p "$folder"
-    run_script "$suite" "$HERE/install.py" "$folder" "$WORK/$suite" -e "$ZIP" >"$folder/log.txt" 2>&1 ||
-        { ready=0; cat "$folder/log.txt"; }
-    for test in "$HERE"/${TESTS:-test_*}.py; do
-        name=$(basename "$test" .py)
-        folder=$OUTPUT/$suite/$name
-        rm -rf "$folder"
-        mkdir -p "$folder"
-        seconds=$SECONDS
-        total=$((total + 1))
-        if [ $ready = 0 ]; then
-            code="not run, the set-up failed"
-        else
-            run_test "$suite" "$test" "$folder" >"$folder/log.txt" 2>&1
-            code=$?
-        fi
-        if [ "$code" = 0 ]; then
-            echo "passed: $name on $suite ($((SECONDS - seconds)) s), pictures in $folder"
-        else
-            failed=$((failed + 1))
-            [ ! -e "$folder/log.txt" ] || cat "$folder/log.txt"
-            echo "failed: $name on $suite ($code), pictures in $folder"
-        fi
-    done
-    echo "$suite: $((total - failed)) passed, $failed failed"
-    [ $failed = 0 ]
+    if { [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite"; } &&
+        run_script "$suite" "$HERE/install.py" "$folder" "$WORK/$suite" -e "$ZIP" >"$folder/log.txt" 2>&1
+    then
+        for test in "$HERE"/${TESTS:-test_*}.py; do
+            echo "$suite $(basename "$test" .py)"
+        done >"$WORK/$suite.tests"
+    else
+        cat "$folder/log.txt" 2>/dev/null
+        echo "failed: no test on $suite could run" | tee -a "$WORK/failed"
+    fi
 }
 
-# Side by side: each has a screen, a chroot and a folder of its own.
-JOBS=()
-for suite in "${SUITES[@]}"; do
-    run_suite "$suite" &
-    JOBS+=($!)
-done
-RESULT=0
-for job in "${JOBS[@]}"; do wait "$job" || RESULT=1; done
-exit $RESULT
+# Runs a test in a copy of the user folder in which the extension was installed.
+run_test() {
+    local suite=$1 name=$2 test=$HERE/$2.py folder=$OUTPUT/$1/$2 user=$WORK/$1-$2 size code
+    rm -rf "$folder"
+    mkdir -p "$folder"
+    size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
+    cp -a "$WORK/$suite" "$user" &&
+        run_script "$suite" "$test" "$folder" "$user" ${size:+-g "$size"} >"$folder/log.txt" 2>&1
+    code=$?
+    rm -rf "$user"
+    if [ $code = 0 ]; then
+        echo "passed: $name on $suite ($SECONDS s), pictures in $folder"
+    else
+        cat "$folder/log.txt"
+        echo "failed: $name on $suite ($code), pictures in $folder" | tee -a "$WORK/failed"
+    fi
+}
+
+# Side by side, as many as there are suites: each test has a screen and folders of its own. The
+# newest Blender is the slowest, so it comes first.
+for suite in "${SUITES[@]}"; do prepare "$suite" & done
+wait
+export HERE OUTPUT WORK EXPECT_DEVICE
+export -f run_test run_script expected_device
+for suite in $(printf '%s\n' "${SUITES[@]}" | tac); do
+    [ ! -e "$WORK/$suite.tests" ] || cat "$WORK/$suite.tests"
+done | xargs -P "${#SUITES[@]}" -L 1 bash -c 'run_test "$@"' run_test
+if [ -e "$WORK/failed" ]; then
+    cat "$WORK/failed"
+    exit 1
+fi
+echo "all passed"
