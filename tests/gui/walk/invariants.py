@@ -35,8 +35,8 @@ _IN_LIVE = (
 )
 _IN_CUBIFY = (("undo_pre", "_on_undo"), ("redo_pre", "_on_undo"), ("load_pre", "_on_load"))
 _MAKE_SEEN = ("cubify", "rest")
-_REWRITE = ("cubify", "restore", "start_or_confirm_live", "rest", "click_panel", "drag_panel")
-"""what may run Cubify, Restore or Live; in the panel the mouse may press any of their buttons"""
+_REWRITE = ("cubify", "restore", "start_or_confirm_live", "rest")
+_REWRITING_BUTTONS = re.compile(r"bpy\.ops\.cubic_craft\.(cubify|restore|live)\(")
 _MENUS_OF_BRUSHES = re.compile(r"/bl_ui/(space_view3d|properties_paint_common)\.py$")
 
 
@@ -67,8 +67,11 @@ class Invariants:
         self._shapes = {state.original for state in self._before.values()}
         self._faces = {state.faces for state in self._before.values()}
 
-    def check(self, action):
-        """Check everything after an action; AssertionError says what is wrong."""
+    def check(self, action, text):
+        """Check everything after an action; AssertionError says what is wrong.
+
+        `text` is what the action says of itself, the button that the mouse has pressed among it.
+        """
         # Without the extension, too: Debian's 4.3 has no brushes, which Blender's menus of a right
         # click in Sculpt Mode and the paint modes take for granted.
         gui.python_errors[:] = [text for text in gui.python_errors if not _is_of_brushes(text)]
@@ -78,8 +81,9 @@ class Invariants:
         self._check_timers()
         self._check_live()
         now = meshes.read_all()
+        rewrites = action.name in _REWRITE or _REWRITING_BUTTONS.search(text) is not None
         for uid, state in now.items():
-            self._check_mesh(state, self._before.get(uid), action)
+            self._check_mesh(state, self._before.get(uid), action, rewrites)
         self._before = now
 
     @property
@@ -92,7 +96,7 @@ class Invariants:
         state = meshes.read_all()[uid]
         self._shapes |= {state.original, state.shape}
 
-    def _check_mesh(self, state, before, action):
+    def _check_mesh(self, state, before, action, rewrites):
         what = f"mesh {state.name!r} after {action.name}"
         assert state.is_finite, f"{what}: positions that are not finite"
         assert not (state.has_preview and is_on() and not is_live()), f"{what}: a preview is left"
@@ -103,7 +107,7 @@ class Invariants:
         if before is None and state.faces not in self._faces and action.name in _MAKE_SEEN:
             self._shapes.add(state.original)  # of what modifiers show, to a new object
             self._faces.add(state.faces)
-        if before is not None and before.is_edited and action.name in _REWRITE:
+        if before is not None and before.is_edited and rewrites:
             self._shapes.add(state.original)  # the original has gone along with the edit
             return
         assert state.faces in self._faces, f"{what}: other edges, faces or UVs"

@@ -26,10 +26,10 @@ def walk(seed, count):
         for number in range(1, count + 1):
             # A source of its own for each step: what one draws does not shift the next.
             rng = random.Random(f"{seed}/{number}")
-            action = yield from _step(rng, number, last)
+            action, text = yield from _step(rng, number, last)
             done[action.name] += 1
             yield from _settle()
-            invariants.check(action)
+            invariants.check(action, text)
             if number % 100 == 0:
                 yield from gui.screenshot(f"step_{number}.png")
     except Exception:
@@ -42,7 +42,7 @@ def walk(seed, count):
 
 
 def _step(rng, number, last):
-    """Do one action that can be done now."""
+    """Do one action that can be done now; return it, and what it says of itself."""
     weights = [action.weight for action in actions.ALL]
     while True:
         (action,) = rng.choices(actions.ALL, weights)
@@ -53,7 +53,7 @@ def _step(rng, number, last):
             mode = bpy.context.mode
             last.append(f"{number}: {action.name}: {text} [{mode}{', Live' if is_live() else ''}]")
             gui.log(last[-1])
-            return action
+            return action, str(text)
 
 
 def _settle():
