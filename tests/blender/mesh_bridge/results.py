@@ -2,6 +2,9 @@
 """The three kinds of a result, given to an object as Cubify does."""
 
 RESULTS = ("MESH", "SHAPE_KEY", "NEW_OBJECT")
+COPIED = ("*rna/name", "*rna/data", "*rna/shape_keys", "*rna/active_shape_key", "*rna/user")
+COPIED += ("*rna/animation_data",)
+"""what of a new object is another data-block by nature"""
 
 
 def write(bridge, obj, result, positions, rotations, start="HERE"):

@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 import pytest
 from previewed import show_some
-from results import RESULTS, write
+from results import COPIED, RESULTS, write
 from rich_mesh import cubic_like, points_of, set_points
 from scene import add_copy
 from snapshot import (
@@ -18,10 +18,6 @@ from snapshot import (
     unchanged,
 )
 from world import block_names
-
-# What is another data-block by nature.
-COPIED = ("*rna/name", "*rna/data", "*rna/shape_keys", "*rna/active_shape_key", "*rna/user")
-COPIED += ("*rna/animation_data",)
 
 
 @pytest.mark.parametrize("result", RESULTS)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import bpy
 import pytest
+from results import COPIED
 from rich_mesh import cubic_like, points_of
 from snapshot import (
     POSITIONS,
@@ -11,10 +12,6 @@ from snapshot import (
     snapshot_object,
     unchanged,
 )
-
-# What is another data-block by nature.
-COPIED = ("*rna/name", "*rna/data", "*rna/shape_keys", "*rna/active_shape_key", "*rna/user")
-COPIED += ("*rna/animation_data",)
 
 
 def counts():
