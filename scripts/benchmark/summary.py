@@ -87,7 +87,8 @@ def fit(cases, value=seconds_to_fitted_gap):
     Sizes where the value is None are left out; the result is None twice if fewer than two are left.
     """
     fitted = [case for case in cases if FIT_FROM <= case["vertices"] <= FIT_TO]
-    points = [(case["vertices"], value(case)) for case in fitted if value(case) is not None]
+    measured = [(case["vertices"], value(case)) for case in fitted]
+    points = [point for point in measured if point[1] is not None]
     if len(points) < 2:
         return None, None
     sizes, values = np.log(points).T

@@ -19,10 +19,11 @@ def show_as_meshes(extension: Extension) -> None:
     """
     pairs = []
     for obj in list(bpy.context.scene.objects):
-        if obj.type in extension.mesh_bridge.KINDS and obj.visible_get():
-            is_as_seen = obj.type == "MESH" and not obj.modifiers
-            with contextlib.suppress(extension.solver.CubicCraftError):
-                pairs += [] if is_as_seen else [(obj, extension.mesh_bridge.make_seen(obj))]
+        is_as_seen = obj.type == "MESH" and not obj.modifiers
+        if is_as_seen or obj.type not in extension.mesh_bridge.KINDS or not obj.visible_get():
+            continue
+        with contextlib.suppress(extension.solver.CubicCraftError):
+            pairs.append((obj, extension.mesh_bridge.make_seen(obj)))
     for obj, new in pairs:  # all have been evaluated: a modifier may need what goes here
         _replace(obj, new)
     bpy.context.view_layer.update()
