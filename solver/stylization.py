@@ -11,6 +11,7 @@ from .errors import CubicCraftError
 from .holds import Holds
 from .mesh_checks import per_vertex
 from .styles.admm import AdmmOptions
+from .styles.polytopes import polytopes
 
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
 
@@ -50,7 +51,11 @@ class Stylization:
     cubeness : float or (N,) numpy array
         Weight lambda of the cubic term, per vertex of the input; 0 keeps the shape.
     orientation : (3,3) or (N,3,3) numpy array, optional
-        Rotation Q that maps a vector into the frame of the cube; its rows are the cube's axes.
+        Rotation Q that maps a vector into the frame of the form; its rows are the form's axes.
+    form : Polytope or sequence of Polytopes, optional
+        What the normals are drawn to, see `forms`; by default the cube.
+    form_of : (N,) numpy int array, optional
+        Which of several forms each vertex of the input has.
     targets : (N,3) numpy array, optional
         Positions of the pinned vertices in the units of the input; by default their rest positions.
         The rows of all other vertices are ignored.
@@ -115,6 +120,8 @@ class Stylization:
         cubeness,
         orientation=None,
         targets=None,
+        form=None,
+        form_of=None,
         device="auto",
         precision=None,
         admm=None,
@@ -132,10 +139,14 @@ class Stylization:
         lam = rest.input_map.spread(lam) * rest.cubic_shares
         lam[setup.pinned] = 0.0  # otherwise their rotations would shear the pinned part
         Q = _orientation(orientation, rest)
-        self._lam, self._Q = lam, _with_boxes(Q, rest.box_frames) if keep_rotation else Q
+        self._lam = lam
+        self._Q = _with_boxes(Q, rest.box_frames) if keep_rotation and form is None else Q
+        self._form, self._form_of = form, _bodies(form_of, rest)
         make_local_step = local_step_class(device, precision)
         self._targets = _targets(targets, setup)
-        self._local = make_local_step(rest, lam, self._Q, admm or AdmmOptions())
+        self._local = make_local_step(
+            rest, lam, self._Q, admm or AdmmOptions(), polytopes(form, self._form_of)
+        )
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
         self._hold_matrices = hold_matrices
@@ -178,10 +189,8 @@ class Stylization:
         setup, coarsening = self.setup.coarse, self.rest.coarse
         areas = self.rest.areas + 1e-300
         count = len(coarsening.rest.V)
-        Q = self._Q[0]
-        if len(self._Q) > 1:
-            _, first = np.unique(coarsening.cluster, return_index=True)
-            Q = self._Q[first]
+        _, first = np.unique(coarsening.cluster, return_index=True)
+        Q = self._Q[first] if len(self._Q) > 1 else self._Q[0]
 
         def means(values, weights):
             sums = np.bincount(coarsening.cluster, weights * values, count)
@@ -197,6 +206,8 @@ class Stylization:
             Q,
             coarsening.rest.input_positions
             + np.stack([means(column, is_pinned) for column in moved], axis=1),
+            form=self._form,
+            form_of=self._form_of[first],
             **self._options,
             keep_rotation=True,
             is_coarse=True,
@@ -304,6 +315,13 @@ def _orientation(Q, rest):
     if not (is_orthogonal and (np.linalg.det(Q) > 0.0).all()):
         raise CubicCraftError("the orientation must be a rotation matrix")
     return Q
+
+
+def _bodies(form_of, rest):
+    """Return the number of the form (n,) of the used vertices."""
+    if form_of is None:
+        return np.zeros(len(rest.V), int)
+    return np.asarray(form_of)[rest.used]
 
 
 def _targets(targets, setup):

@@ -12,7 +12,7 @@ DEVICES = ("auto", "cpu", "gpu", "numpy")
 
 
 def local_step_class(device="auto", precision=None):
-    """Return a function of (rest, lam, Q, options) that makes the local step for the device.
+    """Return a function of (rest, lam, Q, options, form) that makes the local step for the device.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def problem_with_taichi():
 _problem = ""
 
 
-def _taichi_local_step(device, precision, rest, lam, Q, options):
+def _taichi_local_step(device, precision, *arguments):
     try:
         import_taichi()
         with quick_compilation():
             wanted = "gpu" if device == "gpu" else "cpu"
-            return TaichiLocalStep(rest, lam, Q, options, wanted, precision)
+            return TaichiLocalStep(*arguments, device=wanted, precision=precision)
     except (CubicCraftError, MemoryError, KeyboardInterrupt):
         raise
     except BaseException as error:  # a broken installation can raise anything, or want to exit
@@ -59,4 +59,4 @@ def _taichi_local_step(device, precision, rest, lam, Q, options):
             ) from error
         global _problem
         _problem = reason
-        return NumpyLocalStep(rest, lam, Q, options)
+        return NumpyLocalStep(*arguments)

@@ -17,3 +17,9 @@ def kernel_types(real):
     """
     vec3, mat3 = ti.types.vector(3, real), ti.types.matrix(3, 3, real)
     return vec3, mat3, *(ti.types.ndarray(dtype=t, ndim=1) for t in (real, ti.i32, vec3, mat3))
+
+
+def state_types(real, width):
+    """Return the types of a vertex's state, a vector of that width, and of an array of them."""
+    state = ti.types.vector(width, real)
+    return state, ti.types.ndarray(dtype=state, ndim=1)

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local step in NumPy: runs everywhere, and is what the tests compare Taichi with."""
 
+from typing import Any
+
 import numpy as np
 
 from ..motion import Motion
 from ..rotation_fit import orthonormalize
-from ..styles.active_set import active_set_rotations, starting_signs
+from ..styles.active_set import active_set_rotations
 from ..styles.admm import admm_rotations
+from ..styles.cube import CUBE
 from ..styles.local_problem import LocalProblem
 
 SMALLEST_AREA = 1e-30
@@ -22,8 +25,10 @@ class NumpyLocalStep:
     lam : (n,) float64 array
         Cubeness per vertex.
     Q : (n,3,3) or (1,3,3) float64 array
-        Orientation of the cube: maps a vector into the cube's frame.
+        Orientation of the form: maps a vector into its frame.
     options : AdmmOptions
+    form : Cube or Polytopes, optional
+        What the normals are drawn to.
 
     Attributes
     ----------
@@ -37,7 +42,7 @@ class NumpyLocalStep:
     compile_seconds = 0.0
     resolution = 1e-9
 
-    def __init__(self, rest, lam, Q, options):
+    def __init__(self, rest, lam, Q, options, form: Any = CUBE):
         self._rest = rest
         self._options = options
         matrices = rest.matrices
@@ -52,8 +57,8 @@ class NumpyLocalStep:
         lam = local_cubeness(rest, lam)
         self._cubic_weight = lam * rest.areas
         Q = np.broadcast_to(Q, (n, 3, 3))
-        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam)
-        self._s = starting_signs(self._rest_problem.cube_normals(self.R))
+        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam, form)
+        self._states = self._rest_problem.starting(self.R)
 
     def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
@@ -62,7 +67,7 @@ class NumpyLocalStep:
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
         self.R[:] = R
-        self._s = starting_signs(self._rest_problem.cube_normals(R))
+        self._states = self._rest_problem.starting(R)
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3).
@@ -74,17 +79,17 @@ class NumpyLocalStep:
         """
         U = self._near_origin(U)
         S = np.stack([H @ U for H in self._gather], axis=1)
-        problem = self._rest_problem._replace(S=S / self._area_scale[:, None, None])
+        problem = self._rest_problem.with_covariances(S / self._area_scale[:, None, None])
         last = orthonormalize(self.R)
-        R, s, is_done = active_set_rotations(problem, last, self._s)
+        R, states, is_done = active_set_rotations(problem, last, self._states)
         rows = np.flatnonzero(~is_done)
         if len(rows):
-            R[rows], s[rows] = admm_rotations(
-                problem.part(rows), last[rows], s[rows], self._options
+            R[rows], states[rows] = admm_rotations(
+                problem.part(rows), last[rows], states[rows], self._options
             )
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
         self.R = np.where(is_worse[:, None, None], last, R)
-        self._s = np.where(is_worse[:, None], self._s, s)
+        self._states = np.where(is_worse[:, None], self._states, states)
         fit, l1 = problem.costs(self.R)
         trace = self._rest.topology.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace

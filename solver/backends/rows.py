@@ -11,8 +11,8 @@ class HostRows:
     ----------
     matrices : SpokesAndRims
     area_scale : (n,) float64 array
-    R, s, energies : (n,3,3), (n,3) and (n,3) arrays
-        Rotations, subgradients, and the energies of `local_step` in `taichi_kernels.py`.
+    R, s, energies : (n,3,3), (n,w) and (n,3) arrays
+        Rotations, states, and the energies of `local_step` in `taichi_kernels.py`.
     """
 
     def __init__(self, matrices, area_scale, R, s, energies):
@@ -20,7 +20,7 @@ class HostRows:
         self._R, self._s, self._energies = R, s, energies
 
     def take(self, U, rows):
-        """Return divided covariances (k,3,3), rotations (k,3,3) and subgradients (k,3) of rows.
+        """Return divided covariances (k,3,3), rotations (k,3,3) and states (k,w) of rows.
 
         Parameters
         ----------
@@ -33,6 +33,6 @@ class HostRows:
         return S, self._R[rows].astype(np.float64), self._s[rows]
 
     def put(self, rows, R, s, fit, cost):
-        """Set rotations (k,3,3) and subgradients (k,3), and their fit (k,) and cost (k,)."""
+        """Set rotations (k,3,3) and states (k,w), and their fit (k,) and cost (k,)."""
         self._R[rows], self._s[rows] = R, s
         self._energies[rows, 1:] = np.stack([fit, cost], axis=1)

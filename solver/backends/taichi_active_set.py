@@ -47,6 +47,7 @@ class Kind:
     real: Any
     """ti.f64 or ti.f32"""
     vec3: Any
+    vec4: Any
     mat3: Any
     tolerances: Tolerances
 

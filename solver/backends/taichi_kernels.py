@@ -21,14 +21,25 @@ import taichi as ti
 
 from ..algebra import dot, nearer_to_orthogonal, outer, times
 from ..styles.active_set import DOUBLE, SINGLE
-from .kernel_types import kernel_types
+from .kernel_types import kernel_types, state_types
 from .taichi_active_set import Kind, rotation_near
+from .taichi_faces import rotation_on_faces
 
 
-def make_kernels(real):
-    """Return the kernels `local_step` and `right_hand_side` for the type ti.f64 or ti.f32."""
+def make_kernels(real, width):
+    """Return the kernels `local_step` and `right_hand_side`.
+
+    Parameters
+    ----------
+    real : ti.f64 or ti.f32
+    width : {3, 4}
+        Of the states of vertices: 3 for the cube, 4 for polytopes.
+    """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
-    kind = Kind(real, vec3, mat3, DOUBLE if real == ti.f64 else SINGLE)
+    vec4, _ = state_types(real, 4)
+    _, states = state_types(real, width)
+    kind = Kind(real, vec3, vec4, mat3, DOUBLE if real == ti.f64 else SINGLE)
+    is_cube = width == 3
 
     @ti.kernel
     def local_step(
@@ -43,9 +54,16 @@ def make_kernels(real):
         Q: matrices,
         q_stride: ti.i32,
         R: matrices,
-        subgradients: vectors,
-        energies: vectors,  # per vertex: sum w |d|^2, tr(R S), |Q R n|_1
+        subgradients: states,
+        energies: vectors,  # per vertex: sum w |d|^2, tr(R S), h(Q R n)
         certified: integers,  # where 0, the rotation is the last one
+        frames: matrices,  # these are the fields of `FaceTables`
+        numbers: integers,
+        targets: integers,
+        ways: vectors,
+        between: integers,
+        edge_start: ti.i32,
+        facet_start: ti.i32,
     ):
         for i in range(lam.shape[0]):
             here = U[i]
@@ -61,13 +79,35 @@ def make_kernels(real):
             S /= area_scale[i]
             present = R[i]
             last = mat3(ti.static(nearer_to_orthogonal(*present)))
-            rotation, s, fit, cost, is_certified = rotation_near(
-                kind, S, normals[i], Q[i * q_stride], lam[i], last, subgradients[i]
-            )
-            R[i] = rotation
-            subgradients[i] = s
-            energies[i] = vec3(quadratic, fit * area_scale[i], cost)
-            certified[i] = ti.cast(is_certified, ti.i32)
+            if ti.static(is_cube):
+                rotation, s, fit, cost, is_certified = rotation_near(
+                    kind, S, normals[i], Q[i * q_stride], lam[i], last, subgradients[i]
+                )
+                R[i] = rotation
+                subgradients[i] = s
+                energies[i] = vec3(quadratic, fit * area_scale[i], cost)
+                certified[i] = ti.cast(is_certified, ti.i32)
+            else:
+                rotation, s, fit, cost, is_certified = rotation_on_faces(
+                    kind,
+                    S,
+                    normals[i],
+                    Q[i * q_stride],
+                    lam[i],
+                    last,
+                    subgradients[i],
+                    frames,
+                    numbers,
+                    targets,
+                    ways,
+                    between,
+                    edge_start,
+                    facet_start,
+                )
+                R[i] = rotation
+                subgradients[i] = s
+                energies[i] = vec3(quadratic, fit * area_scale[i], cost)
+                certified[i] = ti.cast(is_certified, ti.i32)
 
     @ti.kernel
     def right_hand_side(

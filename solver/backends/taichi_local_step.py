@@ -8,11 +8,12 @@ import numpy as np
 
 from ..errors import CubicCraftError
 from ..motion import Motion
-from ..styles.active_set import starting_signs
 from ..styles.admm import admm_rotations
+from ..styles.cube import CUBE
 from ..styles.local_problem import LocalProblem
 from . import taichi_runtime
 from .arrays import arrays_for
+from .face_tables import face_tables
 from .numpy_local_step import area_scale, local_cubeness
 from .rows import HostRows
 from .warmup import warm_up
@@ -34,6 +35,13 @@ class _Arguments(NamedTuple):
     subgradients: Any
     energies: Any
     certified: Any
+    frames: Any
+    numbers: Any
+    targets: Any
+    ways: Any
+    between: Any
+    edge_start: int
+    facet_start: int
 
 
 class TaichiLocalStep:
@@ -41,7 +49,7 @@ class TaichiLocalStep:
 
     Parameters
     ----------
-    rest, lam, Q, options
+    rest, lam, Q, options, form
         As in `NumpyLocalStep`.
     device : {"cpu", "gpu"}
     precision : {"f64", "f32"}, optional
@@ -61,7 +69,7 @@ class TaichiLocalStep:
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
 
-    def __init__(self, rest, lam, Q, options, device="cpu", precision=None):
+    def __init__(self, rest, lam, Q, options, form: Any = CUBE, *, device="cpu", precision=None):
         runtime = taichi_runtime.start(device)
         self._rest = rest
         self._wanted, self.device = device, runtime.device
@@ -70,7 +78,7 @@ class TaichiLocalStep:
             raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
-        self._kernels = _kernels(precision)
+        self._kernels = _kernels(precision, form.width)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
         n = len(rest.V)
@@ -79,7 +87,7 @@ class TaichiLocalStep:
         self._cubic_weight = lam * rest.areas
         # for what the kernel does not certify; the covariances come with the positions
         all_Q = np.broadcast_to(Q, (n, 3, 3))
-        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam)
+        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam, form)
         self._arguments = self._make_arguments(Q)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
@@ -109,9 +117,10 @@ class TaichiLocalStep:
             Q=keep(Q),
             q_stride=int(len(Q) > 1),
             R=keep(identity),
-            subgradients=keep(starting_signs(self._rest_problem.cube_normals(identity))),
+            subgradients=keep(self._rest_problem.starting(identity)),
             energies=keep(np.zeros((len(rest.V), 3))),
             certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
+            **face_tables(self._rest_problem.form.faces, keep, self.arrays.keep)._asdict(),
         )
 
     def _make_rows(self):
@@ -122,7 +131,8 @@ class TaichiLocalStep:
         from .taichi_rows import DeviceRows
 
         edges = of.indptr, of.indices, of.gather
-        return DeviceRows(self.precision, *edges, of.area_scale, *outputs)
+        width = self._rest_problem.form.width
+        return DeviceRows(self.precision, width, *edges, of.area_scale, *outputs)
 
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
@@ -159,9 +169,7 @@ class TaichiLocalStep:
     def start_from(self, R):
         """Begin with rotations (n,3,3)."""
         self.arrays.put(self._arguments.R, R)
-        self.arrays.put(
-            self._arguments.subgradients, starting_signs(self._rest_problem.cube_normals(R))
-        )
+        self.arrays.put(self._arguments.subgradients, self._rest_problem.starting(R))
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
@@ -198,7 +206,7 @@ class TaichiLocalStep:
     def _solve_by_admm(self, U, rows):
         """Find the rotations of some rows that the kernel has left as they were."""
         S, last, last_s = self._rows.take(U, rows)
-        problem = self._rest_problem.part(rows)._replace(S=S)
+        problem = self._rest_problem.part(rows).with_covariances(S)
         R, s = admm_rotations(problem, last, last_s, self._options)
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
         R = np.where(is_worse[:, None, None], last, R)
@@ -239,8 +247,8 @@ class TaichiLocalStep:
 
 
 @cache
-def _kernels(precision):
+def _kernels(precision, width):
     from .taichi_kernels import make_kernels
 
     ti = taichi_runtime.import_taichi()
-    return make_kernels(ti.f64 if precision == "f64" else ti.f32)
+    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width)

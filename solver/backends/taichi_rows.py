@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 import taichi as ti
 
-from .kernel_types import kernel_types
+from .kernel_types import kernel_types, state_types
 
 
 class DeviceRows:
@@ -22,25 +22,28 @@ class DeviceRows:
     Parameters
     ----------
     precision : {"f64", "f32"}
+    width : {3, 4}
+        Of the states s.
     indptr, indices, gather, area_scale, R, s, energies : arrays of Taichi
         As in `local_step` of `taichi_kernels.py`.
     """
 
-    def __init__(self, precision, indptr, indices, gather, area_scale, R, s, energies):
-        self._kernels = _kernels(precision)
+    def __init__(self, precision, width, indptr, indices, gather, area_scale, R, s, energies):
+        self._width = width
+        self._kernels = _kernels(precision, width)
         self._real = np.float64 if precision == "f64" else np.float32
         self._edges = indptr, indices, gather, area_scale
         self._R, self._s, self._energies = R, s, energies
 
     def take(self, U, rows):
-        """Return divided covariances, rotations and subgradients of rows."""
+        """Return divided covariances, rotations and states of rows."""
         S, R = (np.zeros((len(rows), 3, 3), self._real) for _ in range(2))
-        s = np.zeros((len(rows), 3), self._real)
+        s = np.zeros((len(rows), self._width), self._real)
         self._kernels.take(rows.astype(np.int32), *self._edges, U, self._R, self._s, S, R, s)
         return S.astype(np.float64), R.astype(np.float64), s
 
     def put(self, rows, R, s, fit, cost):
-        """Set rotations and subgradients, and their fit and cost."""
+        """Set rotations and states, and their fit and cost."""
         few = (
             np.ascontiguousarray(a, self._real) for a in (R, s, np.stack([0 * fit, fit, cost], 1))
         )
@@ -48,9 +51,10 @@ class DeviceRows:
 
 
 @cache
-def _kernels(precision):
+def _kernels(precision, width):
     real = ti.f64 if precision == "f64" else ti.f32
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
+    _, states = state_types(real, width)
 
     @ti.kernel
     def take(
@@ -61,10 +65,10 @@ def _kernels(precision):
         area_scale: scalars,
         U: vectors,
         R: matrices,
-        subgradients: vectors,
+        subgradients: states,
         S_few: matrices,
         R_few: matrices,
-        s_few: vectors,
+        s_few: states,
     ):
         for k in range(rows.shape[0]):
             i = rows[k]
@@ -79,10 +83,10 @@ def _kernels(precision):
     def put(
         rows: integers,
         R_few: matrices,
-        s_few: vectors,
-        energies_few: vectors,  # nothing, fit and cost
+        s_few: states,
+        energies_few: states,  # nothing, fit and cost
         R: matrices,
-        subgradients: vectors,
+        subgradients: states,
         energies: vectors,
     ):
         for k in range(rows.shape[0]):

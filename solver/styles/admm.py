@@ -3,11 +3,13 @@
 
 Per vertex, and divided by its area a_i so that nothing depends on scale or tessellation:
 
-    min over R in SO(3):  -tr(R S_i / a_i) + lam_i |Q R n_i|_1
+    min over R in SO(3):  -tr(R S_i / a_i) + lam_i h(Q R n_i)
 
-is split by z = Q R n_i (Boyd et al., "Distributed Optimization and Statistical Learning via the
-Alternating Direction Method of Multipliers", 2011, sections 3.1.1, 3.3.1 and 3.4.1). It solves what
-`active_set.py` cannot certify.
+is split by z = Q R n_i. The step in z is a projection onto the body whose support function h is,
+and what it projects to is the subgradient (Moreau's decomposition; for the cube, this is soft
+thresholding). The rest is in sections 3.1.1, 3.3.1 and 3.4.1 of Boyd et al., "Distributed
+Optimization and Statistical Learning via the Alternating Direction Method of Multipliers", 2011.
+It solves what `active_set.py` cannot certify.
 """
 
 from dataclasses import dataclass
@@ -15,7 +17,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotation_fit import fit_rotations
-from .cube import proximal
 
 
 @dataclass(frozen=True)
@@ -36,56 +37,55 @@ class AdmmOptions:
     """tau: by how much the penalty then changes"""
 
 
-def admm_rotations(problem, R, s, options):
-    """Return rotations and subgradients that minimise the local energy near R.
+def admm_rotations(problem, R, states, options):
+    """Return rotations and states that minimise the local energy near R.
 
     Parameters
     ----------
-    problem, R, s
+    problem, R, states
         As in `active_set.active_set_rotations`.
     options : AdmmOptions
 
     Returns
     -------
     R : (n,3,3) float array
-    s : (n,3) float array
-        The sign of z_k, and the multiplier where z_k is zero.
+    states : (n,w) float array
     """
-    R, s = R.copy(), s.copy()
+    R, states = R.copy(), states.copy()
     plain = problem.lam == 0.0
     R[plain] = fit_rotations(problem.S[plain], R[plain])
     todo = np.flatnonzero(~plain)
     problem = problem.part(todo)
     rho = np.full(len(todo), options.rho_start)
-    z = np.where(np.abs(s[todo]) < 1.0, 0.0, problem.cube_normals(R[todo]))
-    u = s[todo] * (problem.lam / rho)[:, None]
+    z = problem.form.split(problem.form_normals(R[todo]), states[todo])
+    u = states[todo, :3] * (problem.lam / rho)[:, None]
     for _ in range(options.max_iterations):
         if not len(todo):
             break
-        R[todo], z, u, is_done, rho_new = _iteration(problem, R[todo], z, u, rho, options)
-        multipliers = u * (rho / problem.lam)[:, None]
-        s[todo] = np.where(z == 0.0, np.clip(multipliers, -1.0, 1.0), np.sign(z))
+        R[todo], z, u, states[todo], is_done, rho_new = _iteration(
+            problem, R[todo], z, u, rho, options
+        )
         u *= (rho / rho_new)[:, None]
         more = ~is_done
         todo, problem = todo[more], problem.part(more)
         z, u, rho = z[more], u[more], rho_new[more]
-    return R, s
+    return R, states
 
 
 def _iteration(problem, R, z, u, rho, o):
-    S, normals, Q, lam = problem
-    pull = np.einsum("nji,nj->ni", Q, z - u) * rho[:, None]
-    R = fit_rotations(S + normals[:, :, None] * pull[:, None, :], R)
-    x = problem.cube_normals(R)
-    threshold = (lam / rho)[:, None]
-    z_new = proximal(x + u, threshold)
-    u = u + x - z_new
+    pull = np.einsum("nji,nj->ni", problem.Q, z - u) * rho[:, None]
+    R = fit_rotations(problem.S + problem.normals[:, :, None] * pull[:, None, :], R)
+    x = problem.form_normals(R)
+    threshold = (problem.lam / rho)[:, None]
+    states = problem.form.project((x + u) / threshold)
+    u_new = threshold * states[:, :3]
+    z_new = x + u - u_new
     primal = np.linalg.norm(z_new - x, axis=1)
     dual = rho * np.linalg.norm(z_new - z, axis=1)
     size = np.maximum(np.linalg.norm(x, axis=1), np.linalg.norm(z_new, axis=1))
-    force = rho * np.linalg.norm(u, axis=1)
+    force = rho * np.linalg.norm(u_new, axis=1)
     is_done = (primal <= o.absolute + o.relative * size) & (dual <= o.absolute + o.relative * force)
     change = np.ones(len(rho))
     change[primal > o.balance * dual] = o.factor
     change[dual > o.balance * primal] = 1.0 / o.factor
-    return R, z_new, u, is_done, np.clip(rho * change, o.rho_min, o.rho_max)
+    return R, z_new, u_new, states, is_done, np.clip(rho * change, o.rho_min, o.rho_max)

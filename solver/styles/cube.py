@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cube: the cost of a normal, its symmetries, and the edges to draw."""
+"""The cube: the cost of a normal, its active sets, its symmetries, and the edges to draw."""
 
 import itertools
 from functools import cache
@@ -21,15 +21,88 @@ def cost(x):
     return np.abs(x).sum(axis=-1)
 
 
-def proximal(x, threshold):
-    """Return the z (n,3) that minimises ``threshold cost(z) + |z - x|^2 / 2``: soft thresholding.
+class Cube:
+    """The cube as the form of a local problem; `Polytopes` is the other one.
 
-    Parameters
-    ----------
-    x : (n,3) numpy array
-    threshold : (n,1) numpy array
+    The state of a vertex is its subgradient s (3,): the sign of x_k, but anything in [-1, 1] on the
+    active axes, those with x_k = 0.
     """
-    return np.sign(x) * np.maximum(np.abs(x) - threshold, 0.0)
+
+    width = 3
+    """columns of a state"""
+    faces = None
+    """no tables: they are found from the state itself"""
+
+    def part(self, rows):
+        """Return the form of some rows."""
+        return self
+
+    def cost(self, x):
+        """Return the costs (n,) of normals x (n,3) in the frame of the form."""
+        return cost(x)
+
+    def starting(self, x):
+        """Return the states (n,3) to begin with, for normals x (n,3): no axis active."""
+        return np.where(x < 0.0, -1.0, 1.0)
+
+    def begin(self, states):
+        """Return what is kept from step to step: here s and the active axes, both (n,3)."""
+        return states, np.abs(states) < 1.0
+
+    def end(self, kept):
+        """Return the states (n,3)."""
+        return kept[0]
+
+    def constraints(self, kept):
+        """Return s (n,3), how many axes are active (n,), and the direction that they leave (n,3).
+
+        With one active axis that is the axis, with two it is where the normal has to point.
+        """
+        s, active = kept
+        number = active.sum(axis=1)
+        return s, number, np.where((number == 2)[:, None], np.where(active, 0.0, s), active)
+
+    def next_set(self, kept, moment, x, y, problem, slack):
+        """Return what is kept, with new multipliers, and where the active axes may stay (n,).
+
+        Parameters
+        ----------
+        kept : tuple of arrays
+        moment : (n,3) array
+            Gradient of tr(W G) for small turns W.
+        x, y : (n,3) arrays
+            Normals in the frame of the form, and in that of the mesh.
+        problem : LocalProblem
+        slack : float
+        """
+        s, active = kept
+        lam, Q = problem.lam, problem.Q
+        has_cost = (lam > 0.0)[:, None]
+        fixed = np.einsum("nji,nj->ni", Q, np.where(active, 0.0, s))
+        force = moment - lam[:, None] * np.cross(y, fixed)
+        size = np.maximum(1.0 - x * x, 1e-6) * np.where(has_cost, lam[:, None], 1.0)
+        multipliers = np.einsum("nij,nj->ni", Q, np.cross(force, y)) / size
+        s = np.where(active, multipliers, s)
+        crossed = has_cost & ~active & (x * s < -slack)
+        freed = np.abs(s) > 1.0
+        is_kept = ~(crossed | (np.abs(s) > 1.0 + slack)).any(axis=1)
+        s, active = np.where(freed, np.sign(s), s), (active & ~freed) | crossed
+        size = np.abs(x)
+        is_largest = size == size.max(axis=1, keepdims=True)
+        freed = is_largest & (active.sum(axis=1) == 3)[:, None]
+        s = np.where(freed, np.where(x > 0.0, 1.0, -1.0), s)
+        return (s, active & ~freed), is_kept
+
+    def split(self, x, states):
+        """Return normals x (n,3) without their part along active axes."""
+        return np.where(np.abs(states) < 1.0, 0.0, x)
+
+    def project(self, points):
+        """Return the states (n,3) nearest to points (n,3)."""
+        return np.clip(points, -1.0, 1.0)
+
+
+CUBE = Cube()
 
 
 def nearest_to_identity(Q):

@@ -1,37 +1,50 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The problem of the local step, one per vertex."""
 
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from .cube import cost
+from .cube import CUBE
 
 
-class LocalProblem(NamedTuple):
-    """min over R in SO(3) of lam |Q R n|_1 - tr(R S), of n vertices at once."""
+@dataclass(frozen=True)
+class LocalProblem:
+    """min over R in SO(3) of lam h(Q R n) - tr(R S), of n vertices at once."""
 
     S: np.ndarray
     """(n,3,3) covariances, divided by the vertex areas"""
     normals: np.ndarray
     """(n,3) unit normals, or zero where `lam` is"""
     Q: np.ndarray
-    """(n,3,3) orientations of the cube"""
+    """(n,3,3) orientations of the form"""
     lam: np.ndarray
     """(n,) cubeness"""
+    form: Any = CUBE
+    """Cube or Polytopes: what the costs h are"""
 
     def part(self, rows):
         """Return the problems of some rows, by number or mask."""
-        return LocalProblem(*(values[rows] for values in self))
+        S, normals, Q, lam = (a[rows] for a in (self.S, self.normals, self.Q, self.lam))
+        return LocalProblem(S, normals, Q, lam, self.form.part(rows))
 
-    def cube_normals(self, R):
-        """Return the rotated normals Q R n (n,3) in the frame of the cube."""
+    def with_covariances(self, S):
+        """Return the problems for other covariances (n,3,3)."""
+        return replace(self, S=S)
+
+    def form_normals(self, R):
+        """Return the rotated normals Q R n (n,3) in the frame of the form."""
         rotated = np.einsum("nij,nj->ni", R, self.normals)
         return np.einsum("nij,nj->ni", self.Q, rotated)
 
+    def starting(self, R):
+        """Return the states (n,w) to begin with at rotations R (n,3,3)."""
+        return self.form.starting(self.form_normals(R))
+
     def costs(self, R):
-        """Return tr(R S) and |Q R n|_1, both (n,)."""
-        return np.einsum("nij,nji->n", R, self.S), cost(self.cube_normals(R))
+        """Return tr(R S) and h(Q R n), both (n,)."""
+        return np.einsum("nij,nji->n", R, self.S), self.form.cost(self.form_normals(R))
 
     def is_worse(self, R, last):
         """Return where R (n,3,3) costs more than `last`: taking it would raise the energy."""

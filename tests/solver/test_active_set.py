@@ -9,7 +9,7 @@ from taichi_marks import needs_taichi
 from solver.backends import local_step_class
 from solver.rest import rest_mesh
 from solver.rotation_fit import svd_rotations
-from solver.styles.active_set import active_set_rotations, starting_signs
+from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.local_problem import LocalProblem
 
@@ -25,7 +25,7 @@ def problem_of(U, rest, lam):
 
 def start(problem):
     R = np.tile(np.eye(3), (len(problem.lam), 1, 1))
-    return R, starting_signs(problem.cube_normals(R))
+    return R, problem.starting(R)
 
 
 def objective(problem, R):
@@ -59,7 +59,7 @@ def test_the_subgradient_certifies_the_minimiser():
     problem = problem_of(deformed(rest.V, 0.08), rest, 0.4)
     R, s, is_done = active_set_rotations(problem, *start(problem))
     assert is_done.all()
-    x = problem.cube_normals(R)
+    x = problem.form_normals(R)
     assert (np.abs(s) <= 1.0).all()
     np.testing.assert_allclose((s * x).sum(axis=1), np.abs(x).sum(axis=1), atol=1e-9)
     pull = np.einsum("nji,nj->ni", problem.Q, s) * problem.lam[:, None]

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables of `Faces` as kernels take them."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+NUMBERS = 6
+"""of each face: its body's vertices from and to, its links from and to, its two ends: for an edge
+its vertices, for a vertex itself, for a facet one of its vertices"""
+
+
+class FaceTables(NamedTuple):
+    """The arrays of `Faces` as a kernel takes them."""
+
+    frames: Any
+    """(k,3,3) in rows the point, the axis, and the length with two zeros"""
+    numbers: Any
+    """(6k,) int, see `NUMBERS`"""
+    targets: Any
+    """(l,) int"""
+    ways: Any
+    """(l,3)"""
+    between: Any
+    """(v v,) int"""
+    edge_start: int
+    facet_start: int
+
+
+def face_tables(faces, keep, keep_integers):
+    """Return the FaceTables of Faces, or of none, which a kernel for cubes never reads.
+
+    Parameters
+    ----------
+    faces : Faces or None
+    keep, keep_integers : callable
+        Bring an array of real numbers, or of integers, to where the kernels take it.
+    """
+    if faces is None:
+        nothing = keep_integers(np.zeros(1, np.int32))
+        return FaceTables(
+            keep(np.zeros((1, 3, 3))), nothing, nothing, keep(np.zeros((1, 3))), nothing, 0, 0
+        )
+    a = faces.arrays
+    lengths = np.stack([a.lengths, 0 * a.lengths, 0 * a.lengths], axis=1)
+    ends = np.tile(np.arange(len(a.points))[:, None], (1, 2))
+    ends[faces.edge_start : faces.facet_start] = faces.edge_ends
+    facets = slice(faces.facet_start, None)
+    ends[facets] = ends[a.targets[a.links[facets, 0]]]
+    numbers = np.concatenate([a.vertices, a.links, ends], axis=1)
+    return FaceTables(
+        frames=keep(np.stack([a.points, a.axes, lengths], axis=1)),
+        numbers=keep_integers(numbers.ravel().astype(np.int32)),
+        targets=keep_integers(a.targets),
+        ways=keep(a.ways),
+        between=keep_integers(faces.between.ravel()),
+        edge_start=faces.edge_start,
+        facet_start=faces.facet_start,
+    )

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The forms that have names.
+
+Each is given by the directions that its sides face, all equally far from the origin. The cube is
+not among them: its local step has code of its own, which is faster.
+"""
+
+import itertools
+
+import numpy as np
+
+from .polytope import from_directions
+
+GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
+ROUND = 64
+"""sides of a prism or pyramid that looks like a cylinder or cone"""
+SLOPE = np.radians(30.0)
+"""angle of the sides of a pyramid or cone above the horizontal that their normals have"""
+LEAST_WEIGHT = 0.01
+"""of a box; with 0 it would be flat"""
+
+
+def box(weights):
+    """Return the box with these half sizes (3,): the costs of normals along its three axes.
+
+    With equal weights it is the cube. With (1, 1, 0), only horizontal surfaces cost nothing, so
+    that slabs form; with (0, 0, 1), walls become vertical, but keep their outline.
+    """
+    sizes = np.maximum(np.asarray(weights, dtype=np.float64), LEAST_WEIGHT)
+    body = from_directions(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
+    return body.scaled(sizes.min() / body.offsets.min())
+
+
+def octahedron():
+    """Return the form with eight sides."""
+    return from_directions(list(itertools.product((-1, 1), repeat=3)))
+
+
+def tetrahedron():
+    """Return the form with four sides."""
+    corners = itertools.product((-1, 1), repeat=3)
+    return from_directions([corner for corner in corners if np.prod(corner) > 0])
+
+
+def dodecahedron():
+    """Return the form with twelve pentagons."""
+    return from_directions(_cyclic([(0, a, b * GOLDEN) for a, b in _signs(2)]))
+
+
+def icosahedron():
+    """Return the form with twenty triangles."""
+    rings = _cyclic([(0, a / GOLDEN, b * GOLDEN) for a, b in _signs(2)])
+    return from_directions(_signs(3) + rings)
+
+
+def rhombic_dodecahedron():
+    """Return the form with twelve rhombi."""
+    return from_directions(_cyclic([(a, b, 0) for a, b in _signs(2)]))
+
+
+def prism(sides):
+    """Return the form with so many walls around Z, and two caps."""
+    return from_directions([*_ring(sides), (0, 0, 1), (0, 0, -1)])
+
+
+def pyramid(sides):
+    """Return the form with so many slopes around Z, and a base."""
+    slopes = [(np.cos(SLOPE) * x, np.cos(SLOPE) * y, np.sin(SLOPE)) for x, y, _ in _ring(sides)]
+    return from_directions([*slopes, (0, 0, -1)])
+
+
+def cylinder():
+    """Return a prism with so many sides that nobody sees them."""
+    return prism(ROUND)
+
+
+def cone():
+    """Return a pyramid with so many sides that nobody sees them."""
+    return pyramid(ROUND)
+
+
+def _signs(count):
+    return list(itertools.product((-1, 1), repeat=count))
+
+
+def _cyclic(vectors):
+    return [(v[k], v[(k + 1) % 3], v[(k + 2) % 3]) for v in vectors for k in range(3)]
+
+
+def _ring(sides):
+    angles = 2.0 * np.pi * np.arange(sides) / sides
+    return [(np.cos(angle), np.sin(angle), 0.0) for angle in angles]

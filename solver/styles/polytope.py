@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Convex bodies with flat sides: what a ball becomes.
+
+A body W around the origin has the support function ``h(x) = max over s in W of s.x``. As the cost
+of a unit normal x it is lowest, with a kink, where x is normal to a side of W, so that minimising
+it makes surfaces flat that face these ways (Wulff, Zeitschrift fuer Krystallographie 34, 1901).
+The cube with half size 1 has the cost |x|_1 of Liu and Jacobson's cubic stylization.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
+
+from ..errors import CubicCraftError
+
+SAME = 1e-7
+"""relative; distances below are rounding"""
+NARROWEST = 1e-3
+"""of the distances from the origin to the sides, relative to the size of the body"""
+STRONGEST = 4.0
+"""distance of the nearest side; without this limit, bodies that are almost balls would have any"""
+
+
+@dataclass(frozen=True)
+class Polytope:
+    """A convex body with flat sides that has the origin inside.
+
+    See Also
+    --------
+    from_directions, from_points : Make one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver.styles.polytope import from_directions
+    >>> cube = from_directions(np.concatenate([np.eye(3), -np.eye(3)]))
+    >>> len(cube.vertices), len(cube.edges), len(cube.normals)
+    (8, 12, 6)
+    """
+
+    normals: np.ndarray
+    """(f,3) unit normals of the facets"""
+    offsets: np.ndarray
+    """(f,) distances of the facets from the origin"""
+    vertices: np.ndarray
+    """(v,3)"""
+
+    @cached_property
+    def incidence(self):
+        """(v,f) bool, which vertex lies on which facet."""
+        distances = self.vertices @ self.normals.T - self.offsets
+        return np.abs(distances) < SAME * self.radius
+
+    @cached_property
+    def edges(self):
+        """(e,2) int, pairs of vertices."""
+        shared = self.incidence.astype(int) @ self.incidence.T
+        return np.argwhere(np.triu(shared >= 2, 1))
+
+    @property
+    def edge_facets(self):
+        """(e,2) int, the two facets of each edge."""
+        both = self.incidence[self.edges[:, 0]] & self.incidence[self.edges[:, 1]]
+        return np.argsort(~both, axis=1, kind="stable")[:, :2]
+
+    @cached_property
+    def radius(self):
+        """Largest distance of a vertex from the origin."""
+        return float(np.linalg.norm(self.vertices, axis=1).max())
+
+    def scaled(self, factor):
+        """Return the body in another size: its costs are as many times those of this one."""
+        return Polytope(self.normals, factor * self.offsets, factor * self.vertices)
+
+    def cost(self, x):
+        """Return the support function (n,) of vectors x (n,3)."""
+        return (x @ self.vertices.T).max(axis=1)
+
+
+def from_directions(directions, offsets=None):
+    """Return the body of all points y with ``d.y <= offset`` for each direction d.
+
+    Parameters
+    ----------
+    directions : (k,3) array
+        Of any length except zero.
+    offsets : (k,) array, optional
+        Positive; by default all sides are equally far away.
+
+    Returns
+    -------
+    Polytope
+        In the size in which the same cubeness looks about as strong as with the cube, because
+        costs differ as much. Sides that do not touch the body are left out.
+
+    Raises
+    ------
+    CubicCraftError
+        The directions do not enclose the origin: the body would have no end.
+    """
+    d = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
+    sizes = np.linalg.norm(d, axis=1)
+    r = np.ones(len(d)) if offsets is None else np.asarray(offsets, dtype=np.float64)
+    if not (np.isfinite(d).all() and np.isfinite(r).all() and (sizes > 0.0).all() and len(d)):
+        raise CubicCraftError("the directions of a form must be finite, and not zero")
+    if not (r > NARROWEST * r.max()).all():
+        raise CubicCraftError("the sides of a form must lie around its origin")
+    d, r = d / sizes[:, None], r / r.min()
+    d, r = _distinct(d, r)
+    if not _encloses_origin(d):
+        raise CubicCraftError("the directions of a form must point to all sides")
+    halfspaces = np.column_stack([d, -r])
+    try:
+        vertices = HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
+    except QhullError as error:
+        raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
+    vertices = _apart(vertices, SAME * np.linalg.norm(vertices, axis=1).max())
+    body = Polytope(d, r, vertices)
+    touching = body.incidence.sum(axis=0) >= 3
+    d, r = d[touching], r[touching]
+    spread = body.radius / r.min() - 1.0
+    strength = min((np.sqrt(3.0) - 1.0) / max(spread, SAME), STRONGEST)
+    return Polytope(d, r, vertices).scaled(strength / r.min())
+
+
+def from_points(points):
+    """Return the convex hull of points, about their origin.
+
+    Parameters
+    ----------
+    points : (n,3) array
+
+    Returns
+    -------
+    Polytope
+        As `from_directions`.
+
+    Raises
+    ------
+    CubicCraftError
+        The points are flat, or the origin does not lie inside.
+    """
+    points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    try:
+        planes = ConvexHull(points).equations
+    except (QhullError, ValueError) as error:
+        raise CubicCraftError("a form needs at least four points that are not flat") from error
+    normals, offsets = planes[:, :3], -planes[:, 3]
+    if not (offsets > NARROWEST * np.abs(points).max()).all():
+        raise CubicCraftError("the origin of the form must lie inside it")
+    return from_directions(normals, offsets)
+
+
+def _distinct(d, r):
+    """Return directions without those that are there already, each with its nearest side."""
+    order = np.argsort(r, kind="stable")
+    _, first = np.unique(np.round(d[order] / SAME / 10).astype(np.int64), axis=0, return_index=True)
+    kept = order[np.sort(first)]
+    # Rounding may part two that are alike; each is compared with the ones that are kept.
+    chosen = []
+    for k in kept:
+        if all(np.abs(d[k] - d[other]).max() > 10 * SAME for other in chosen):
+            chosen.append(k)
+    chosen = np.sort(chosen)
+    return d[chosen], r[chosen]
+
+
+def _encloses_origin(d):
+    """Return whether directions (k,3) point to all sides, and not only just."""
+    try:
+        return bool((ConvexHull(d).equations[:, 3] < -NARROWEST).all())
+    except (QhullError, ValueError):
+        return False
+
+
+def _apart(points, distance):
+    """Return points without those that lie at others."""
+    kept = []
+    for point in points:
+        if all(np.abs(point - other).max() > 10 * distance for other in kept):
+            kept.append(point)
+    return np.array(kept)

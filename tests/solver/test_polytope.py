@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Convex bodies from directions and from points: their faces, sizes and what is refused."""
+
+import numpy as np
+import pytest
+import shapes
+from named_forms import POLYTOPES
+
+from solver import CubicCraftError
+from solver.styles.faces import faces_of
+from solver.styles.polytope import from_directions, from_points
+
+COUNTS = {
+    "cube": (8, 12, 6),
+    "octahedron": (6, 12, 8),
+    "tetrahedron": (4, 6, 4),
+    "dodecahedron": (20, 30, 12),
+    "icosahedron": (12, 30, 20),
+    "rhombic dodecahedron": (14, 24, 12),
+    "prism of 5": (10, 15, 7),
+    "pyramid": (5, 8, 5),
+}
+
+
+@pytest.mark.parametrize("name", POLYTOPES)
+def test_vertices_edges_and_facets(name):
+    body = POLYTOPES[name]()
+    counts = len(body.vertices), len(body.edges), len(body.normals)
+    assert counts == COUNTS.get(name, counts)
+    assert counts[0] - counts[1] + counts[2] == 2
+    heights = body.vertices @ body.normals.T - body.offsets
+    assert heights.max() < 1e-9
+    assert (body.incidence.sum(axis=0) >= 3).all() and (body.incidence.sum(axis=1) >= 3).all()
+
+
+@pytest.mark.parametrize("name", POLYTOPES)
+def test_the_cost_of_a_normal_is_least_where_a_side_faces(name):
+    body = POLYTOPES[name]()
+    x = np.random.default_rng(1).normal(size=(2000, 3))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    at_sides = body.cost(body.normals)
+    np.testing.assert_allclose(at_sides, body.offsets, rtol=1e-9)
+    assert body.cost(x).min() >= at_sides.min() * (1 - 1e-9)
+    assert body.cost(x).max() <= body.radius * (1 + 1e-9)
+
+
+def test_the_cost_of_the_cube_is_the_sum_of_sizes():
+    x = np.random.default_rng(2).normal(size=(100, 3))
+    np.testing.assert_allclose(POLYTOPES["cube"]().cost(x), np.abs(x).sum(axis=1))
+    np.testing.assert_allclose(POLYTOPES["box"]().cost(x), np.abs(x) @ [1, 2, 3])
+
+
+@pytest.mark.parametrize("name", sorted(set(POLYTOPES) - {"box", "slab", "pillar"}))
+def test_all_forms_differ_as_much_in_their_costs_as_the_cube(name):
+    body = POLYTOPES[name]()
+    assert body.radius - body.offsets.min() == pytest.approx(np.sqrt(3.0) - 1.0)
+
+
+def test_links_lead_to_and_fro():
+    faces = faces_of([POLYTOPES["dodecahedron"](), POLYTOPES["pyramid"]()])
+    a = faces.arrays
+    near = [set(a.targets[begin:end]) for begin, end in a.links]
+    for edge, (first, second) in enumerate(faces.edge_ends, faces.edge_start):
+        assert len(near[edge]) == 2
+        assert all(edge in near[facet] for facet in near[edge])
+        assert edge in near[first] and edge in near[second]
+        assert faces.between[first, second] == faces.between[second, first] == edge
+    np.testing.assert_allclose(np.linalg.norm(a.ways, axis=1), 1.0)
+
+
+def test_points_give_the_hull_about_their_origin():
+    cube = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
+    body = from_points(np.concatenate([3.0 * cube, 0.5 * cube]))
+    assert (len(body.vertices), len(body.edges), len(body.normals)) == (8, 12, 6)
+    np.testing.assert_allclose(np.sort(np.abs(body.vertices), axis=None), 1.0)
+    # moved, its sides are at different distances, and facets are not split
+    body = from_points(cube + [0.5, 0.0, 0.0])
+    assert len(body.normals) == 6
+    np.testing.assert_allclose(np.unique((body.offsets / body.offsets.min()).round(6)), [1, 2, 3])
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: from_directions(np.eye(3)), "all sides"),
+        (lambda: from_directions([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]]), "all sides"),
+        (lambda: from_directions(np.zeros((6, 3))), "not zero"),
+        (lambda: from_directions([[np.nan, 0, 0]]), "finite"),
+        (lambda: from_directions([]), "finite"),
+        (lambda: from_points([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), "flat"),
+        (lambda: from_points(np.eye(3)), "four points"),
+        (lambda: from_points(shapes.blob(1)[0] + 9.0), "origin"),
+    ],
+)
+def test_refused(make, words):
+    with pytest.raises(CubicCraftError, match=words):
+        make()
