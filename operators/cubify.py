@@ -9,7 +9,7 @@ import contextlib
 import math
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty
 
 from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.handles import Handle
@@ -19,11 +19,15 @@ from ..cubic_craft_addon.mesh_bridge import last_run
 from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.run.failures import UNEXPECTED
 from ..cubic_craft_addon.run.up_to_date import changes_since
+from ..cubic_craft_addon.settings.forms import form_settings
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
     OF_EACH_OBJECT,
+    POINTERS,
     SettingsOverrides,
-    find_frame,
+    asked_for,
+    find_pointers,
+    pointer_name,
     values_of,
 )
 from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
@@ -45,11 +49,8 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    frame: StringProperty(
-        name="Frame",
-        description="Name of the object whose axes the cube uses",
-        options={"SKIP_SAVE"},
-    )
+    frame: pointer_name("frame")
+    form_object: pointer_name("form_object")
     handles: CollectionProperty(
         name="Handles",
         description="Handles to use instead of those of the objects",
@@ -163,6 +164,12 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         if self.is_edited:
             layout.row().prop(self, "start", expand=True)
         layout.prop(self, "cubeness", slider=True)
+        layout.prop(self, "form")
+        for name in form_settings(self.form):
+            if name in POINTERS:
+                layout.prop_search(self, name, context.blend_data, "objects")
+            else:
+                layout.prop(self, name)
         layout.prop(self, "space")
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
@@ -214,9 +221,10 @@ def _adopt_settings(operator, objects):
         operator.is_edited = mesh_bridge.is_edited(mesh_bridge.mesh_of(objects[0]))
         if not operator.properties.is_property_set("start"):
             operator.start = source.start
-    is_framed = operator.space == "FRAME" and source.frame is not None
-    if is_framed and not operator.properties.is_property_set("frame"):
-        operator.frame = source.frame.name
+    for name in asked_for(values_of(operator)):
+        pointer = getattr(source, name)
+        if pointer is not None and not operator.properties.is_property_set(name):
+            setattr(operator, name, pointer.name)
 
 
 def _set_for_new_mesh(operator):
@@ -228,10 +236,10 @@ def _set_for_new_mesh(operator):
 
 def _overrides(operator, active):
     names = tuple(n for n in (*ALL, "start") if operator.properties.is_property_set(n))
-    frame = find_frame(operator.frame, active) if operator.space == "FRAME" else None
+    pointers = find_pointers(values_of(operator, tuple(POINTERS)), values_of(operator), active)
     is_given = operator.properties.is_property_set("handles")
     return SettingsOverrides(
-        values_of(operator, names), frame, _handles(operator) if is_given else None
+        values_of(operator, names), pointers, _handles(operator) if is_given else None
     )
 
 

@@ -138,7 +138,7 @@ class Stylization:
         lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))
         lam = rest.input_map.spread(lam) * rest.cubic_shares
         lam[setup.pinned] = 0.0  # otherwise their rotations would shear the pinned part
-        Q = _orientation(orientation, rest)
+        Q = _orientation(orientation, rest, may_mirror=form is not None)
         self._lam = lam
         self._Q = _with_boxes(Q, rest.box_frames) if keep_rotation and form is None else Q
         self._form, self._form_of = form, _bodies(form_of, rest)
@@ -300,8 +300,11 @@ class Stylization:
         return positions
 
 
-def _orientation(Q, rest):
-    """Return the orientation as (1,3,3) or (n,3,3) rotations of the used vertices."""
+def _orientation(Q, rest, may_mirror):
+    """Return the orientation as (1,3,3) or (n,3,3) rotations of the used vertices.
+
+    Beyond a plane of symmetry, a form that is not its own mirror image is reflected.
+    """
     if Q is None:
         return np.eye(3)[None]
     Q = np.asarray(Q, dtype=np.float64)
@@ -312,7 +315,7 @@ def _orientation(Q, rest):
     else:
         raise CubicCraftError(f"the orientation must have the shape (3, 3), not {Q.shape}")
     is_orthogonal = np.abs(Q @ Q.swapaxes(1, 2) - np.eye(3)).max() < 1e-6
-    if not (is_orthogonal and (np.linalg.det(Q) > 0.0).all()):
+    if not (is_orthogonal and (may_mirror or (np.linalg.det(Q) > 0.0).all())):
         raise CubicCraftError("the orientation must be a rotation matrix")
     return Q
 

@@ -5,6 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .machine import Event
+from .properties import live_properties
 
 _session = None
 
@@ -44,9 +45,12 @@ def _on_update(_scene, depsgraph):
             if update.is_updated_geometry and data.session_uid in mesh_uids:
                 _session.on_mesh_update()
         elif isinstance(data, bpy.types.Object) and (
-            update.is_updated_transform or not update.is_updated_geometry
+            update.is_updated_transform
+            or not update.is_updated_geometry
+            or data.name == live_properties().form_object
         ):
-            # Moved, or one of its properties changed: a handle, a frame, or a live object itself.
+            # Moved, or one of its properties changed: a handle, a frame, or a live object itself;
+            # or the object that the form is made from was edited.
             _session.wake()
         elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
             _session.wake()  # perhaps an object was deleted, of which Blender does not notify us

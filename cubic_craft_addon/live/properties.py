@@ -8,16 +8,24 @@ intermediate shape. Confirming transfers them to the objects, in the single step
 from typing import Any
 
 import bpy
-from bpy.props import PointerProperty, StringProperty
+from bpy.props import PointerProperty
 
 from ..presets.selector import preset_property
 from ..screen import glimpse
-from ..settings.overrides import ALL, OF_EACH_OBJECT, SettingsOverrides, find_frame, values_of
+from ..settings.overrides import (
+    ALL,
+    OF_EACH_OBJECT,
+    POINTERS,
+    SettingsOverrides,
+    find_pointers,
+    pointer_name,
+    values_of,
+)
 from ..settings.properties import RunProperties, object_properties, value_of
 from . import poses, wake
 
 _NAME = "cubic_craft_live"
-_FRAME, _POSES = "frame", "poses"
+_POSES = "poses"
 
 
 def _with_update(declared):
@@ -35,17 +43,17 @@ def _with_update(declared):
 class CubicCraftLiveProperties(bpy.types.PropertyGroup):
     """The settings of the running session."""
 
-    __annotations__ = {
-        name: _with_update(declared) for name, declared in RunProperties.__annotations__.items()
-    } | {
-        # By name: a pointer on the window manager would outlive the objects after an undo.
-        _FRAME: StringProperty(
-            name="Frame",
-            description="Name of the object whose axes the cube uses",
-            update=wake.on_property,
-        ),
-        "preset": preset_property(),
-    }
+    __annotations__ = (
+        {name: _with_update(declared) for name, declared in RunProperties.__annotations__.items()}
+        | {
+            # By name: a pointer on the window manager would outlive the objects after an undo.
+            name: _with_update(pointer_name(name))
+            for name in POINTERS
+        }
+        | {
+            "preset": preset_property(),
+        }
+    )
 
 
 def live_properties() -> Any:
@@ -56,14 +64,14 @@ def live_properties() -> Any:
 def adopt(obj: bpy.types.Object) -> None:
     """Take the settings from an object."""
     source = object_properties(obj)
-    frame = source.frame
-    set_live_values(values_of(source) | {_FRAME: frame.name if frame else "", _POSES: {}})
+    names = {name: pointer.name if (pointer := getattr(source, name)) else "" for name in POINTERS}
+    set_live_values(values_of(source) | names | {_POSES: {}})
     glimpse.forget()  # this has not rotated the cube
 
 
 def live_values() -> dict[str, Any]:
     """Return the settings as plain values."""
-    return values_of(live_properties(), (*ALL, _FRAME)) | {_POSES: poses.live_poses()}
+    return values_of(live_properties(), (*ALL, *POINTERS)) | {_POSES: poses.live_poses()}
 
 
 def set_live_values(values: dict[str, Any]) -> None:
@@ -82,14 +90,14 @@ def live_overrides(objects: list[bpy.types.Object]) -> SettingsOverrides:
     Raises
     ------
     CubicCraftError
-        There is no frame object of that name.
+        There is no object of a name that is asked for.
     """
     values = live_values()
-    frame, posed = values.pop(_FRAME), poses.by_object(values.pop(_POSES))
+    posed = poses.by_object(values.pop(_POSES))
+    names = {name: values.pop(name) for name in POINTERS}
+    found = find_pointers(names, values, objects[0]) if objects else {}
     if len(objects) > 1:
         values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
-    is_framed = objects and values["space"] == "FRAME"
-    found = find_frame(frame, objects[0]) if is_framed else None
     return SettingsOverrides(values, found, poses=posed)
 
 

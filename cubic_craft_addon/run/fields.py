@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...solver.styles.forms import cube
+from ...solver.styles.polytope import Polytope
 from .. import handles
 from .assembly import Prepared
 from .mirrored_cubes import orientations
@@ -42,6 +44,17 @@ def orientation(prepared: Prepared) -> np.ndarray:
     return np.concatenate(
         [np.broadcast_to(Q, (count, 3, 3)) for Q, count in zip(found, counts, strict=True)]
     )
+
+
+def forms(prepared: Prepared) -> tuple[list[Polytope] | None, np.ndarray | None]:
+    """Return the forms and the number of the form of each vertex (N,); None if all are cubes."""
+    found = [placement.form for placement in prepared.placements]
+    if not any(found):
+        return None, None
+    distinct = list(dict.fromkeys(found))
+    counts = [len(member.whole.source) for member in prepared.members]
+    numbers = np.repeat([distinct.index(form) for form in found], counts)
+    return [form or cube() for form in distinct], numbers
 
 
 def targets(prepared: Prepared) -> np.ndarray:

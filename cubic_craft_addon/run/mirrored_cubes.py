@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cube beyond a plane of symmetry: the mirror image of the cube on this side."""
+"""The form beyond a plane of symmetry: the mirror image of the form on this side."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _ALIKE = 1e-5  # smaller rotations make no difference
 
 
 def orientations(whole: Whole, placement: Placement) -> np.ndarray:
-    """Return the orientation of the cube for all vertices (1,3,3), or for each of them (N,3,3).
+    """Return the orientation of the form for all vertices (1,3,3), or for each of them (N,3,3).
 
-    One for all if the cube is its own image about every plane.
+    One for all if the form is its own image about every plane.
     """
     Q = placement.orientation
     turns = [np.eye(3)]
@@ -23,12 +23,17 @@ def orientations(whole: Whole, placement: Placement) -> np.ndarray:
         linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
         U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    if all(_looks_alike(Q @ turn @ Q.T) for turn in turns):
+    form = placement.form
+    if all(_looks_alike(Q @ turn @ Q.T, form) for turn in turns):
         return Q[None]
-    return np.stack([proper(Q @ turn) for turn in turns])[whole.sides()]
+    found = [Q @ turn for turn in turns]
+    return np.stack(found if form else [proper(turned) for turned in found])[whole.sides()]
 
 
-def _looks_alike(turn):
-    """Return whether a cube looks the same after a rotation or reflection."""
+def _looks_alike(turn, form):
+    """Return whether the form, or the cube for None, looks the same after a turn or reflection."""
+    if form is not None:
+        costs = form.cost(form.normals @ turn.T)
+        return bool(np.abs(costs - form.offsets).max() <= _ALIKE * form.radius)
     sizes = np.abs(turn)
     return np.minimum(sizes, np.abs(sizes - 1.0)).max() <= _ALIKE

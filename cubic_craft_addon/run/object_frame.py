@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the coordinates of an object to its visible shape, and to the frame of the cube."""
+"""From the coordinates of an object to its visible shape, and to the frame of the form."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import math
 from dataclasses import dataclass
@@ -11,7 +13,9 @@ from mathutils import Euler, Matrix
 from ... import solver
 from ...solver import CubicCraftError
 from ...solver.styles.cube import proper
+from ...solver.styles.polytope import Polytope
 from ..settings.values import Settings
+from .form import form_of
 
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
@@ -35,10 +39,12 @@ class Placement:
     stretch: np.ndarray
     """(3,3) symmetric stretch S of A = T S, up to rounding"""
     orientation: np.ndarray
-    """(3,3) rotation Q that maps the coordinates that it is solved in into the cube's frame; one of
-    the 24 that are the same for a cube"""
+    """(3,3) rotation Q that maps the coordinates that it is solved in into the form's frame; for a
+    cube one of the 24 that are the same, for other forms of a mirrored object a reflection"""
     up: np.ndarray
     """(3,) unit vector that points up in the world"""
+    form: Polytope | None
+    """None for the cube"""
 
     @property
     def is_mirrored(self):
@@ -48,7 +54,7 @@ class Placement:
     @property
     def key(self):
         """All values, for comparison bit for bit."""
-        return self.shape_key, self.orientation.tobytes()
+        return self.shape_key, self.orientation.tobytes(), self.form and self.form.key
 
     @property
     def shape_key(self):
@@ -101,10 +107,11 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     CubicCraftError
         As `stretch_and_orientation`.
     """
+    form = form_of(settings)
     stretch, orientation = stretch_and_orientation(obj, settings)
-    orientation = _without_right_angles(orientation)
+    orientation = _without_turns_that_do_nothing(orientation, form)
     turn, _ = _turn_and_stretch(obj)
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2])
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form)
 
 
 def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
@@ -123,9 +130,10 @@ def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement |
     turn, stretch = _turn_and_stretch(obj)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    orientation = proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T)
-    orientation, up = _without_right_angles(orientation), np.array([0.0, 0.0, 1.0])
-    return Placement(linear, offset, turn, stretch, orientation, up)
+    form = form_of(settings)
+    orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T, settings)
+    orientation = _without_turns_that_do_nothing(orientation, form)
+    return Placement(linear, offset, turn, stretch, orientation, np.array([0.0, 0.0, 1.0]), form)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -141,7 +149,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     stretch : (3,3) array
         S, invertible.
     orientation : (3,3) array
-        The rotation Q that maps stretched object coordinates into the cube's frame.
+        The rotation Q that maps stretched object coordinates into the form's frame.
 
     Raises
     ------
@@ -149,7 +157,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
     turn, stretch = _turn_and_stretch(obj)
-    return stretch, proper(_axes(settings).T @ _into_space(obj, settings, turn))
+    return stretch, _proper(_axes(settings).T @ _into_space(obj, settings, turn), settings)
 
 
 def world_axes(obj: bpy.types.Object, settings: Settings):
@@ -217,11 +225,17 @@ def _into_space(obj, settings, turn):
     return np.array(frame, dtype=np.float64).T @ turn
 
 
-def _without_right_angles(orientation):
-    """Return the identity if the cube looks as if it were not rotated.
+def _proper(matrix, settings):
+    """Return the rotation that is equivalent for a cube; other forms are mirrored as they are."""
+    return proper(matrix) if settings.form == "CUBE" else matrix
+
+
+def _without_turns_that_do_nothing(orientation, form):
+    """Return the identity if the form looks as if it were not rotated.
 
     An object that is rotated by a right angle, as is common for imported files, or mirrored then
     gives the same bits as one that is not.
     """
-    is_like = np.allclose(orientation, np.round(orientation), rtol=0.0, atol=_SMALLEST_TURN)
+    same = np.round(orientation) if form is None else np.eye(3)
+    is_like = np.allclose(orientation, same, rtol=0.0, atol=_SMALLEST_TURN)
     return np.eye(3) if is_like else orientation

@@ -67,7 +67,8 @@ class Task:
     def key(self):
         """Everything but the mesh that determines the solution; no references to Blender's data."""
         up = self._alone.up.tobytes() if self.settings.floor else b""
-        return replace(self.settings, frame=None), self._reflections, up, self._alone.key
+        settings = replace(self.settings, frame=None, form_object=None)
+        return settings, self._reflections, up, self._alone.key
 
     @property
     def key_in_world(self):

@@ -11,8 +11,10 @@ import numpy as np
 from ...solver import CubicCraftError
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
+from ..settings.forms import FORM_SETTINGS, OF_OBJECT, form_settings
 from ..settings.properties import settings_of
 from ..settings.values import Settings
+from .form import form_of
 
 # The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}
@@ -29,6 +31,10 @@ def what_matters(settings: Settings) -> dict[str, Any]:
     names = (field.name for field in fields(settings) if field.name not in _IGNORED)
     values = {name: getattr(settings, name) for name in names}
     values["frame"] = _turn(settings.frame) if settings.space == "FRAME" else None
+    used = form_settings(settings.form)
+    values |= {name: None for name in FORM_SETTINGS if name not in used}
+    if settings.form in OF_OBJECT:
+        values["form_object"] = _body(settings)
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":
@@ -61,6 +67,14 @@ def _label(obj, name):
 
 def _turn(frame):
     return None if frame is None else _matrix(frame.matrix_world.to_quaternion().to_matrix())
+
+
+def _body(settings):
+    try:
+        form = form_of(settings)
+    except CubicCraftError:
+        return None
+    return form and _matrix(form.normals * form.offsets[:, None])
 
 
 def _handle(handle):

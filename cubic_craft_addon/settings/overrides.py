@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import bpy
+from bpy.props import StringProperty
 
 from ...solver import CubicCraftError
 from ..handles import Handle
@@ -17,11 +18,18 @@ from ..handles.own_pose import Pose
 from ..handles.pose import posed_handles
 from ..mesh_bridge import Start
 from ..object_properties import object_properties
-from .properties import RunProperties, settings_of, value_of
+from .forms import OF_OBJECT
+from .properties import CubicCraftProperties, RunProperties, settings_of, value_of
 from .values import Settings
 
 ALL = tuple(RunProperties.__annotations__)
 """names of the properties that the panel, the operator and Live share"""
+POINTERS = {
+    "frame": lambda values: values.get("space") == "FRAME",
+    "form_object": lambda values: values.get("form") in OF_OBJECT,
+}
+"""settings that are objects, and whether other settings ask for them; in the operator and in Live
+they are given by name"""
 OF_EACH_OBJECT = ("use_handles", "map_group", "map_invert")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
@@ -32,7 +40,8 @@ class SettingsOverrides:
 
     values: Mapping[str, Any]
     """those of ALL that apply to all objects"""
-    frame: bpy.types.Object | None = None
+    pointers: Mapping[str, bpy.types.Object | None] = field(default_factory=dict)
+    """those of POINTERS that are asked for"""
     handles: tuple[Handle, ...] | None = None
     """instead of those of the objects"""
     poses: Mapping[int, Mapping[int, Pose]] = field(default_factory=dict)
@@ -52,8 +61,7 @@ class SettingsOverrides:
         if handles is None:
             poses = self.poses.get(obj.session_uid)
             handles = posed_handles(obj, poses) if self.uses_own_handles(obj) else ()
-        if self.values.get("space") == "FRAME":
-            changes["frame"] = self.frame
+        changes |= {name: self.pointers.get(name) for name in asked_for(self.values)}
         return replace(settings_of(obj, handles), **changes)
 
     def uses_own_handles(self, obj: bpy.types.Object) -> bool:
@@ -75,8 +83,7 @@ class SettingsOverrides:
         """Store the settings used on the new object, so that its panel shows them."""
         properties = object_properties(target)
         values = {name: value for name, value in self.values.items() if name != "start"}
-        if settings.space == "FRAME":
-            values["frame"] = settings.frame
+        values |= {name: getattr(settings, name) for name in asked_for(vars(settings))}
         if settings.result == "NEW_OBJECT":
             # A click on the new object should change it, not copy it again.
             values["result"] = "MESH"
@@ -94,20 +101,43 @@ def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:
     return {name: value_of(properties, name) for name in names}
 
 
-def find_frame(name: str, active: bpy.types.Object) -> bpy.types.Object | None:
-    """Return the frame object of a name, None for no name.
+def pointer_name(setting: str) -> Any:
+    """Return the declaration of the property that has the name of one of POINTERS."""
+    declared = CubicCraftProperties.__annotations__[setting].keywords
+    what = declared["description"].removeprefix("Object")
+    return StringProperty(
+        name=declared["name"],
+        description=f"Name of the object{what}",
+        options={"SKIP_SAVE"},
+    )
+
+
+def asked_for(values: Mapping[str, Any]) -> list[str]:
+    """Return the POINTERS that other settings ask for."""
+    return [name for name, is_asked in POINTERS.items() if is_asked(values)]
+
+
+def find_pointers(
+    names: Mapping[str, str], values: Mapping[str, Any], active: bpy.types.Object
+) -> dict[str, bpy.types.Object | None]:
+    """Return the objects that are asked for by their names, None for no name.
 
     Raises
     ------
     CubicCraftError
-        There is no object of that name.
+        There is no object of a name.
     """
+    return {name: _find(name, names[name], active) for name in asked_for(values)}
+
+
+def _find(setting, name, active):
     if not name:
         return None
-    own = object_properties(active).frame
+    own = getattr(object_properties(active), setting)
     if own is not None and own.name == name:
         return own  # not by its name, which an object of a library may also have
-    frame = bpy.data.objects.get(name)
-    if frame is None:
-        raise CubicCraftError(f'there is no object "{name}"; pick another frame')
-    return frame
+    found = bpy.data.objects.get(name)
+    if found is None:
+        kind = "frame" if setting == "frame" else "form object"
+        raise CubicCraftError(f'there is no object "{name}"; pick another {kind}')
+    return found

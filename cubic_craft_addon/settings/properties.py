@@ -25,6 +25,7 @@ from ..mesh_bridge import last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..screen import glimpse
+from .forms import FORMS
 from .values import Settings
 
 _SPACES = (
@@ -124,6 +125,36 @@ class RunProperties:
         step=1,
         precision=3,
         options=_OPTIONS,
+    )
+    form: EnumProperty(
+        name="Form",
+        description="What a ball would become: the surface turns toward the sides of this form",
+        items=FORMS,
+        default=Settings.form,
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
+    form_sides: IntProperty(
+        name="Sides",
+        description="Number of walls or slopes around the Z axis",
+        default=Settings.form_sides,
+        min=3,
+        max=64,
+        soft_max=12,
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
+    form_weights: FloatVectorProperty(
+        name="Weights",
+        description="How strongly the surface turns away from each axis of the box. (1, 1, 0) makes"
+        " slabs, (0, 0, 1) upright walls",
+        subtype="XYZ",
+        default=Settings.form_weights,
+        min=0.0,
+        max=10.0,
+        soft_max=2.0,
+        options=_OPTIONS,
+        update=glimpse.on_turn,
     )
     orientation: FloatVectorProperty(
         name="Orientation",
@@ -266,6 +297,11 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
     frame: PointerProperty(
         name="Frame",
         description="Object whose axes the cube uses",
+        type=bpy.types.Object,
+    )
+    form_object: PointerProperty(
+        name="Form Object",
+        description="Object that the form is made from, about its origin",
         type=bpy.types.Object,
     )
     handles: CollectionProperty(type=CubicCraftHandle)

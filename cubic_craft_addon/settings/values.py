@@ -17,6 +17,14 @@ class Settings:
     """The settings of one object. The defaults are those of the panel."""
 
     cubeness: float = 0.4
+    form: str = "CUBE"
+    """what a ball would become: one of `forms.FORMS`"""
+    form_sides: int = 6
+    """of a prism or pyramid"""
+    form_weights: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    """of the axes of a box"""
+    form_object: bpy.types.Object | None = None
+    """the object that an OBJECT or DIRECTIONS form is made from"""
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Euler XYZ angles in radians"""
     space: str = "WORLD"

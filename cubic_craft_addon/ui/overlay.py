@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An overlay in the viewport: the cube that the active mesh is turned toward.
+"""An overlay in the viewport: the form that the active mesh is turned toward.
 
 The switch is stored on the window manager, so that using it leaves no undo step. The draw handler
 exists only while the extension is registered.
@@ -13,15 +13,16 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ...solver import CubicCraftError
-from ...solver.styles.cube import EDGES
+from ...solver.styles.forms import cube
 from .. import live
 from ..handles.owner import panel_object
+from ..run.form import form_of
 from ..run.object_frame import world_axes
 from ..screen import glimpse
 
 PROPERTY = "cubic_craft_overlay"
 
-_MARGIN = 1.1  # the cube is larger than the object by this factor
+_MARGIN = 1.1  # the form is larger than the object by this factor
 _LINE_WIDTH = 2.0  # pixels
 _EDGE_COLOR = (1.0, 1.0, 1.0, 0.35)
 _AXIS_COLORS = ((0.96, 0.25, 0.33, 1.0), (0.55, 0.85, 0.15, 1.0), (0.2, 0.55, 1.0, 1.0))
@@ -34,28 +35,30 @@ def lines_of(obj: bpy.types.Object):
 
     Returns
     -------
-    points : (30,3) array
-        World space; each two are a line: the three axes, then the twelve edges of the cube.
-    colors : list of 30 RGBA tuples
+    points : (6 + 2e,3) array
+        World space; each two are a line: the three axes, then the edges of the form.
+    colors : list of as many RGBA tuples
 
     Raises
     ------
     CubicCraftError
-        The object's orientation is not defined, because it has no frame object.
+        The form or its orientation is not defined, because an object is not set.
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    axes = world_axes(obj, live.settings_now(obj))  # columns
+    settings = live.settings_now(obj)
+    axes = world_axes(obj, settings)  # columns
     along = (corners - centre) @ axes
-    half = max(np.abs(along).max() * _MARGIN, 1e-6) * axes
+    form = form_of(settings) or cube()
+    # as large as its sides must be to have all corners inside
+    size = max((along @ form.normals.T / form.offsets).max() * _MARGIN, 1e-6)
+    reach = size * form.offsets.min() * axes
     points, colors = [], []
-    for axis, color in zip(half.T, _AXIS_COLORS, strict=True):
+    for axis, color in zip(reach.T, _AXIS_COLORS, strict=True):
         points += [centre, centre + axis]
         colors += [color, color]
-    for a, b in EDGES:
-        points += [centre + half @ a, centre + half @ b]
-        colors += [_EDGE_COLOR, _EDGE_COLOR]
-    return np.array(points), colors
+    ends = centre + size * form.vertices[form.edges.ravel()] @ axes.T
+    return np.concatenate([points, ends]), colors + [_EDGE_COLOR] * len(ends)
 
 
 def _draw():
@@ -88,8 +91,8 @@ def register():
     """Add the switch and the draw handler."""
     global _handle
     switch = BoolProperty(
-        name="Show Cube",
-        description="Draw the cube of the active mesh in the viewport, even while it is not being"
+        name="Show Form",
+        description="Draw the form of the active mesh in the viewport, even while it is not being"
         " rotated",
         update=_redraw,
     )

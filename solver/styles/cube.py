@@ -1,19 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cube: the cost of a normal, its active sets, its symmetries, and the edges to draw."""
+"""The cube: the cost of a normal, its active sets and its symmetries."""
 
-import itertools
 from functools import cache
 
 import numpy as np
-
-EDGES = np.array(
-    [
-        (a, b)
-        for a, b in itertools.combinations(itertools.product((-1.0, 1.0), repeat=3), 2)
-        if sum(x != y for x, y in zip(a, b, strict=True)) == 1
-    ]
-)
-"""(12,2,3) ends of the edges of a cube with half size 1"""
 
 
 def cost(x):

@@ -129,9 +129,7 @@ class _Part:
         self._facets = body.edge_facets
         into = np.cross(body.normals[self._facets], self._along[:, None, :])
         middle = ends.mean(axis=1)
-        # the middle of a facet lies inside it
-        middles = (body.incidence.T @ body.vertices) / body.incidence.sum(axis=0)[:, None]
-        toward = middles[self._facets] - middle[:, None, :]
+        toward = body.middles[self._facets] - middle[:, None, :]
         sign = np.sign(np.einsum("eki,eki->ek", into, toward))
         self._into = into * sign[:, :, None]
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The forms that have names.
 
-Each is given by the directions that its sides face, all equally far from the origin. The cube is
-not among them: its local step has code of its own, which is faster.
+Each is given by the directions that its sides face, all equally far from the origin. Where nothing
+else is asked for, the cube's local step has code of its own, which is faster.
 """
 
 import itertools
@@ -18,6 +18,11 @@ SLOPE = np.radians(30.0)
 """angle of the sides of a pyramid or cone above the horizontal that their normals have"""
 LEAST_WEIGHT = 0.01
 """of a box; with 0 it would be flat"""
+
+
+def cube():
+    """Return the cube as a body like all others, for meshes that have it beside other forms."""
+    return from_directions(np.concatenate([np.eye(3), -np.eye(3)]))
 
 
 def box(weights):

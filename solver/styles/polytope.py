@@ -23,7 +23,7 @@ STRONGEST = 4.0
 """distance of the nearest side; without this limit, bodies that are almost balls would have any"""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Polytope:
     """A convex body with flat sides that has the origin inside.
 
@@ -48,6 +48,11 @@ class Polytope:
     """(v,3)"""
 
     @cached_property
+    def key(self):
+        """Bytes that are the same for the same body."""
+        return self.normals.tobytes() + self.offsets.tobytes()
+
+    @cached_property
     def incidence(self):
         """(v,f) bool, which vertex lies on which facet."""
         distances = self.vertices @ self.normals.T - self.offsets
@@ -64,6 +69,25 @@ class Polytope:
         """(e,2) int, the two facets of each edge."""
         both = self.incidence[self.edges[:, 0]] & self.incidence[self.edges[:, 1]]
         return np.argsort(~both, axis=1, kind="stable")[:, :2]
+
+    @property
+    def facet_areas(self):
+        """(f,) areas of the facets."""
+        a, b = self.vertices[self.edges[:, 0]], self.vertices[self.edges[:, 1]]
+        areas = np.zeros(len(self.normals))
+        for facets in self.edge_facets.T:
+            foot = self.offsets[facets, None] * self.normals[facets]
+            # of triangles with the foot point of the facet, which may lie outside it
+            parts = np.einsum("ei,ei->e", np.cross(a - foot, b - foot), self.normals[facets]) / 2
+            inward = self.middles[facets] - a
+            sign = np.einsum("ei,ei->e", np.cross(b - a, inward), self.normals[facets])
+            np.add.at(areas, facets, parts * np.sign(sign))
+        return areas
+
+    @property
+    def middles(self):
+        """(f,3) means of the vertices of each facet, which lie inside it."""
+        return (self.incidence.T @ self.vertices) / self.incidence.sum(axis=0)[:, None]
 
     @cached_property
     def radius(self):
@@ -109,7 +133,7 @@ def from_directions(directions, offsets=None):
         raise CubicCraftError("the sides of a form must lie around its origin")
     d, r = d / sizes[:, None], r / r.min()
     d, r = _distinct(d, r)
-    if not _encloses_origin(d):
+    if not encloses_origin(d):
         raise CubicCraftError("the directions of a form must point to all sides")
     halfspaces = np.column_stack([d, -r])
     try:
@@ -167,7 +191,7 @@ def _distinct(d, r):
     return d[chosen], r[chosen]
 
 
-def _encloses_origin(d):
+def encloses_origin(d):
     """Return whether directions (k,3) point to all sides, and not only just."""
     try:
         return bool((ConvexHull(d).equations[:, 3] < -NARROWEST).all())

@@ -72,7 +72,7 @@ def check_gone(live):
         assert handler not in getattr(bpy.app.handlers, name)
     session = live._session
     assert session._timer is None
-    assert not session.tasks and not session._groups and session._overrides.frame is None
+    assert not session.tasks and not session._groups and not session._overrides.pointers
     assert not session._runs._runs
     for mesh in session.meshes:
         assert mesh._preview is None and mesh.member is None and mesh.run is None

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All forms that have names, and the cube as one of them."""
 
-import numpy as np
-
 from solver.styles import forms
-from solver.styles.polytope import from_directions
 
 POLYTOPES = {
-    "cube": lambda: from_directions(np.concatenate([np.eye(3), -np.eye(3)])),
+    "cube": forms.cube,
     "box": lambda: forms.box((1, 2, 3)),
     "slab": lambda: forms.box((1, 1, 0)),
     "pillar": lambda: forms.box((0, 0, 1)),

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from named_forms import POLYTOPES
+from scipy.spatial import ConvexHull
 
 from solver import CubicCraftError
 from solver.styles.faces import faces_of
@@ -95,3 +96,10 @@ def test_points_give_the_hull_about_their_origin():
 def test_refused(make, words):
     with pytest.raises(CubicCraftError, match=words):
         make()
+
+
+@pytest.mark.parametrize("name", POLYTOPES)
+def test_the_areas_of_the_facets_are_those_of_the_hull(name):
+    body = POLYTOPES[name]()
+    assert body.facet_areas.sum() == pytest.approx(ConvexHull(body.vertices).area)
+    assert (body.facet_areas > 0.0).all()

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The form of the settings, as a body for the solver."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from functools import lru_cache
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from ...solver.styles import forms
+from ...solver.styles.clusters import directions_of
+from ...solver.styles.polytope import Polytope, from_directions, from_points
+from ..settings.forms import OF_OBJECT
+from ..settings.values import Settings
+
+MOST_DIRECTIONS = 48
+"""of a form from another object"""
+_NAMED = {
+    "OCTAHEDRON": forms.octahedron,
+    "TETRAHEDRON": forms.tetrahedron,
+    "DODECAHEDRON": forms.dodecahedron,
+    "ICOSAHEDRON": forms.icosahedron,
+    "RHOMBIC": forms.rhombic_dodecahedron,
+    "CYLINDER": forms.cylinder,
+    "CONE": forms.cone,
+}
+
+
+def form_of(settings: Settings) -> Polytope | None:
+    """Return the form, None for the cube.
+
+    The same settings give the same object, so that forms can be compared by identity.
+
+    Raises
+    ------
+    CubicCraftError
+        The form is that of another object which is not set or cannot be used.
+    """
+    if settings.form in OF_OBJECT:
+        return _of_object(settings)
+    return _named(settings.form, settings.form_sides, settings.form_weights)
+
+
+@lru_cache(maxsize=64)
+def _named(name, sides, weights):
+    if name == "BOX":
+        return None if len(set(weights)) == 1 and weights[0] == 1.0 else forms.box(weights)
+    if name == "PRISM":
+        return forms.prism(sides)
+    if name == "PYRAMID":
+        return forms.pyramid(sides)
+    return _NAMED[name]() if name in _NAMED else None
+
+
+def _of_object(settings):
+    obj = settings.form_object
+    if obj is None:
+        raise CubicCraftError("no object is set for the form; pick one or choose another form")
+    linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    points, normals, areas = _seen(obj, linear)
+    try:
+        if settings.form == "OBJECT":
+            return _hull(np.ascontiguousarray(points).tobytes())
+        return _facing(normals.tobytes(), areas.tobytes())
+    except CubicCraftError as error:
+        raise CubicCraftError(f'"{obj.name}" gives no form: {error}') from error
+
+
+def _seen(obj, linear):
+    """Return what is seen of an object: points (n,3), face normals (m,3) and areas (m,).
+
+    In the axes of the world, about the object's origin.
+    """
+    try:
+        evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        mesh = evaluated.to_mesh()
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
+    try:
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.ravel())
+        mesh.calc_loop_triangles()
+        corners = np.empty((len(mesh.loop_triangles), 3), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", corners.ravel())
+    finally:
+        evaluated.to_mesh_clear()
+    points = points.astype(np.float64) @ linear.T
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a) * np.sign(np.linalg.det(linear))
+    areas = np.linalg.norm(normals, axis=1)
+    is_there = areas > 0.0
+    return points, normals[is_there] / areas[is_there, None], areas[is_there]
+
+
+@lru_cache(maxsize=8)
+def _hull(points):
+    body = from_points(np.frombuffer(points).reshape(-1, 3))
+    if len(body.normals) <= MOST_DIRECTIONS:
+        return body
+    d = directions_of(body.normals, body.facet_areas, MOST_DIRECTIONS)
+    return from_directions(d, body.cost(d))
+
+
+@lru_cache(maxsize=8)
+def _facing(normals, areas):
+    d = directions_of(np.frombuffer(normals).reshape(-1, 3), np.frombuffer(areas), MOST_DIRECTIONS)
+    return from_directions(d)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The few directions that a surface faces most."""
+
+import numpy as np
+
+from ..errors import CubicCraftError
+from .polytope import encloses_origin
+
+NEAR = np.cos(np.radians(12.0))
+"""of the angle within which normals have one direction"""
+LEAST_SHARE = 1e-3
+"""of all area; less makes no direction of its own"""
+_ROUNDS = 8
+
+
+def directions_of(normals, areas, most=48):
+    """Return directions that the normals of a surface cluster about, such that they enclose 0.
+
+    The normal with most area near it becomes a direction, and so on with the rest; then each moves
+    to the mean of the normals that it is nearest to. Where they do not point to all sides, those
+    opposite are added, and if they lie in one plane, its two normals.
+
+    Parameters
+    ----------
+    normals : (n,3) array
+        Unit normals.
+    areas : (n,) array
+        Their weights.
+    most : int
+
+    Returns
+    -------
+    (k,3) array of unit vectors
+
+    Raises
+    ------
+    CubicCraftError
+        There is no normal with an area.
+    """
+    d, a = _merged(np.asarray(normals, np.float64), np.asarray(areas, np.float64))
+    if not len(d):
+        raise CubicCraftError("it has no faces with an area")
+    found = []
+    left = a.copy()
+    near = d @ d.T > NEAR if len(d) <= 3000 else None
+    while len(found) < most and left.sum() > LEAST_SHARE * a.sum():
+        around = (near @ left) if near is not None else left
+        best = int(np.argmax(np.where(left > 0.0, around, -1.0)))
+        found.append(d[best])
+        left[d @ d[best] > NEAR] = 0.0
+    found = np.array(found)
+    for _ in range(_ROUNDS):
+        nearest = (d @ found.T).argmax(axis=1)
+        sums = np.zeros_like(found)
+        np.add.at(sums, nearest, a[:, None] * d)
+        sizes = np.linalg.norm(sums, axis=1, keepdims=True)
+        found = np.where(sizes > 0.0, sums / np.where(sizes > 0.0, sizes, 1.0), found)
+    return _enclosing(found)
+
+
+def _merged(normals, areas):
+    """Return distinct normals and the sums of their areas."""
+    is_there = areas > 0.0
+    keys, index = np.unique(
+        np.round(normals[is_there] * 50.0).astype(int), axis=0, return_inverse=True
+    )
+    sums = np.zeros((len(keys), 3))
+    np.add.at(sums, index.ravel(), areas[is_there, None] * normals[is_there])
+    sizes = np.linalg.norm(sums, axis=1)
+    good = sizes > 0.0
+    return sums[good] / sizes[good, None], sizes[good]
+
+
+def _enclosing(d):
+    """Return directions that point to all sides."""
+    if encloses_origin(d):
+        return d
+    both = np.concatenate([d, -d])
+    if encloses_origin(both):
+        return both
+    _, _, axes = np.linalg.svd(d)
+    rank = int(np.linalg.matrix_rank(d, tol=0.05))
+    rest = axes[rank:]
+    return np.concatenate([both, rest, -rest])
