@@ -15,6 +15,10 @@ from .handles_file import read_handles
 
 __all__ = ("parse",)
 
+FORMS = (
+    *("cube", "box", "octahedron", "tetrahedron", "dodecahedron", "icosahedron", "rhombic"),
+    *("prism", "pyramid", "cylinder", "cone", "object", "directions"),
+)
 DEFAULTS = {
     "solidity": (0.1, 0.0),
     "together": ("selection", "off"),
@@ -32,7 +36,12 @@ HELP = {
     "--worker": argparse.SUPPRESS,
     "--verbose": "show Blender's own messages",
     "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
-    "--orientation": "Euler angles of the cube in degrees, as in the panel",
+    "--form": "what a ball would become (default: cube)",
+    "--form-sides": "of a prism or pyramid (default: 6)",
+    "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
+    "--form-object": "for --form object the file whose convex hull is the form, for directions the "
+    "one whose faces are, about the origin of its scene",
+    "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
     "--pin": "vertex groups that stay in place",
@@ -176,6 +185,11 @@ def _adder(group: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
 def _add_method(add: Callable[..., argparse.Action]) -> None:
     degrees = _number(-36000, 36000)
     add("--cubeness", nargs="+", type=_number(0, 10), default=[0.4], metavar="L")
+    add("--form", choices=FORMS, default="cube")
+    add("--form-sides", type=_number(3, 64, int), default=6, metavar="N")
+    weights = _number(0, 10)
+    add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
+    add("--form-object", type=Path, metavar="FILE")
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")

@@ -22,6 +22,7 @@ def check_single(options: Namespace) -> None:
     for option in ("jobs", "scheduler", "force", "recursive"):
         if getattr(options, option):
             raise InputError(f"--{option}: is for several files; add --output-folder DIR")
+    check_form(options)
     _check_is_something_to_do(options)
     if not options.no_render and options.output is None:
         options.output = Path("cubic_craft.png")
@@ -29,6 +30,25 @@ def check_single(options: Namespace) -> None:
         _check_input(options.input)
     options.save_mesh = Path(options.save_mesh) if options.save_mesh is not None else None
     _check_outputs(options)
+
+
+def check_form(options: Namespace) -> None:
+    """Check that a form that is made from a file has one, and no other has.
+
+    Raises
+    ------
+    InputError
+        It has none, or the file cannot be read.
+    """
+    needs_file = options.form in ("object", "directions")
+    if needs_file and options.form_object is None:
+        raise InputError(
+            f"--form {options.form}: name the file that it is made from, --form-object FILE"
+        )
+    if options.form_object is not None:
+        if not needs_file:
+            raise InputError("--form-object: is for --form object and --form directions")
+        _check_input(options.form_object)
 
 
 def check_batch(options: Namespace) -> None:
@@ -57,6 +77,7 @@ def check_batch(options: Namespace) -> None:
     ):
         if is_wrong:
             raise InputError(message)
+    check_form(options)
     _check_is_something_to_do(options)
     for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
         if not path.exists():

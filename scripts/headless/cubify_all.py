@@ -55,7 +55,8 @@ def cubify_all(
         by_mesh.setdefault(obj.data.name_full, []).append(obj)
     members = [
         extension.member.read_member(
-            users[0], _settings(users[0], handles[users[0].name], options, extension)
+            users[0],
+            _settings(users[0], handles[users[0].name], options, extension, loaded.form),
         )
         for users in by_mesh.values()
     ]
@@ -88,10 +89,18 @@ def _solve(prepared: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, 
 
 
 def _settings(
-    obj: bpy.types.Object, handles: tuple[Any, ...], options: Namespace, extension: Extension
+    obj: bpy.types.Object,
+    handles: tuple[Any, ...],
+    options: Namespace,
+    extension: Extension,
+    form: bpy.types.Object | None,
 ) -> Any:
     """Return the Settings for one object; a group that only others have does not concern it."""
     return extension.settings.Settings(
+        form=options.form.upper(),
+        form_sides=options.form_sides,
+        form_weights=tuple(options.form_weights),
+        form_object=form,
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,

@@ -42,6 +42,8 @@ class Loaded:
     """the vertices of the file, if it was an .obj"""
     is_whole: bool = True
     """not just one object that was named"""
+    form: bpy.types.Object | None = None
+    """what the form is made from"""
 
 
 def empty_blender() -> None:

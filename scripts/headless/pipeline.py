@@ -10,6 +10,7 @@ from pathlib import Path
 from .cubify_all import cubify_all
 from .errors import InputError
 from .extension import Extension, registered
+from .form_object import FormMesh, make_form, read_form
 from .gallery import build_gallery
 from .load_meshes import empty_blender, load
 from .output_files import numbered, per_cubeness
@@ -39,16 +40,18 @@ def run(options: Namespace, root: Path, begin: float) -> None:
     empty_blender()
     if options.save_mesh:
         check_exporter(options.save_mesh)
+    form = read_form(options.form_object, options.verbose) if options.form_object else None
     with registered(root) as extension:
-        _run(options, extension, begin)
+        _run(options, extension, form, begin)
 
 
-def _run(options: Namespace, extension: Extension, begin: float) -> None:
+def _run(options: Namespace, extension: Extension, form: FormMesh | None, begin: float) -> None:
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         seen_by = extension if options.with_modifiers else None
         loaded = load(options.input, options.object, options.verbose, seen_by)
+        loaded.form = make_form(form) if form else None
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is to be written for each file of a batch, and with which options."""
 
+import hashlib
 import json
 from argparse import Namespace
 from pathlib import Path
@@ -14,7 +15,16 @@ __all__ = ("Job", "decisive", "plan", "settings_of")
 
 OF_THE_BATCH = {
     *("inputs", "input", "handles", "handles_file", "output", "save_mesh", "report", "error_file"),
-    *("output_folder", "recursive", "jobs", "scheduler", "force", "threads", "worker"),
+    *(
+        "form_object",
+        "output_folder",
+        "recursive",
+        "jobs",
+        "scheduler",
+        "force",
+        "threads",
+        "worker",
+    ),
     "paper",  # what it stands for is set
 }
 """the options that are not handed on as they are"""
@@ -44,7 +54,11 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
         A result would take the place of an input, or be taken for one the next time.
     """
     jobs = [_job(options, source) for source in sources]
-    inputs = {path.resolve() for path in (*(s.path for s in sources), options.handles_file) if path}
+    inputs = {
+        path.resolve()
+        for path in (*(s.path for s in sources), options.handles_file, options.form_object)
+        if path
+    }
     for path in (path for job in jobs for path in job.outputs):
         if path.resolve() in inputs:
             raise InputError(f"{path}: is an input; choose another --output-folder")
@@ -66,8 +80,9 @@ def settings_of(options: Namespace) -> str:
 def decisive(options: Namespace, version: str) -> str:
     """Return all but the content of an input that decides about its results, as a text."""
     handles = options.handles_file and options.handles_file.read_text(encoding="utf-8")
+    form = options.form_object and hashlib.sha256(options.form_object.read_bytes()).hexdigest()
     settings = settings_of(Namespace(**vars(options) | {"verbose": False}))
-    return json.dumps([version, settings, options.save_mesh, handles])
+    return json.dumps([version, settings, options.save_mesh, handles, form])
 
 
 def _job(options: Namespace, source: Source) -> Job:
@@ -83,5 +98,7 @@ def _job(options: Namespace, source: Source) -> Job:
         arguments.append(f"--save-mesh={mesh}")
     if options.handles_file:
         arguments.append(f"--handles={options.handles_file.absolute()}")
+    if options.form_object:
+        arguments.append(f"--form-object={options.form_object.absolute()}")
     outputs = written(picture, options.turntable, mesh, options.cubeness)
     return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))
