@@ -37,6 +37,8 @@ def add_mesh(rng):
         return None
     if bpy.context.mode == "EDIT_MESH" and len(active_mesh().data.vertices) > MOST_VERTICES // 2:
         return None
+    if bpy.context.mode == "EDIT_MESH" and bpy.context.object.hide_get():
+        return None  # Blender's own torus fails there
     name, options = rng.choice(_PRIMITIVES)
     location = tuple(rng.uniform(-2, 2) for _ in range(3))
     return call(name, location=location, **options)
