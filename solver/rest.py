@@ -15,7 +15,7 @@ from .proxy.boxes import box_frames
 from .proxy.creases import cubic_shares
 from .proxy.flat_sides import stiffness
 from .proxy.neighbours import neighbour_links
-from .proxy.thickness import thickness_links
+from .proxy.thickness import outward_sign, thickness_links
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .topology import Topology, topology
@@ -86,6 +86,15 @@ class RestMesh:
     def box_frames(self):
         """(n,3,3) frames of parts that are already boxes, see `proxy/boxes.py`, or None."""
         return box_frames(self.V, self.F, self.topology.part) if self.is_refined else None
+
+    @cached_property
+    def facing_outward(self):
+        """The same mesh with the normals of inside-out parts turned around.
+
+        The cube does not care; a pyramid would come out upside down.
+        """
+        inward = outward_sign(self.V, self.F, self.topology.part)[self.topology.part] < 0.0
+        return replace(self, normals=np.where(inward[:, None], -self.normals, self.normals))
 
     @cached_property
     def standing(self):

@@ -145,7 +145,11 @@ class Stylization:
         make_local_step = local_step_class(device, precision)
         self._targets = _targets(targets, setup)
         self._local = make_local_step(
-            rest, lam, self._Q, admm or AdmmOptions(), polytopes(form, self._form_of)
+            rest if form is None else rest.facing_outward,
+            lam,
+            self._Q,
+            admm or AdmmOptions(),
+            polytopes(form, self._form_of),
         )
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size

@@ -46,6 +46,12 @@ def reopen(tmp_path):
 
 
 @pytest.fixture
+def part(extension):
+    """Return a function that imports a module of the add-on."""
+    return lambda name: importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{name}")
+
+
+@pytest.fixture
 def live(extension):
     """Return the package of Live; what a test has left running is cancelled."""
     module = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live")

@@ -7,7 +7,7 @@ import bpy
 import pytest
 from live_steps import add_monkey
 from posing import LEFT, add_posable, follow
-from scene import add_empty, cubify, given, select
+from scene import add_empty, add_triangles, cubify, given, select
 
 
 @pytest.fixture
@@ -107,6 +107,27 @@ def test_a_frame_that_turns_counts_while_it_is_used(changes):
     assert changes(obj) == []
     frame.rotation_euler.z = 1.0
     assert changes(obj) == []
+
+
+def test_a_form_counts_with_what_it_is_made_of(changes):
+    obj, form = add_monkey(), add_triangles()
+    select(obj)
+    cubify(form="OBJECT", form_object=form.name)
+    assert changes(obj) == []
+    form.location.x = 4.0
+    bpy.context.view_layer.update()
+    assert changes(obj) == []  # about its own origin
+    form.scale.z = 2.0
+    bpy.context.view_layer.update()
+    assert changes(obj) == ["Form Object"]
+    obj.cubic_craft.form = "PRISM"
+    assert set(changes(obj)) == {"Form", "Sides", "Form Object"}
+    cubify()
+    assert changes(obj) == []
+    obj.cubic_craft.form_weights = (1, 2, 3)
+    assert changes(obj) == []
+    obj.cubic_craft.form_sides = 5
+    assert changes(obj) == ["Sides"]
 
 
 def test_handles_count_as_they_are_posed_now(changes):
