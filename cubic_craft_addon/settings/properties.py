@@ -32,7 +32,7 @@ _SPACES = (
     (
         "OBJECT",
         "Object",
-        "The angles are relative to the object's own axes, so the cube rotates with the object",
+        "The angles are relative to the object's own axes, so the form rotates with the object",
     ),
     (
         "WORLD",
@@ -115,7 +115,7 @@ class RunProperties:
 
     cubeness: FloatProperty(
         name="Cubeness",
-        description="How strongly the surface turns toward the sides of the cube. 0 keeps the"
+        description="How strongly the surface turns toward the sides of the form. 0 keeps the"
         " shape, 0.1 moves it a third of the way, 0.4 most of it. You can type values beyond"
         " the slider, up to 10",
         default=Settings.cubeness,
@@ -158,7 +158,7 @@ class RunProperties:
     )
     orientation: FloatVectorProperty(
         name="Orientation",
-        description="Rotation of the cube",
+        description="Rotation of the form",
         subtype="EULER",
         default=Settings.orientation,
         soft_min=-math.pi / 4,
@@ -168,7 +168,7 @@ class RunProperties:
     )
     space: EnumProperty(
         name="Relative To",
-        description="Axes that the rotation of the cube is relative to",
+        description="Axes that the rotation of the form is relative to",
         items=_SPACES,
         default=Settings.space,
         options=_OPTIONS,
@@ -296,7 +296,7 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
     preset: preset_property()
     frame: PointerProperty(
         name="Frame",
-        description="Object whose axes the cube uses",
+        description="Object whose axes the form uses",
         type=bpy.types.Object,
     )
     form_object: PointerProperty(
