@@ -95,14 +95,22 @@ def test_most_hulls_have_none(seed):
     assert mirror_symmetry(body) is None
 
 
-@pytest.mark.parametrize("make", [lambda: forms.box((1, 2, 3)), lambda: forms.prism(4)])
-def test_the_distances_of_the_sides_count(make):
-    """Their normals alone are those of a cube."""
-    body = make()
-    same = Polytope(body.normals, np.ones(6), np.sign(body.vertices))
-    assert len(symmetries(same)) == 24
-    nearer = from_directions(body.normals, [1.0, 1.0, 1.0, 1.0, 1.0, 1.2])
-    assert len(symmetries(nearer)) == 4
+@pytest.mark.parametrize(
+    ("offsets", "count"),
+    [
+        ((1, 1, 1, 1, 1, 1), 24),
+        ((1, 1, 1, 1, 1, 1.2), 4),
+        ((1, 1, 1, 1, 1.2, 1.2), 2),
+        ((1, 1, 1, 1.2, 1.2, 1.2), 3),
+        ((1, 1, 1.1, 1, 1, 1.2), 4),
+        ((1, 1.1, 1.2, 1.3, 1.4, 1.5), 1),
+    ],
+)
+def test_the_distances_of_the_sides_count(offsets, count):
+    """Their directions alone are those of a cube."""
+    body = from_directions(np.concatenate([np.eye(3), -np.eye(3)]), offsets)
+    assert len(symmetries(body)) == count
+    assert_maps_to_itself(body, symmetries(body))
 
 
 def test_the_rounding_of_single_precision_is_ignored_but_no_more():
