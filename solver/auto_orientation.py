@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The orientation of the cube that best fits a shape."""
+"""The orientation of the cube, or of another form, that best fits a shape."""
 
 import numpy as np
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
+from .form_orientation import form_orientation
+from .orientation_search import binned, super_fibonacci
 from .styles.cube import cost, nearest_to_identity
+from .styles.polytope import Polytope
 
 SAMPLES = 100_000
 """rotations over SO(3), a 24th of which are distinct for a cube: about 5 degrees apart"""
@@ -17,12 +20,13 @@ SMOOTHING = 1e-4
 """of the absolute value, in radians; only the refinement needs a derivative"""
 
 
-def auto_orient(normals, areas):
+def auto_orient(normals, areas, form: Polytope | None = None):
     """Return the orientation whose axes best fit the normals.
 
     It minimises ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
     and descent from the best of them. Of the 24 equivalent rotations of a cube, it returns the
-    one nearest to the identity.
+    one nearest to the identity. Another form has its own cost, ``sum_i a_i h(Q n_i)``, and its own
+    symmetries.
 
     Parameters
     ----------
@@ -31,11 +35,14 @@ def auto_orient(normals, areas):
         mesh, such as a box with eight vertices, do not face the same way as its surface.
     areas : (n,) numpy array
         Their weights, not negative.
+    form : Polytope, optional
+        By default the cube.
 
     Returns
     -------
     Q : (3,3) numpy array
-        Rotation that maps a vector into the frame of the cube; its rows are the cube's axes.
+        Rotation that maps a vector into the frame of the cube; its rows are the cube's axes. Or
+        into that of the form.
 
     See Also
     --------
@@ -57,10 +64,12 @@ def auto_orient(normals, areas):
     >>> np.allclose(Q, axes, atol=1e-3)
     True
     """
-    directions, weights = _binned(normals, areas)
+    if form is not None:
+        return form_orientation(normals, areas, form)
+    directions, weights = binned(normals, areas, BINS)
     if not len(directions):
         return np.eye(3)
-    samples = _distinct(_super_fibonacci(SAMPLES))
+    samples = _distinct(super_fibonacci(SAMPLES))
     costs = np.concatenate(
         [_costs(part, directions, weights) for part in np.array_split(samples, 32)]
     )
@@ -98,24 +107,6 @@ def _refined(Q, normals, areas):
         result = minimize(objective, np.zeros(3), jac=True, method="L-BFGS-B")
         Q = Rotation.from_rotvec(result.x).as_matrix() @ Q
     return Q
-
-
-def _binned(normals, areas):
-    """Return mean directions (k,3) of the cells of the sphere and their areas (k,)."""
-    is_there = (areas > 0.0) & (np.abs(normals).max(axis=1) > 0.0)
-    n, a = normals[is_there], areas[is_there]
-    _, cell = np.unique(np.round(BINS * n).astype(np.int64), axis=0, return_inverse=True)
-    cell = cell.ravel()
-    sums = np.stack([np.bincount(cell, a * n[:, c]) for c in range(3)], axis=1)
-    return sums / np.linalg.norm(sums, axis=1, keepdims=True), np.bincount(cell, a)
-
-
-def _super_fibonacci(count):
-    """Return evenly spread unit quaternions (count,4), scalar last."""
-    s = np.arange(count) + 0.5
-    a, b = 2 * np.pi * s / np.sqrt(2), 2 * np.pi * s / 1.533751168755204288
-    r, t = np.sqrt(s / count), np.sqrt(1 - s / count)
-    return np.stack([r * np.sin(a), r * np.cos(a), t * np.sin(b), t * np.cos(b)], axis=1)
 
 
 def _distinct(quaternions):
