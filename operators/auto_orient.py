@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Auto Orient: rotate the cube of each selected mesh to fit its shape best."""
+"""Auto Orient: rotate the form of each selected mesh to fit its shape best."""
 
 import bpy
+from mathutils import Matrix
 
 from .. import solver
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.run.member import read_shape
-from ..cubic_craft_addon.run.object_frame import angles_of, placement_alone
+from ..cubic_craft_addon.run.object_frame import angles_of, axes_of_angles, placement_alone
 from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
 from ..solver.unit_box import unit_box
@@ -16,12 +17,12 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
-    """Rotate the cube to fit the shape best."""
+    """Rotate the form to fit the shape best."""
 
     bl_idname = "cubic_craft.auto_orient"
     bl_label = "Auto Orient"
     bl_description = (
-        "Rotate the cube of each selected mesh so that as much of its original surface as possible"
+        "Rotate the form of each selected mesh so that as much of its original surface as possible"
         " faces a side"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -56,6 +57,12 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
 
 
 def _best_angles(obj, settings, shape):
-    V = placement_alone(obj, settings).place(shape.original)
+    placement = placement_alone(obj, settings)
+    V = placement.place(shape.original)
     areas, normals = solver.triangle_areas_and_normals(unit_box(V).to_unit(V), shape.triangles)
-    return angles_of(obj, settings, solver.auto_orient(normals, areas))
+    if placement.form is None:
+        return angles_of(obj, settings, solver.auto_orient(normals, areas))
+    # In the axes of the angles, so that a mirrored object has its normals as they are seen.
+    seen = normals @ axes_of_angles(obj, settings).T
+    axes = solver.auto_orient(seen, areas, placement.form).T
+    return Matrix(axes.tolist()).to_euler()

@@ -174,8 +174,21 @@ def world_axes(obj: bpy.types.Object, settings: Settings):
     return turn @ _into_space(obj, settings, turn).T @ _axes(settings)
 
 
+def axes_of_angles(obj: bpy.types.Object, settings: Settings) -> np.ndarray:
+    """Return the matrix (3,3) from stretched object coordinates to the axes of the angles.
+
+    A reflection for a mirrored object.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`.
+    """
+    return _into_space(obj, settings, _turn_and_stretch(obj)[0])
+
+
 def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
-    """Return the Euler angles (radians) that give the orientation, the inverse of the above.
+    """Return the Euler angles (radians) that give the orientation of a cube.
 
     Of the 24 equivalent rotations of a cube, these are the smallest.
     """

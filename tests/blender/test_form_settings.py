@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Forms in Blender: each by its name, of another object, followed live, mirrored and restored."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
-from mathutils import Matrix
+from mathutils import Euler, Matrix
 from rich_mesh import position_of
 from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
 from test_symmetry import FLIP_X, add_lump, partner_of
@@ -197,6 +198,32 @@ def test_objects_that_are_solved_together_may_have_different_forms():
     select(other)
     cubify(cubeness=0.8)
     assert bits(other) != octahedron
+
+
+@pytest.mark.parametrize("scale", [1.0, -1.0])
+@pytest.mark.parametrize("form", ["OCTAHEDRON", "TETRAHEDRON", "PYRAMID", "PRISM"])
+def test_auto_orient_finds_how_the_form_is_turned(part, body_of, form, scale):
+    """A mesh that is the form, turned, and seen as such through a mirroring scale, too."""
+    obj = add_monkey()
+    obj.cubic_craft.form = form
+    body = body_of(obj)
+    turn = np.array(Euler((0.2, -0.3, 0.25)).to_matrix())
+    corners = body.vertices @ turn.T * [scale, 1.0, 1.0]
+    hull = bmesh.new()
+    for corner in corners:
+        hull.verts.new(corner)
+    bmesh.ops.convex_hull(hull, input=hull.verts[:])
+    bmesh.ops.recalc_face_normals(hull, faces=hull.faces[:])
+    hull.to_mesh(obj.data)
+    hull.free()
+    obj.scale.x = scale
+    select(obj)
+    bpy.context.view_layer.update()
+    bpy.ops.cubic_craft.auto_orient()
+    axes = np.array(Euler(obj.cubic_craft.orientation).to_matrix())
+    directions = body.normals @ turn.T  # as they are seen
+    costs = body.cost(directions @ axes)
+    np.testing.assert_allclose(costs, body.offsets, rtol=5e-3)
 
 
 def test_the_overlay_draws_the_form(part):
