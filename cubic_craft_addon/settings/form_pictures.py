@@ -15,9 +15,7 @@ from .forms import FORMS
 
 _FOLDER = Path(__file__).parents[1] / "assets" / "forms"
 
-items: list[tuple[str, str, str, int, int]] = [
-    (*form, 0, number) for number, form in enumerate(FORMS)
-]
+items: Any = [(*form, 0, number) for number, form in enumerate(FORMS)]
 """identifier, name, description, icon and number; the list stays the same one"""
 
 _collection: Any = None
