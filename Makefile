@@ -160,6 +160,10 @@ figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else
 preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/assets
 	$(PY) scripts/preset_pictures $(ARGS)
 
+.PHONY: form-pictures
+form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
+	$(PY) scripts/form_pictures $(ARGS)
+
 docs-images: ## Pictures of docs/, from the last window tests
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/

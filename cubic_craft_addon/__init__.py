@@ -3,11 +3,12 @@
 
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
-from .settings import group_renames, properties
+from .settings import form_pictures, group_renames, properties
 from .ui import edited, handles_panel, overlay, panel, preferences
 
 _modules = (
     handles_properties,
+    form_pictures,
     properties,
     preferences,
     live,

@@ -25,7 +25,7 @@ from ..mesh_bridge import last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..screen import glimpse
-from .forms import FORMS
+from .form_pictures import items as form_items
 from .values import Settings
 
 _SPACES = (
@@ -129,7 +129,7 @@ class RunProperties:
     form: EnumProperty(
         name="Form",
         description="What a ball would become: the surface turns toward the sides of this form",
-        items=FORMS,
+        items=form_items,
         default=Settings.form,
         options=_OPTIONS,
         update=glimpse.on_turn,

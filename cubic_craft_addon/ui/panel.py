@@ -13,9 +13,8 @@ from ..mesh_bridge import last_run
 from ..object_properties import object_properties
 from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
-from ..settings.forms import OF_OBJECT, form_settings
-from ..settings.overrides import POINTERS
-from . import edited, overlay, seen, status_panel
+from ..settings.forms import OF_OBJECT
+from . import edited, form_panel, overlay, seen, status_panel
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
 from .symmetry_panel import draw_symmetry
@@ -114,12 +113,7 @@ def _draw_orientation(layout, obj):
 
 def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
-    layout.prop(properties, "form")
-    for name in form_settings(properties.form):
-        if name in POINTERS and live.current():
-            layout.prop_search(properties, name, bpy.data, "objects")
-        else:
-            layout.prop(properties, name)
+    form_panel.draw(layout, properties)
     layout.prop(properties, "together")
     layout.prop(properties, "solidity", slider=True)
     layout.prop(properties, "refine")

@@ -19,7 +19,7 @@ from headless.quiet import mute_stdout  # noqa: E402
 from headless_render import leave  # noqa: E402
 
 PROGRAM = "figures"
-RENDERED = ("1", "2", "3", "5", "6")
+RENDERED = ("1", "2", "3", "5", "6", "forms")
 """figures that Blender renders; what is left, other commands have made"""
 ALL = (*RENDERED, "4")
 SCREENSHOT = "*/test_first_sculpture/first_3_live.png"
@@ -38,7 +38,7 @@ def arguments() -> argparse.Namespace:
     meshes = os.environ.get("CUBIC_CRAFT_MESHES")
     add("--meshes", type=Path, default=meshes and Path(meshes), help=f"folder with {files}")
     add("--output", type=Path, default=ROOT / "docs" / "figures", help="folder")
-    add("--only", nargs="+", choices=ALL, default=ALL, help="numbers of figures")
+    add("--only", nargs="+", choices=ALL, default=ALL, help="numbers or names of figures")
     add("--width", type=int, default=1600, help="pixels")
     add("--samples", type=int, default=24, help="of Cycles, denoised")
     add("--engine", choices=("cycles", "workbench"), default="cycles", help="of Blender")

@@ -14,7 +14,7 @@ from headless.progress import ProgressBar
 from headless.render import render
 from headless.studio import furnish
 
-from . import cubeness, handles, orientations, teaser, uv_texture
+from . import cubeness, forms, handles, orientations, teaser, uv_texture
 from .figure_meshes import FigureMeshes
 
 __all__ = ("render_figures",)
@@ -40,6 +40,7 @@ FIGURES = {
     "3": Figure("figure_3_handles", handles.compose, 560),
     "5": Figure("figure_5_cubeness", cubeness.compose, 460),
     "6": Figure("figure_6_orientations", orientations.compose, 520),
+    "forms": Figure("figure_forms", forms.compose, 700),
 }
 
 

@@ -23,9 +23,13 @@ class Extension:
     def __init__(self, root: Path) -> None:
         self.assembly = _room("cubic_craft_addon.run.assembly")
         self.pipeline = _room("cubic_craft_addon.run.pipeline")
+        self.form = _room("cubic_craft_addon.run.form")
+        self.form_pictures = _room("cubic_craft_addon.settings.form_pictures")
+        self.forms = _room("cubic_craft_addon.settings.forms")
         self.handles = _room("cubic_craft_addon.handles")
         self.member = _room("cubic_craft_addon.run.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
+        self.named_forms = _room("solver.styles.forms")
         self.presets = _room("cubic_craft_addon.presets.files")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")

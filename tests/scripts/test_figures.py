@@ -19,6 +19,7 @@ HEIGHTS = {
     "figure_3_handles": 560,
     "figure_5_cubeness": 460,
     "figure_6_orientations": 520,
+    "figure_forms": 700,
 }
 """of a picture of 1600 pixels"""
 RED, GREEN, BLUE = range(3)
@@ -41,7 +42,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--width", WIDTH, "--samples", 1)
-    numbers = ("--only", 1, 2, 3, 5, 6)
+    numbers = ("--only", 1, 2, 3, 5, 6, "forms")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
@@ -69,7 +70,9 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
     assert (picture[..., :3].min(axis=-1) > 0.98).mean() < 0.001, "white is lost"
 
 
-@pytest.mark.parametrize("name", ["figure_1_teaser", "figure_5_cubeness", "figure_6_orientations"])
+@pytest.mark.parametrize(
+    "name", ["figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"]
+)
 def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):
     picture = pictures[name]
     is_green = picture[..., GREEN] > np.maximum(picture[..., RED], picture[..., BLUE]) + 0.1

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stands for each form in its picture, as a mesh."""
+
+import math
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+from headless.extension import Extension
+from mathutils import Matrix, Vector
+
+__all__ = ("FROM_OBJECTS", "body_of")
+
+FROM_OBJECTS = ("OBJECT", "DIRECTIONS")
+"""forms that are what the artist makes of them; their pictures have another colour"""
+SETTINGS = {
+    "BOX": {"form_weights": (0.8, 1.0, 0.4)},
+    "PYRAMID": {"form_sides": 4},
+}
+"""where it is not the default that is shown"""
+SMOOTH_BELOW = math.radians(12.0)
+"""between two faces; more than between the walls of a cylinder"""
+PEBBLE_SEED, PEBBLE_CORNERS, PEBBLE = 4, 22, (1.0, 0.72, 0.62)
+"""number of corners, and radii"""
+TURN = math.radians(-21.0)
+"""of the arrows about Z, so that none points at the camera"""
+BALL = 0.6
+"""radius, beside arrows that reach to 1"""
+SHAFT, HEAD, HEAD_LENGTH = 0.09, 0.24, 0.36
+"""radii of an arrow, and the length of its head"""
+ARROW_SIDES = 24
+
+
+def body_of(form: str, extension: Extension) -> bpy.types.Mesh:
+    """Return the mesh of a form, one of the identifiers of the settings."""
+    edited = bmesh.new()
+    if form == "DIRECTIONS":
+        _add_arrows(edited)
+    elif form == "OBJECT":
+        _add_hull(edited, _pebble())
+    else:
+        _add_hull(edited, _vertices(form, extension))
+    mesh = bpy.data.meshes.new(form)
+    edited.to_mesh(mesh)
+    edited.free()
+    mesh.shade_smooth()
+    mesh.set_sharp_from_angle(angle=SMOOTH_BELOW)
+    return mesh
+
+
+def _vertices(form: str, extension: Extension) -> Any:
+    settings = extension.settings.Settings(form=form, **SETTINGS.get(form, {}))
+    body = extension.form.form_of(settings)
+    return extension.named_forms.cube().vertices if body is None else body.vertices
+
+
+def _pebble() -> np.ndarray:
+    points = np.random.default_rng(PEBBLE_SEED).normal(size=(PEBBLE_CORNERS, 3))
+    return points / np.linalg.norm(points, axis=1, keepdims=True) * PEBBLE
+
+
+def _add_hull(edited: bmesh.types.BMesh, points: np.ndarray) -> None:
+    """Add the convex hull, each flat side as one face."""
+    corners = [edited.verts.new(point) for point in points]
+    bmesh.ops.convex_hull(edited, input=corners)
+    bmesh.ops.dissolve_limit(
+        edited, angle_limit=math.radians(1.0), verts=edited.verts, edges=edited.edges
+    )
+
+
+def _add_arrows(edited: bmesh.types.BMesh) -> None:
+    """Add a ball with six arrows."""
+    bmesh.ops.create_icosphere(edited, subdivisions=4, radius=BALL)
+    axes = np.array(Matrix.Rotation(TURN, 3, "Z"))
+    for axis in (*axes.T, *-axes.T):
+        turn = Vector((0.0, 0.0, 1.0)).rotation_difference(Vector(axis)).to_matrix().to_4x4()
+        for low, high, radius, top in (
+            (BALL, 1.0, SHAFT, SHAFT),
+            (1.0, 1.0 + HEAD_LENGTH, HEAD, 0.0),
+        ):
+            middle = Matrix.Translation((0.0, 0.0, (low + high) / 2))
+            bmesh.ops.create_cone(
+                edited,
+                cap_ends=True,
+                segments=ARROW_SIDES,
+                radius1=radius,
+                radius2=top,
+                depth=high - low,
+                matrix=turn @ middle,
+            )

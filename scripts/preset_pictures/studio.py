@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Camera, light and format of the small pictures in the panel: of presets and of forms."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Euler, Vector
+
+__all__ = ("Picture", "render", "set_up")
+
+LIGHTS = (
+    # turn about the camera's up and right axes in degrees, strength, angular size in degrees
+    ((-38.0, -36.0), 2.7, 8.0),
+    ((60.0, -5.0), 0.5, 60.0),
+    ((150.0, -35.0), 1.2, 20.0),
+)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What all small pictures of a kind share."""
+
+    size: int
+    """pixels"""
+    width: float
+    """of what is seen"""
+    largest_bytes: int
+    """of a file"""
+    levels: int = 256
+    """of each channel; fewer make the file smaller, as what is left of the noise vanishes"""
+    lift: float = 0.0
+    """of the middle of the picture above the origin, in the picture"""
+    view: tuple[float, float, float] = (math.radians(72.0), 0.0, math.radians(28.0))
+    """Euler angles of the camera"""
+
+
+def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
+    """Give the scene a camera, lights and no background."""
+    scene = bpy.context.scene
+    turn = Euler(picture.view).to_matrix()
+    lens = bpy.data.cameras.new("Camera")
+    lens.type, lens.ortho_scale = "ORTHO", picture.width
+    camera = bpy.data.objects.new("Camera", lens)
+    camera.rotation_euler = picture.view
+    camera.location = turn @ Vector((0.0, picture.lift, 10.0))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    for (about_up, about_right), strength, size in LIGHTS:
+        light = bpy.data.lights.new("Light", "SUN")
+        light.energy, light.angle = strength, math.radians(size)
+        lamp = bpy.data.objects.new("Light", light)
+        aside = Euler((math.radians(about_right), math.radians(about_up), 0.0), "XYZ")
+        lamp.rotation_euler = (turn @ aside.to_matrix()).to_euler()
+        scene.collection.objects.link(lamp)
+    world = bpy.data.worlds.new("World")
+    if world.node_tree is None:  # before Blender 5.0
+        world.use_nodes = True
+    background = world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0.85, 0.9, 1.0, 1.0)
+    background.inputs["Strength"].default_value = 0.35
+    scene.world = world
+    scene.view_settings.view_transform = "Standard"
+    scene.cycles.samples, scene.cycles.use_denoising = samples, True
+    scene.cycles.device = "CPU"
+    settings = scene.render
+    settings.engine = "CYCLES"
+    settings.resolution_x = settings.resolution_y = picture.size
+    settings.film_transparent = True
+    settings.dither_intensity = 0.0  # it would make the file twice as large
+    settings.image_settings.file_format = "PNG"
+    settings.image_settings.color_mode = "RGBA"
+    settings.image_settings.compression = 100
+    return scene
+
+
+def render(scene: bpy.types.Scene, path: Path, picture: Picture) -> None:
+    """Write a picture of what is in the scene.
+
+    Raises
+    ------
+    SystemExit
+        The file is too large to be part of the extension.
+    """
+    bpy.ops.render.render(scene=scene.name)
+    bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+    if picture.levels < 256:
+        _round(scene, path, picture.levels)
+    size = path.stat().st_size
+    print(f"{path.name}: {size} bytes")
+    if size > picture.largest_bytes:
+        raise SystemExit(f"{path.name} is larger than {picture.largest_bytes} bytes")
+
+
+def _round(scene: bpy.types.Scene, path: Path, levels: int) -> None:
+    image = bpy.data.images.load(str(path))
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    image.pixels.foreach_set(np.round(pixels * (levels - 1)) / (levels - 1))
+    image.save_render(str(path), scene=scene)
+    bpy.data.images.remove(image)
