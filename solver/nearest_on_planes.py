@@ -83,7 +83,4 @@ def _by_turn(vertex):
 
 def _across(basis, normals):
     """Return the part (p,3) of the normals that is orthogonal to each basis (p,k,3)."""
-    rest = normals
-    for _ in range(2):  # the second time removes what rounding has left
-        rest = rest - np.einsum("pk,pkj->pj", np.einsum("pkj,pj->pk", basis, rest), basis)
-    return rest
+    return normals - np.einsum("pk,pkj->pj", np.einsum("pkj,pj->pk", basis, normals), basis)

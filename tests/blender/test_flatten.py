@@ -284,6 +284,7 @@ def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
     cubify(result="MESH")
     flatten(dissolve=True)
     assert bpy.context.object.data.shape_keys is None
+    assert len(bpy.data.shape_keys) == 1  # nor are any left over
     assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis", "Smile"]
 
 

@@ -149,16 +149,42 @@ def test_vertices_at_one_place_move_together():
 
 
 def test_of_two_planes_that_are_almost_parallel_the_larger_one_wins():
-    V, F = roof([0.2, 0.2, 0.2, 0.21, 0.21])
-    directions = [[-0.2, 0, 1.0], [-0.21, 0, 1.0]]
-    V = V + np.random.default_rng(0).uniform(-1e-4, 1e-4, V.shape)
-    flat = flatten_facets(V, F, directions, ANGLE, 0.1)
-    assert flat.count == 2
-    ridge = np.flatnonzero(np.abs(V[:, 0] - 3.0) < 0.1)
-    assert flat.largest_move < 0.01  # their intersection may be anywhere
-    larger = int(np.argmax(np.bincount(flat.facet_of[flat.facet_of >= 0])))
-    heights = flat.positions[ridge] @ flat.normals[larger] - flat.offsets[larger]
-    assert np.abs(heights).max() < 1e-14
+    for slopes, ridge_at, inside in (
+        ([0.2, 0.2, 0.2, 0.205, 0.205], 3.0, 1.0),
+        ([0.2, 0.2, 0.205, 0.205, 0.205], 2.0, 4.0),
+    ):
+        V, F = roof(slopes)
+        V = V + np.random.default_rng(0).uniform(-1e-4, 1e-4, V.shape)
+        flat = flatten_facets(V, F, [[-0.2, 0, 1.0], [-0.205, 0, 1.0]], ANGLE, 0.1)
+        assert flat.count == 2
+        assert flat.largest_move < 1e-3  # their intersection may be anywhere
+        larger = flat.facet_of[(np.abs(V[F, 0] - inside) < 0.1).any(axis=1)][0]
+        ridge = np.abs(V[:, 0] - ridge_at) < 0.1
+        heights = flat.positions[ridge] @ flat.normals[larger] - flat.offsets[larger]
+        assert np.abs(heights).max() < 1e-14
+
+
+def test_a_vertex_of_no_flat_triangle_is_left_alone():
+    V, F = roof([0.0, 0.0, 0.0, 0.3, -0.3, 0.3])
+    flat = flatten_facets(V, F, [[0, 0, 1]], ANGLE, 0.2)
+    is_between = V[:, 0] == 5.0  # near the plane, but its neighbours are not
+    assert (flat.positions[is_between] == V[is_between]).all()
+    assert flat.moved == np.count_nonzero(V[:, 0] < 3.5)
+
+
+def test_a_vertex_may_lie_in_more_than_three_planes():
+    top = np.array([0.25, -0.5, 2.0])
+    normals = np.array([[1.0, 0, 1], [-1, 0, 1], [0, 1, 1], [0, -1, 1]]) / np.sqrt(2.0)
+    offsets = normals @ top
+    start = np.array([[0.3, -0.4, 1.9]])
+    vertex, most = np.zeros(4, int), np.array([3])
+    moved, is_in = nearest_on_planes(start, vertex, np.arange(4), normals, offsets, most, 1.0)
+    np.testing.assert_allclose(moved, [top], atol=1e-14)
+    assert is_in.all()
+    offsets[3] += 0.1
+    moved, is_in = nearest_on_planes(start, vertex, np.arange(4), normals, offsets, most, 1.0)
+    np.testing.assert_allclose(moved, [top], atol=1e-14)
+    assert is_in.tolist() == [True, True, True, False]
 
 
 def test_a_vertex_too_far_from_the_edge_stays_in_the_larger_plane():

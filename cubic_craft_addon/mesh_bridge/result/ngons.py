@@ -72,7 +72,11 @@ def write_ngons(
 def _strip(new: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
     """Remove what does not fit fewer vertices: the shape keys and all data of ours."""
     if mesh.shape_keys is not None:
+        name = mesh.shape_keys.name
         new.shape_key_clear()
+        left = bpy.data.shape_keys.get((name, None))
+        if left is not None:  # Blender counts a user too many for copied shape keys
+            bpy.data.batch_remove((left,))
     new.active_shape_key_index = 0
     new.show_only_shape_key = False
     discard_original(mesh)
