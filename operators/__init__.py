@@ -7,6 +7,7 @@ from .apply import CUBIC_CRAFT_OT_apply
 from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .cubify_cancel import CUBIC_CRAFT_OT_cubify_cancel
+from .flatten import CUBIC_CRAFT_OT_flatten
 from .handle_add import CUBIC_CRAFT_OT_handle_add
 from .handle_follow import CUBIC_CRAFT_OT_handle_follow
 from .handle_move import CUBIC_CRAFT_OT_handle_move
@@ -25,6 +26,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_cubify_cancel,
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_apply,
+        CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_auto_orient,
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,

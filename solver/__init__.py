@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .auto_orientation import auto_orient
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .edge_distances import edge_distances, nearest_distances
+    from .flatten import Flattened, flatten_facets
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
@@ -33,6 +34,7 @@ __all__ = [
     "PAPER",
     "CubicCraftError",
     "Energy",
+    "Flattened",
     "Mirror",
     "Progress",
     "ProxyOptions",
@@ -45,6 +47,7 @@ __all__ = [
     "auto_orient",
     "commuting",
     "edge_distances",
+    "flatten_facets",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
@@ -60,6 +63,7 @@ __all__ = [
 _MODULES = {
     "DEVICES": "backends",
     "Energy": "stylization",
+    "Flattened": "flatten",
     "Mirror": "symmetry",
     "MATCHING": "symmetry",
     "NO_PARTNER": "symmetry",
@@ -75,6 +79,7 @@ _MODULES = {
     "auto_orient": "auto_orientation",
     "commuting": "symmetry",
     "edge_distances": "edge_distances",
+    "flatten_facets": "flatten",
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",

@@ -22,6 +22,8 @@ from .memory.original import (
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.new_object import write_new_object
+from .result.ngons import write_ngons
+from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
 from .result.seen import KINDS, make_seen, remove_seen, write_seen
@@ -48,12 +50,15 @@ __all__ = (
     "read_positions",
     "remove_seen",
     "restore",
+    "result_positions",
     "set_groups_aside",
     "starts_here",
     "triangles",
     "vertex_group",
     "write_mesh",
     "write_new_object",
+    "write_ngons",
+    "write_reshaped",
     "write_seen",
     "write_shape_key",
 )

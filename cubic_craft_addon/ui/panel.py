@@ -135,6 +135,8 @@ def _draw_result(layout, obj):
     layout.prop(properties, "result")
     if properties.result == "NEW_OBJECT" and not live.current():
         layout.prop(properties, "with_modifiers")
+    if last_run(obj) is not None and not live.current():
+        layout.operator("cubic_craft.flatten", icon="MESH_GRID")
 
 
 def _draw_solver(layout, obj):

@@ -36,6 +36,10 @@ def run_cubify(result, **options):
     return lambda: cubify(result=result, **{**OPTIONS, **options})
 
 
+def run_flatten(**options):
+    return lambda: bpy.ops.cubic_craft.flatten(angle=0.7, tolerance=0.1, **options)
+
+
 # What was done before, what fails, and what is there once it does not.
 SCENARIOS = {
     "mesh": (None, run_cubify("MESH")),
@@ -47,6 +51,9 @@ SCENARIOS = {
     "restore a mesh": ("MESH", lambda: bpy.ops.cubic_craft.restore()),
     "restore a key": ("SHAPE_KEY", lambda: bpy.ops.cubic_craft.restore()),
     "apply": ("MESH", lambda: bpy.ops.cubic_craft.apply()),
+    "flatten a mesh": ("MESH", run_flatten()),
+    "flatten a key to n-gons": ("SHAPE_KEY", run_flatten(dissolve=True)),
+    "flatten what was edited to n-gons": ("edited", run_flatten(dissolve=True)),
 }
 
 

@@ -102,6 +102,7 @@ def test_while_it_runs_the_buttons_say_so(start):
         bpy.ops.cubic_craft.live,
         bpy.ops.cubic_craft.restore,
         bpy.ops.cubic_craft.apply,
+        bpy.ops.cubic_craft.flatten,
         bpy.ops.cubic_craft.auto_orient,
         bpy.ops.cubic_craft.handle_pin_selection,
     ):

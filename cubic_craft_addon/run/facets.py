@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The planar facets of a cubic shape, found and made flat; this changes nothing in Blender."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from ... import solver
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..environment.requirements import check_requirements
+from ..mesh_bridge import LastRun
+from ..settings.properties import settings_of
+from ..settings.values import Settings
+from .form_directions import form_directions
+from .object_frame import Placement, placement_alone
+from .whole import modifier_reflections
+
+_IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
+_OF_THE_RUN = ("orientation", "space")
+"""settings that a result has been made with, whatever the panel shows now"""
+
+
+@dataclass(frozen=True)
+class Facets:
+    """A flattened result that has not been written yet."""
+
+    positions: np.ndarray
+    """(n,3) float32, object space; vertices that do not move keep their bits"""
+    facet_of: np.ndarray
+    """(m,) int, the planar facet of each triangle, or -1"""
+    count: int
+    """number of planar facets"""
+    moved: int
+    """number of vertices that move"""
+    largest_move: float
+    """largest distance that one moves, as it is seen: with the object's scale"""
+    deviation: float
+    """largest distance of a vertex from the plane of its facet, in the same unit"""
+
+
+def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets:
+    """Flatten the sides of a result.
+
+    Parameters
+    ----------
+    obj
+    angle : float
+        Largest angle between a side and the direction that it should face, in radians.
+    tolerance : float
+        Largest distance that a vertex may be moved by, relative to the largest extent.
+
+    Raises
+    ------
+    CubicCraftError
+        The object has no result, or none with sides that can be flattened.
+    """
+    check_requirements()
+    mesh_bridge.check_editable(obj)
+    run = mesh_bridge.last_run(obj)
+    if run is None:
+        raise CubicCraftError(f'"{obj.name}" has no result to flatten: cubify it first')
+    present = mesh_bridge.result_positions(obj)
+    settings = _settings_of_run(obj, run)
+    placement = placement_alone(obj, settings)
+    V = placement.place(present)
+    flat = solver.flatten_facets(
+        V,
+        mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present),
+        form_directions(obj, settings),
+        angle,
+        tolerance * float(np.ptp(V, axis=0).max()),
+        list(_walls(obj, placement, present)),
+    )
+    if not flat.count:
+        raise CubicCraftError(
+            f'"{obj.name}" has no sides that can be flattened: raise Angle or Tolerance, or cubify'
+            " it with more Cubeness"
+        )
+    is_moved = (flat.positions != V).any(axis=1)
+    back = placement.read_back(flat.positions).astype(np.float32)
+    positions = np.where(is_moved[:, None], back, present)
+    deviation = flat.deviation_of(placement.place(positions))
+    return Facets(positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, deviation)
+
+
+def _settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
+    noted = {name: run.settings[name] for name in _OF_THE_RUN if name in run.settings}
+    return replace(settings_of(obj, handles=()), **noted)
+
+
+def _walls(
+    obj: bpy.types.Object, placement: Placement, points: np.ndarray
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield the vertices in the plane of each mirror of the object's modifier, and its normal.
+
+    They stay there, or the seam between the halves would open.
+    """
+    size = float(np.ptp(points, axis=0).max())
+    for reflection in modifier_reflections(obj):
+        apart = np.linalg.norm(reflection.image(points.astype(np.float64)) - points, axis=1)
+        normal = np.linalg.svd(np.eye(3) - np.reshape(reflection.linear, (3, 3)))[2][0]
+        is_inside = apart <= max(reflection.tolerance, _IN_PLANE * size)
+        yield is_inside, np.linalg.inv(placement.linear).T @ normal

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flatten Facets: make the sides of cubic meshes exactly planar, for a crisp low-poly look."""
+
+import math
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty
+
+from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.run.facets import flat_facets
+from ._shared.originals import for_each_original
+from ._shared.selection import poll_any_usable, poll_meshes, selected_meshes
+from ._shared.unexpected_errors import reporting
+
+
+class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
+    """Make the sides of the selected cubic meshes exactly planar."""
+
+    bl_idname = "cubic_craft.flatten"
+    bl_label = "Flatten Facets"
+    bl_description = (
+        "Make the sides of the selected cubic meshes exactly planar, with straight edges between"
+        " them. Restore still brings back the original"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    angle: FloatProperty(
+        name="Angle",
+        description="Faces that are turned away from their side by more than this angle stay as"
+        " they are",
+        subtype="ANGLE",
+        default=math.radians(20.0),
+        min=0.0,
+        max=math.radians(60.0),
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Largest distance that a vertex may be moved by, relative to the largest extent"
+        " of the mesh",
+        default=0.02,
+        min=0.0,
+        max=1.0,
+        soft_max=0.1,
+        precision=3,
+        step=0.1,
+    )
+    dissolve: BoolProperty(
+        name="N-Gons to New Object",
+        description="Also make a new object in which each planar facet is a single face. Edges stay"
+        " at seams, at sharp edges, and where UVs or materials change",
+        default=False,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh with a result."""
+        return poll_meshes(cls, context) and _poll_results(cls, context)
+
+    @reporting
+    def execute(self, context):
+        """Flatten each mesh once."""
+        return for_each_original(self, context, self._flatten, "Flattened")
+
+    def _flatten(self, obj):
+        mesh = mesh_bridge.mesh_of(obj)
+        mesh_bridge.end_preview(mesh)
+        facets = flat_facets(obj, self.angle, self.tolerance)
+        was_edited = mesh_bridge.is_edited(mesh)
+        facts = [
+            f"{facets.count} planar facets, no vertex farther than {facets.deviation:.1e} from its"
+            f" plane; {facets.moved:,} of {len(facets.positions):,} vertices moved, by"
+            f" {facets.largest_move:.2g} or less"
+        ]
+        if was_edited:
+            facts.append("edits made since Cubify are now part of the result")
+
+        def write():
+            mesh_bridge.write_reshaped(obj, facets.positions)
+
+        if self.dissolve:
+            mesh_bridge.write_ngons(obj, facets.positions, facets.facet_of, write)
+        else:
+            write()
+        return "; ".join(facts)
+
+
+def _poll_results(operator_class, context):
+    """Return whether a selected mesh has a result and can be changed. It reads no positions."""
+    objects = [obj for obj in selected_meshes(context) if mesh_bridge.last_run(obj) is not None]
+    if not objects:
+        operator_class.poll_message_set("The mesh has no result to flatten; cubify it first")
+        return False
+    return poll_any_usable(operator_class, objects)

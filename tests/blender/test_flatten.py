@@ -1,0 +1,410 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flatten Facets: exactly planar where it is seen, and everything else stays as it was."""
+
+import importlib
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from rich_mesh import add_rich_monkey, points_of, position_of
+from scene import add_copy, add_monkey, cubify, edit_mode, reports_of, select
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
+
+PLANAR = 0.75
+"""share of a flattened ball; the rest are its rounded edges"""
+WIDE = {"angle": 0.7, "tolerance": 0.05}
+
+
+def add_ball(name="Ball", **where):
+    """Add a sphere of quads with UVs, whose cubic shape has six clear sides."""
+    bpy.ops.mesh.primitive_cube_add(**where)
+    obj = bpy.context.object
+    obj.name = name
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.subdivide(number_cuts=11)
+    bpy.ops.transform.tosphere(value=1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+def flatten(**options):
+    return bpy.ops.cubic_craft.flatten(**options)
+
+
+def world(obj, positions=None):
+    """Return positions, those of the mesh unless others are given, in the world."""
+    points = position_of(obj.data) if positions is None else positions
+    matrix = np.array(obj.matrix_world)
+    return points.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def planar_share(obj, positions=None, axes=None):
+    """Return the share of the surface that faces along an axis of the world, up to rounding."""
+    V = world(obj, positions)
+    obj.data.calc_loop_triangles()
+    F = np.array([triangle.vertices for triangle in obj.data.loop_triangles])
+    N = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    areas = np.linalg.norm(N, axis=1)
+    is_planar = np.abs(N @ (np.eye(3) if axes is None else axes)).max(axis=1) > areas * (1 - 1e-9)
+    return areas[is_planar].sum() / areas.sum()
+
+
+@pytest.fixture
+def bridge(extension):
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+
+
+def test_the_sides_are_planar_and_restore_gives_the_original_bits():
+    obj = add_ball()
+    before = snapshot_object(obj)
+    original = position_of(obj.data)
+    cubify()
+    assert planar_share(obj) < 0.1
+    cubic = position_of(obj.data)
+    report = reports_of(flatten)
+    assert "Flattened Ball; 6 planar facets" in report
+    assert planar_share(obj) > PLANAR
+    moves = np.linalg.norm(position_of(obj.data) - cubic, axis=1)
+    assert 0.0 < moves.max() <= 0.02 * np.ptp(cubic, axis=0).max()
+    # each side has a single height, to the last bit
+    tops = np.sort(position_of(obj.data)[:, 2])[-60:]
+    assert len(np.unique(tops)) == 1
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert position_of(obj.data).tobytes() == original.tobytes()
+    ignored = ("rna/cubic_craft*", "*custom/custom cubic_craft*")
+    assert differences(before, snapshot_object(obj), ignored) == []
+
+
+@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
+@pytest.mark.parametrize("keys", [False, True])
+def test_only_positions_change(result, keys):
+    obj = add_rich_monkey(keys=keys)
+    before = snapshot_object(obj)
+    cubify(result=result)
+    with unchanged(obj, (*POSITIONS, *STORED, *SHAPE_KEY_POINTS)):
+        cubic = obj.data.copy()
+        assert flatten(**WIDE) == {"FINISHED"}
+    if result == "SHAPE_KEY":
+        for key in obj.data.shape_keys.key_blocks:
+            is_same = np.array_equal(points_of(obj.data, key.name), points_of(cubic, key.name))
+            assert is_same == (key.name != "Cubic")
+    elif keys:
+        moved = position_of(obj.data) - position_of(cubic)
+        assert np.abs(moved).max() > 0.01
+        for key in obj.data.shape_keys.key_blocks:
+            step = points_of(obj.data, key.name) - points_of(cubic, key.name)
+            np.testing.assert_allclose(step, moved, atol=1e-6)
+    bpy.data.meshes.remove(cubic)
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    ignored = ("rna/cubic_craft*", "*custom/custom cubic_craft*")
+    assert differences(before, snapshot_object(obj), ignored) == []
+
+
+def test_the_shape_key_is_flattened_and_keeps_its_value():
+    obj = add_ball()
+    original = position_of(obj.data)
+    cubify(result="SHAPE_KEY")
+    obj.data.shape_keys.key_blocks["Cubic"].value = 0.25
+    assert planar_share(obj, points_of(obj.data, "Cubic")) < 0.1
+    assert flatten() == {"FINISHED"}
+    assert planar_share(obj, points_of(obj.data, "Cubic")) > PLANAR
+    assert points_of(obj.data, "Basis").tobytes() == original.tobytes()
+    keys = obj.data.shape_keys.key_blocks
+    assert [key.name for key in keys] == ["Basis", "Cubic"] and keys["Cubic"].value == 0.25
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert obj.data.shape_keys is None
+    assert position_of(obj.data).tobytes() == original.tobytes()
+
+
+@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
+def test_the_next_cubify_starts_from_the_original(bridge, result):
+    shapes = []
+    for is_flattened in (False, True):
+        obj = add_monkey()
+        cubify(result=result)
+        if is_flattened:
+            status = obj.cubic_craft.status
+            flatten(**WIDE)
+            assert obj.cubic_craft.status == status
+            assert not bridge.is_edited(obj.data) and bridge.has_original(obj.data)
+        cubify(cubeness=0.9, result="MESH")
+        shapes.append(position_of(obj.data).tobytes())
+    assert shapes[0] == shapes[1]
+
+
+def test_it_is_planar_where_it_is_seen():
+    """With the scale of the object, in the axes of the world, or as the cube was rotated."""
+    obj = add_ball(scale=(1.0, 1.7, 0.6), rotation=(0.0, 0.0, 0.3))
+    cubify()
+    assert planar_share(obj) < 0.1
+    flatten()
+    assert planar_share(obj) > PLANAR
+    other = add_ball("Other")
+    cubify(orientation=(0.3, 0.0, 0.0))
+    other.cubic_craft.orientation = (0.0, 0.0, 0.0)  # it stays that of the shape
+    flatten()
+    axes = np.array([[1, 0, 0], [0, np.cos(0.3), -np.sin(0.3)], [0, np.sin(0.3), np.cos(0.3)]])
+    V = world(other) @ axes
+    tops = np.sort(V[:, 2])[-60:]
+    assert np.ptp(tops) < 1e-6 and np.ptp(np.sort(world(other)[:, 2])[-60:]) > 0.01
+
+
+@pytest.mark.parametrize("keys", [False, True])
+def test_a_transformed_result_keeps_its_original(keys):
+    """As if it had been flattened before it was transformed."""
+    one, twin = add_rich_monkey(keys=keys), add_rich_monkey(keys=keys)
+    for obj in (one, twin):
+        select(obj)
+        obj.matrix_world.identity()
+        cubify()
+    originals = []
+    for obj in (one, twin):
+        select(obj)
+        obj.rotation_euler = (0.0, 0.0, np.pi / 2)
+        if obj == twin:
+            bpy.ops.object.transform_apply(location=False, rotation=True, scale=False)
+            flatten(**WIDE)
+        bpy.ops.cubic_craft.restore()
+        if obj == one:
+            bpy.ops.object.transform_apply(location=False, rotation=True, scale=False)
+        names = [key.name for key in obj.data.shape_keys.key_blocks] if keys else []
+        shapes = [position_of(obj.data), *(points_of(obj.data, name) for name in names)]
+        originals.append(np.concatenate(shapes))
+    np.testing.assert_allclose(originals[0], originals[1], atol=2e-5)
+
+
+def test_edits_become_a_part_of_the_result(bridge):
+    obj = add_ball()
+    original = position_of(obj.data)
+    cubify()
+    obj.data.vertices[3].co.x += 0.5
+    obj.data.update()
+    edited = position_of(obj.data)[3]
+    assert "edits made since Cubify are now part of the result" in reports_of(flatten)
+    assert (position_of(obj.data)[3] == edited).all()
+    assert not bridge.is_edited(obj.data)
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == original.tobytes()
+
+
+def test_undo_and_redo():
+    obj = add_ball()
+    cubify()
+    bpy.ops.ed.undo_push(message="Cubify")
+    cubic = position_of(obj.data).tobytes()
+    flatten()
+    bpy.ops.ed.undo_push(message="Flatten")
+    flat = position_of(obj.data).tobytes()
+    assert flat != cubic
+    for step, expected in ((bpy.ops.ed.undo, cubic), (bpy.ops.ed.redo, flat)):
+        step()
+        assert position_of(bpy.data.objects["Ball"].data).tobytes() == expected
+
+
+def uv_of_corners(mesh):
+    """Return the places and UVs of all corners, as a set."""
+    V, layer = position_of(mesh), mesh.uv_layers.active.data
+    return {
+        (*V[mesh.loops[corner].vertex_index].tolist(), *layer[corner].uv)
+        for corner in range(len(mesh.loops))
+    }
+
+
+def test_facets_become_ngons_with_their_uvs():
+    obj = add_ball()
+    group = obj.vertex_groups.new(name="All")
+    group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    obj.modifiers.new("Bevel", "BEVEL")
+    cubify()
+    faces = len(obj.data.polygons)
+    assert flatten(dissolve=True) == {"FINISHED"}
+    made = bpy.context.object
+    assert made.name == "Ball Facets" and made.select_get() and not obj.select_get()
+    assert len(obj.data.polygons) == faces and planar_share(obj) > PLANAR
+    assert bpy.context.selected_objects == [made] and made.users_collection == obj.users_collection
+    large = [face for face in made.data.polygons if len(face.vertices) > 20]
+    assert len(large) == 6 and len(made.data.polygons) < faces / 4
+    assert uv_of_corners(made.data) <= uv_of_corners(obj.data)
+    # nothing of the shape is lost: the same sides, of the same size
+    area = sum(face.area for face in made.data.polygons)
+    assert area == pytest.approx(sum(face.area for face in obj.data.polygons), rel=1e-4)
+    for face in large:
+        V = position_of(made.data)[list(face.vertices)]
+        assert np.ptp(V @ np.round(face.normal)) < 1e-6
+    assert made.modifiers["Bevel"] and made.data.vertices[0].groups[0].weight == 0.5
+    # it is a mesh like any other, and the source still has its original
+    assert not [a.name for a in made.data.attributes if a.name.startswith("cubic_craft")]
+    assert "cubic_craft_note" not in made.data and made.cubic_craft.status == ""
+    select(obj)
+    assert bpy.ops.cubic_craft.restore.poll()
+
+
+@pytest.mark.parametrize("border", ["seam", "sharp", "material", "uv"])
+def test_ngons_end_at_the_borders_of_the_artist(border):
+    obj = add_ball()
+    cubify()
+    mesh = obj.data
+    flatten()
+    is_half = np.array([face.center.x > 0 for face in mesh.polygons])
+    if border == "material":
+        for name in ("One", "Two"):
+            mesh.materials.append(bpy.data.materials.new(name))
+        mesh.polygons.foreach_set("material_index", is_half.astype(np.int32))
+    elif border == "uv":
+        for face in np.flatnonzero(is_half):
+            for corner in mesh.polygons[face].loop_indices:
+                mesh.uv_layers.active.data[corner].uv.x += 2.0
+    else:
+        V = position_of(mesh)
+        for edge in mesh.edges:
+            if np.abs(V[list(edge.vertices), 0]).max() < 0.01:
+                setattr(edge, "use_seam" if border == "seam" else "use_edge_sharp", True)
+    mesh.update()
+    flatten(dissolve=True)
+    made = bpy.context.object.data
+    large = [face for face in made.polygons if len(face.vertices) > 15]
+    assert len(large) == 10  # two halves of each side but those at the ends
+    V = position_of(made)
+    for face in large:
+        x = V[list(face.vertices), 0]
+        assert x.min() > -0.01 or x.max() < 0.01
+
+
+def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
+    obj = add_ball()
+    cubify(result="SHAPE_KEY")
+    flatten(dissolve=True)
+    made = bpy.context.object
+    assert made.data.shape_keys is None and obj.data.shape_keys is not None
+    assert len([face for face in made.data.polygons if len(face.vertices) > 20]) == 6
+    assert planar_share(made) > PLANAR
+    select(obj)
+    obj.shape_key_add(name="Smile", from_mix=False)
+    cubify(result="MESH")
+    flatten(dissolve=True)
+    assert bpy.context.object.data.shape_keys is None
+    assert len(bpy.data.shape_keys) == 1  # nor are any left over
+    assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis", "Smile"]
+
+
+def test_several_meshes_and_a_shared_one():
+    first, other, plain = add_ball("First"), add_ball("Other"), add_monkey("Plain")
+    twin = add_copy(first, is_linked=True)
+    select(first, other)
+    cubify(together="PARTS")
+    before = position_of(plain.data).tobytes()
+    select(plain, first, twin, other)
+    report = reports_of(flatten)
+    assert "Flattened First, Other" in report and "Plain" not in report
+    assert position_of(first.data).tobytes() == position_of(other.data).tobytes()
+    assert position_of(plain.data).tobytes() == before
+
+
+def test_a_new_object_is_flattened_and_the_source_is_not():
+    source = add_ball()
+    before = position_of(source.data).tobytes()
+    cubify(result="NEW_OBJECT")
+    made = bpy.context.object
+    flatten()
+    assert planar_share(made) > PLANAR and position_of(source.data).tobytes() == before
+
+
+def test_the_seam_of_a_mirror_stays_closed():
+    obj = add_ball(rotation=(0.0, 0.4, 0.0))
+    with edit_mode(obj) as edited:
+        geometry = [*edited.verts, *edited.edges, *edited.faces]
+        bmesh.ops.bisect_plane(
+            edited, geom=geometry, plane_co=(0, 0, 0), plane_no=(1, 0, 0), clear_outer=True
+        )
+    obj.modifiers.new("Mirror", "MIRROR")
+    cubify()
+    in_plane = position_of(obj.data)[:, 0] == 0.0
+    assert in_plane.sum() > 20
+    cubic = position_of(obj.data)
+    flatten(**WIDE)
+    assert (position_of(obj.data) != cubic)[in_plane].any()
+    assert np.abs(position_of(obj.data)[in_plane, 0]).max() < 1e-7
+
+
+def test_it_works_in_weight_paint_mode():
+    obj = add_ball()
+    cubify()
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    assert flatten(dissolve=True) == {"FINISHED"}
+    assert bpy.context.object == obj and obj.mode == "WEIGHT_PAINT"
+    assert "Ball Facets" in bpy.data.objects
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def refusal():
+    with pytest.raises(RuntimeError) as error:
+        flatten()
+    lines = str(error.value).removeprefix("Error: ").strip().splitlines()
+    assert len(lines) == 1
+    return lines[0]
+
+
+def test_without_a_result_it_is_greyed_out():
+    obj = add_ball()
+    assert not bpy.ops.cubic_craft.flatten.poll()
+    with pytest.raises(RuntimeError, match="The mesh has no result to flatten; cubify it first"):
+        flatten()
+    cubify()
+    assert bpy.ops.cubic_craft.flatten.poll()
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not bpy.ops.cubic_craft.flatten.poll()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.cubic_craft.apply()
+    assert not bpy.ops.cubic_craft.flatten.poll()
+    obj.data.clear_geometry()
+    assert not bpy.ops.cubic_craft.flatten.poll()
+
+
+def test_what_has_no_sides_is_refused():
+    obj = add_ball()
+    cubify(cubeness=0.0)
+    with unchanged(obj), pytest.raises(RuntimeError, match="has no sides that can be flattened"):
+        flatten(angle=0.001, tolerance=0.001)
+
+
+def test_what_has_lost_its_original_is_refused():
+    obj = add_ball()
+    cubify()
+    with edit_mode(obj) as edited:
+        edited.verts.ensure_lookup_table()
+        for number, vertex in enumerate(edited.verts):
+            vertex.co *= 1.0 + 0.1 * np.sin(number)
+        bmesh.ops.extrude_face_region(edited, geom=edited.faces[:3])
+        for vertex in edited.verts[-4:]:
+            vertex.co.z += 0.3
+    with unchanged(obj):
+        assert "has no result whose original is known" in refusal()
+
+
+def test_a_mesh_that_cannot_be_written_is_refused_and_stays():
+    obj = add_ball()
+    cubify()
+    obj.data["cubic_craft_note"] = "of the artist"
+    assert not bpy.ops.cubic_craft.flatten.poll()
+
+
+def test_the_panel_offers_it_for_results_only(extension):
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.panel")
+
+    class Layout:
+        def __init__(self):
+            self.operators = []
+
+        def operator(self, name, **_):
+            self.operators.append(name)
+
+        def prop(self, *_, **__):
+            pass
+
+    obj = add_ball()
+    for is_there in (False, True):
+        layout = Layout()
+        panel._draw_result(layout, obj)
+        assert layout.operators == (["cubic_craft.flatten"] if is_there else [])
+        cubify()
