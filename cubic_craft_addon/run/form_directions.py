@@ -19,6 +19,8 @@ def form_directions(obj: bpy.types.Object, settings: Settings) -> np.ndarray:
     CubicCraftError
         As `stretch_and_orientation`.
     """
-    orientation = placement_alone(obj, settings).orientation
-    # The rows of Q, which maps into the frame of the cube, are the axes of the cube.
-    return np.concatenate([orientation, -orientation]) + 0.0
+    placement = placement_alone(obj, settings)
+    axes = placement.orientation  # the rows of Q, which maps into the frame of the form
+    if placement.form is None:
+        return np.concatenate([axes, -axes]) + 0.0
+    return placement.form.normals @ axes

@@ -226,6 +226,20 @@ def test_auto_orient_finds_how_the_form_is_turned(part, body_of, form, scale):
     np.testing.assert_allclose(costs, body.offsets, rtol=5e-3)
 
 
+@pytest.mark.parametrize("form", ["OCTAHEDRON", "DODECAHEDRON", "PRISM"])
+def test_facets_of_the_form_can_be_made_planar(body_of, form):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    ball = bpy.context.object
+    ball.cubic_craft.form = form
+    ball.cubic_craft.orientation = (0.1, 0.2, 0.3)
+    cubify(cubeness=1.0, solidity=0.0, **OPTIONS)
+    turn = np.array(Euler((0.1, 0.2, 0.3)).to_matrix())
+    normals = body_of(ball).normals @ turn.T
+    assert share_facing(ball, normals, 0.05) < 0.2
+    assert bpy.ops.cubic_craft.flatten(tolerance=0.05) == {"FINISHED"}
+    assert share_facing(ball, normals, 0.05) > 0.5
+
+
 def test_the_overlay_draws_the_form(part):
     obj = add_monkey()
     lines_of = part("ui.overlay").lines_of

@@ -14,7 +14,10 @@ from solver.styles.symmetries import symmetries
 
 CUBE = np.concatenate([np.eye(3), -np.eye(3)])
 EXACT = np.radians(0.2)
-each_form = pytest.mark.parametrize("name", POLYTOPES)
+# With many symmetries, few and none; regular, with a base, and with very many sides.
+each_form = pytest.mark.parametrize(
+    "name", ["box", "octahedron", "tetrahedron", "icosahedron", "prism of 5", "pyramid", "cylinder"]
+)
 
 
 def cost(Q, normals, areas):
@@ -86,7 +89,7 @@ def test_without_normals_nothing_is_turned():
 
 
 @each_form
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_turned_form_is_found(name, seed):
     form = POLYTOPES[name]()
     areas, normals = surface(form)
