@@ -23,7 +23,7 @@ PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
 SECTIONS = {
     # first button of each, and pixels from there to the upper edge of the header
-    "shape": ("together", 33 * SCALE),  # also while Live runs
+    "shape": ("together", 95 * SCALE),  # also while Live runs; the form is above
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
     "map": ("cubic_craft.map_group", 38 * SCALE),
