@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from rich_mesh import add_rich_monkey, points_of, position_of
+from rich_mesh import add_rich_monkey, points_of, position_of, set_points
 from scene import add_copy, add_monkey, cubify, edit_mode, reports_of, select
 from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
@@ -172,6 +172,21 @@ def test_a_transformed_result_keeps_its_original(keys):
         shapes = [position_of(obj.data), *(points_of(obj.data, name) for name in names)]
         originals.append(np.concatenate(shapes))
     np.testing.assert_allclose(originals[0], originals[1], atol=2e-5)
+
+
+def test_a_key_that_is_edited_afterwards_is_carried_back_as_without_it():
+    carried = []
+    for is_flattened in (False, True):
+        obj = add_rich_monkey(keys=True)
+        cubify()
+        obj.rotation_euler = (0.0, 0.4, np.pi / 2)
+        bpy.ops.object.transform_apply(location=False, rotation=True, scale=False)
+        if is_flattened:
+            flatten(**WIDE)
+        set_points(obj.data, "Wide", points_of(obj.data, "Wide") + [0.2, 0.0, 0.1])
+        bpy.ops.cubic_craft.restore()
+        carried.append(points_of(obj.data, "Wide"))
+    np.testing.assert_allclose(*carried, atol=2e-5)
 
 
 def test_edits_become_a_part_of_the_result(bridge):
