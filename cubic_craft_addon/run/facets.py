@@ -21,7 +21,7 @@ from .object_frame import Placement, placement_alone
 from .whole import modifier_reflections
 
 _IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
-_OF_THE_RUN = ("orientation", "space")
+_OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights")
 """settings that a result has been made with, whatever the panel shows now"""
 
 
@@ -89,8 +89,13 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
 
 
 def _settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
-    noted = {name: run.settings[name] for name in _OF_THE_RUN if name in run.settings}
-    return replace(settings_of(obj, handles=()), **noted)
+    noted = {name: run.settings.get(name) for name in _OF_THE_RUN}
+    values = {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in noted.items()
+        if value is not None
+    }
+    return replace(settings_of(obj, handles=()), **values)
 
 
 def _walls(

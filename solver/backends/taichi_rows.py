@@ -84,7 +84,7 @@ def _kernels(precision, width):
         rows: integers,
         R_few: matrices,
         s_few: states,
-        energies_few: states,  # nothing, fit and cost
+        energies_few: vectors,  # nothing, fit and cost
         R: matrices,
         subgradients: states,
         energies: vectors,

@@ -236,6 +236,7 @@ def test_facets_of_the_form_can_be_made_planar(body_of, form):
     turn = np.array(Euler((0.1, 0.2, 0.3)).to_matrix())
     normals = body_of(ball).normals @ turn.T
     assert share_facing(ball, normals, 0.05) < 0.2
+    ball.cubic_craft.form, ball.cubic_craft.form_sides = "CONE", 3  # not what it was made with
     assert bpy.ops.cubic_craft.flatten(tolerance=0.05) == {"FINISHED"}
     assert share_facing(ball, normals, 0.05) > 0.5
 
