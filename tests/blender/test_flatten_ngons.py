@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flatten Facets to n-gons: a new object with one face per side, and what the artist has set."""
+
+import bpy
+import numpy as np
+import pytest
+from flat_balls import PLANAR, add_ball, flatten, planar_share
+from rich_mesh import position_of
+from scene import cubify, select
+
+
+def uv_of_corners(mesh):
+    """Return the places and UVs of all corners, as a set."""
+    V, layer = position_of(mesh), mesh.uv_layers.active.data
+    return {
+        (*V[mesh.loops[corner].vertex_index].tolist(), *layer[corner].uv)
+        for corner in range(len(mesh.loops))
+    }
+
+
+def test_facets_become_ngons_with_their_uvs():
+    obj = add_ball()
+    group = obj.vertex_groups.new(name="All")
+    group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    obj.modifiers.new("Bevel", "BEVEL")
+    cubify()
+    faces = len(obj.data.polygons)
+    assert flatten(dissolve=True) == {"FINISHED"}
+    made = bpy.context.object
+    assert made.name == "Ball Facets" and made.select_get() and not obj.select_get()
+    assert len(obj.data.polygons) == faces and planar_share(obj) > PLANAR
+    assert bpy.context.selected_objects == [made] and made.users_collection == obj.users_collection
+    large = [face for face in made.data.polygons if len(face.vertices) > 20]
+    assert len(large) == 6 and len(made.data.polygons) < faces / 4
+    assert uv_of_corners(made.data) <= uv_of_corners(obj.data)
+    # nothing of the shape is lost: the same sides, of the same size
+    area = sum(face.area for face in made.data.polygons)
+    assert area == pytest.approx(sum(face.area for face in obj.data.polygons), rel=1e-4)
+    for face in large:
+        V = position_of(made.data)[list(face.vertices)]
+        assert np.ptp(V @ np.round(face.normal)) < 1e-6
+    assert made.modifiers["Bevel"] and made.data.vertices[0].groups[0].weight == 0.5
+    # it is a mesh like any other, and the source still has its original
+    assert not [a.name for a in made.data.attributes if a.name.startswith("cubic_craft")]
+    assert "cubic_craft_note" not in made.data and made.cubic_craft.status == ""
+    select(obj)
+    assert bpy.ops.cubic_craft.restore.poll()
+
+
+@pytest.mark.parametrize("border", ["seam", "sharp", "material", "uv"])
+def test_ngons_end_at_the_borders_of_the_artist(border):
+    obj = add_ball()
+    cubify()
+    mesh = obj.data
+    flatten()
+    is_half = np.array([face.center.x > 0 for face in mesh.polygons])
+    if border == "material":
+        for name in ("One", "Two"):
+            mesh.materials.append(bpy.data.materials.new(name))
+        mesh.polygons.foreach_set("material_index", is_half.astype(np.int32))
+    elif border == "uv":
+        for face in np.flatnonzero(is_half):
+            for corner in mesh.polygons[face].loop_indices:
+                mesh.uv_layers.active.data[corner].uv.x += 2.0
+    else:
+        V = position_of(mesh)
+        for edge in mesh.edges:
+            if np.abs(V[list(edge.vertices), 0]).max() < 0.01:
+                setattr(edge, "use_seam" if border == "seam" else "use_edge_sharp", True)
+    mesh.update()
+    flatten(dissolve=True)
+    made = bpy.context.object.data
+    large = [face for face in made.polygons if len(face.vertices) > 15]
+    assert len(large) == 10  # two halves of each side but those at the ends
+    V = position_of(made)
+    for face in large:
+        x = V[list(face.vertices), 0]
+        assert x.min() > -0.01 or x.max() < 0.01
+
+
+def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
+    obj = add_ball()
+    cubify(result="SHAPE_KEY")
+    flatten(dissolve=True)
+    made = bpy.context.object
+    assert made.data.shape_keys is None and obj.data.shape_keys is not None
+    assert len([face for face in made.data.polygons if len(face.vertices) > 20]) == 6
+    assert planar_share(made) > PLANAR
+    select(obj)
+    obj.shape_key_add(name="Smile", from_mix=False)
+    cubify(result="MESH")
+    flatten(dissolve=True)
+    assert bpy.context.object.data.shape_keys is None
+    assert len(bpy.data.shape_keys) == 1  # nor are any left over
+    assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis", "Smile"]
