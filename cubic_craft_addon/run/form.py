@@ -12,6 +12,7 @@ from ...solver import CubicCraftError
 from ...solver.styles import forms
 from ...solver.styles.clusters import directions_of
 from ...solver.styles.polytope import Polytope, from_directions, from_points
+from ..environment.requirements import check_requirements
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
 
@@ -38,6 +39,8 @@ def form_of(settings: Settings) -> Polytope | None:
     CubicCraftError
         The form is that of another object which is not set or cannot be used.
     """
+    if settings.form != "CUBE":
+        check_requirements()
     if settings.form in OF_OBJECT:
         return _of_object(settings)
     return _named(settings.form, settings.form_sides, settings.form_weights)

@@ -6,10 +6,11 @@ else is asked for, the cube's local step has code of its own, which is faster.
 """
 
 import itertools
+from functools import cache
 
 import numpy as np
 
-from .polytope import from_directions
+from .polytope import Polytope, from_directions
 
 GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
 ROUND = 64
@@ -20,9 +21,14 @@ LEAST_WEIGHT = 0.01
 """of a box; with 0 it would be flat"""
 
 
+@cache
 def cube():
-    """Return the cube as a body like all others, for meshes that have it beside other forms."""
-    return from_directions(np.concatenate([np.eye(3), -np.eye(3)]))
+    """Return the cube as a body like all others, to draw it, and for meshes with other forms, too.
+
+    It is made without SciPy, which may be missing where it is only drawn.
+    """
+    corners = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
+    return Polytope(np.concatenate([np.eye(3), -np.eye(3)]), np.ones(6), corners)
 
 
 def box(weights):

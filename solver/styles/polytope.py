@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from ..errors import CubicCraftError
 
@@ -136,9 +135,10 @@ def from_directions(directions, offsets=None):
     if not encloses_origin(d):
         raise CubicCraftError("the directions of a form must point to all sides")
     halfspaces = np.column_stack([d, -r])
+    spatial = _scipy_spatial()
     try:
-        vertices = HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
-    except QhullError as error:
+        vertices = spatial.HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
+    except spatial.QhullError as error:
         raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
     vertices = _apart(vertices, SAME * np.linalg.norm(vertices, axis=1).max())
     body = Polytope(d, r, vertices)
@@ -167,9 +167,10 @@ def from_points(points):
         The points are flat, or the origin does not lie inside.
     """
     points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    spatial = _scipy_spatial()
     try:
-        planes = ConvexHull(points).equations
-    except (QhullError, ValueError) as error:
+        planes = spatial.ConvexHull(points).equations
+    except (spatial.QhullError, ValueError) as error:
         raise CubicCraftError("a form needs at least four points that are not flat") from error
     normals, offsets = planes[:, :3], -planes[:, 3]
     if not (offsets > NARROWEST * np.abs(points).max()).all():
@@ -193,10 +194,18 @@ def _distinct(d, r):
 
 def encloses_origin(d):
     """Return whether directions (k,3) point to all sides, and not only just."""
+    spatial = _scipy_spatial()
     try:
-        return bool((ConvexHull(d).equations[:, 3] < -NARROWEST).all())
-    except (QhullError, ValueError):
+        return bool((spatial.ConvexHull(d).equations[:, 3] < -NARROWEST).all())
+    except (spatial.QhullError, ValueError):
         return False
+
+
+def _scipy_spatial():
+    """Import it when a body is made: the names are needed before SciPy is known to be there."""
+    import scipy.spatial
+
+    return scipy.spatial
 
 
 def _apart(points, distance):
