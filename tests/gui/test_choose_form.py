@@ -30,7 +30,8 @@ def add_form_object():
 
 
 def by_click(original):
-    yield from choose(2)
+    yield from choose(4)  # beyond the box, which with equal weights is the cube
+    assert scene.settings().form not in ("CUBE", "BOX")
     yield from gui.click((yield from gui.find_button("cubic_craft_overlay")))
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")
