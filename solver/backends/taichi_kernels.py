@@ -79,12 +79,14 @@ def make_kernels(real, width):
             S /= area_scale[i]
             present = R[i]
             last = mat3(ti.static(nearer_to_orthogonal(*present)))
-            rotation, s, is_certified = last, subgradients[i], False
-            fit, cost = real(0.0), real(0.0)
             if ti.static(is_cube):
                 rotation, s, fit, cost, is_certified = rotation_near(
                     kind, S, normals[i], Q[i * q_stride], lam[i], last, subgradients[i]
                 )
+                R[i] = rotation
+                subgradients[i] = s
+                energies[i] = vec3(quadratic, fit * area_scale[i], cost)
+                certified[i] = ti.cast(is_certified, ti.i32)
             else:
                 rotation, s, fit, cost, is_certified = rotation_on_faces(
                     kind,
@@ -102,10 +104,10 @@ def make_kernels(real, width):
                     edge_start,
                     facet_start,
                 )
-            R[i] = rotation
-            subgradients[i] = s
-            energies[i] = vec3(quadratic, fit * area_scale[i], cost)
-            certified[i] = ti.cast(is_certified, ti.i32)
+                R[i] = rotation
+                subgradients[i] = s
+                energies[i] = vec3(quadratic, fit * area_scale[i], cost)
+                certified[i] = ti.cast(is_certified, ti.i32)
 
     @ti.kernel
     def right_hand_side(
