@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """By hand: a half under a Mirror modifier, Symmetry, Keep on Floor, and Hold the Rest."""
-# Window: 1280x1100
+# Window: 1280x1200
 
 import bmesh
 import bpy

@@ -67,6 +67,7 @@ def start_anew(add):
         bpy.ops.object.delete()
         add()
         bpy.ops.ed.undo_push(message="Add")
+    yield 1.0  # a draw may come before Blender knows that the object is visible
     yield from gui.wait_redraw("UI")
 
 
