@@ -3,7 +3,7 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1300x1900
+# Window: 1300x2100
 
 import importlib
 import math
