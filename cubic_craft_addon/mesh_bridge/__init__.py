@@ -7,6 +7,7 @@ Restore and Apply remove without a trace.
 """
 
 from .access.checks import check_editable, check_usable, mesh_of
+from .access.evaluated import read_evaluated
 from .access.group_names import set_groups_aside
 from .access.triangulation import triangles
 from .access.vertex_groups import group_weights, vertex_group
@@ -47,6 +48,7 @@ __all__ = (
     "make_seen",
     "mesh_of",
     "original_positions",
+    "read_evaluated",
     "read_positions",
     "remove_seen",
     "restore",

@@ -71,7 +71,7 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
     flat = solver.flatten_facets(
         V,
         mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present),
-        form_directions(obj, settings),
+        form_directions(placement),
         angle,
         tolerance * float(np.ptp(V, axis=0).max()),
         list(_walls(obj, placement, present)),

@@ -5,13 +5,14 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 from functools import lru_cache
 
-import bpy
 import numpy as np
 
+from ... import solver
 from ...solver import CubicCraftError
 from ...solver.styles import forms
 from ...solver.styles.clusters import directions_of
 from ...solver.styles.polytope import Polytope, from_directions, from_points
+from .. import mesh_bridge
 from ..environment.requirements import check_requirements
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
@@ -61,40 +62,17 @@ def _of_object(settings):
     obj = settings.form_object
     if obj is None:
         raise CubicCraftError("no object is set for the form; pick one or choose another form")
+    points, triangles = mesh_bridge.read_evaluated(obj)
     linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
-    points, normals, areas = _seen(obj, linear)
+    points = points @ linear.T  # in the axes of the world, about the object's origin
     try:
         if settings.form == "OBJECT":
-            return _hull(np.ascontiguousarray(points).tobytes())
+            return _hull(points.tobytes())
+        areas, normals = solver.triangle_areas_and_normals(points, triangles)
+        normals *= np.sign(np.linalg.det(linear))
         return _facing(normals.tobytes(), areas.tobytes())
     except CubicCraftError as error:
         raise CubicCraftError(f'"{obj.name}" gives no form: {error}') from error
-
-
-def _seen(obj, linear):
-    """Return what is seen of an object: points (n,3), face normals (m,3) and areas (m,).
-
-    In the axes of the world, about the object's origin.
-    """
-    try:
-        evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-        mesh = evaluated.to_mesh()
-    except RuntimeError as error:
-        raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
-    try:
-        points = np.empty((len(mesh.vertices), 3), np.float32)
-        mesh.vertices.foreach_get("co", points.ravel())
-        mesh.calc_loop_triangles()
-        corners = np.empty((len(mesh.loop_triangles), 3), np.int32)
-        mesh.loop_triangles.foreach_get("vertices", corners.ravel())
-    finally:
-        evaluated.to_mesh_clear()
-    points = points.astype(np.float64) @ linear.T
-    a, b, c = (points[corners[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a) * np.sign(np.linalg.det(linear))
-    areas = np.linalg.norm(normals, axis=1)
-    is_there = areas > 0.0
-    return points, normals[is_there] / areas[is_there, None], areas[is_there]
 
 
 @lru_cache(maxsize=8)

@@ -21,7 +21,7 @@ from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..handles.reach import far_from, grown
 from ..settings.values import Settings
-from .object_frame import Placement, placement_alone, placement_in_world
+from .object_frame import Placement, placements
 from .whole import Whole, modifier_reflections
 
 
@@ -167,7 +167,7 @@ def read_member(
         The object or a setting cannot be used; the message names the object and the remedy.
     """
     begin = time.perf_counter()
-    alone, in_world = placement_alone(obj, settings), placement_in_world(obj, settings)
+    alone, in_world = placements(obj, settings)
     shape = known.shape if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)

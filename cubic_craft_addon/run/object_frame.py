@@ -99,6 +99,21 @@ class Placement:
         return solver.svd_rotations(maps.swapaxes(1, 2))
 
 
+def placements(obj: bpy.types.Object, settings: Settings) -> tuple[Placement, Placement | None]:
+    """Return the placements of an object that is solved alone, and in world space.
+
+    The second is None for an object that is scaled flat: it is solved without its scale, and
+    would be in the wrong place beside others.
+
+    Raises
+    ------
+    CubicCraftError
+        As `stretch_and_orientation`, and as `form_of`.
+    """
+    alone = placement_alone(obj, settings)
+    return alone, _in_world(obj, settings, alone.form)
+
+
 def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     """Return the placement of an object that is solved alone: its coordinates, stretched.
 
@@ -114,23 +129,12 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form)
 
 
-def placement_in_world(obj: bpy.types.Object, settings: Settings) -> Placement | None:
-    """Return the placement of an object in world space.
-
-    None for an object that is scaled flat: it is solved without its scale, and
-    would be in the wrong place beside others.
-
-    Raises
-    ------
-    CubicCraftError
-        As `stretch_and_orientation`.
-    """
+def _in_world(obj, settings, form):
     world = np.array(obj.matrix_world, dtype=np.float64)
     linear, offset = np.ascontiguousarray(world[:3, :3]), world[:3, 3].copy()
     turn, stretch = _turn_and_stretch(obj)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    form = form_of(settings)
     orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T, settings)
     orientation = _without_turns_that_do_nothing(orientation, form)
     return Placement(linear, offset, turn, stretch, orientation, np.array([0.0, 0.0, 1.0]), form)

@@ -23,7 +23,7 @@ from . import pipeline
 from .assembly import Prepared, prepare
 from .failures import UNEXPECTED, in_words
 from .member import Member, read_member
-from .object_frame import placement_alone, placement_in_world
+from .object_frame import placements
 from .up_to_date import what_matters
 from .whole import modifier_reflections
 
@@ -60,8 +60,7 @@ class Task:
         self.source: bpy.types.Object | None = None
         """what it was made of"""
         self._reflections = modifier_reflections(obj)
-        self._alone = placement_alone(obj, self.settings)
-        self.in_world = placement_in_world(obj, self.settings)
+        self._alone, self.in_world = placements(obj, self.settings)
 
     @property
     def key(self):

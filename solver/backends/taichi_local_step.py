@@ -20,7 +20,7 @@ from .warmup import warm_up
 
 
 class _Arguments(NamedTuple):
-    """What the kernel `local_step` is called with after the positions, in its order."""
+    """What the kernel `local_step` is called with between the positions and the `FaceTables`."""
 
     indptr: Any
     indices: Any
@@ -35,13 +35,6 @@ class _Arguments(NamedTuple):
     subgradients: Any
     energies: Any
     certified: Any
-    frames: Any
-    numbers: Any
-    targets: Any
-    ways: Any
-    between: Any
-    edge_start: int
-    facet_start: int
 
 
 class TaichiLocalStep:
@@ -89,13 +82,14 @@ class TaichiLocalStep:
         all_Q = np.broadcast_to(Q, (n, 3, 3))
         self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam, form)
         self._arguments = self._make_arguments(Q)
+        self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
         self._rows = self._make_rows()
         self._sum_on_device = None
         self.compile_seconds = warm_up(
             [
-                (self._kernels.local_step, (self._rhs, *self._arguments)),
+                (self._kernels.local_step, (self._rhs, *self._arguments, *self._tables)),
                 (self._kernels.right_hand_side, self._right_hand_side_arguments()),
             ]
         )
@@ -120,7 +114,6 @@ class TaichiLocalStep:
             subgradients=keep(self._rest_problem.starting(identity)),
             energies=keep(np.zeros((len(rest.V), 3))),
             certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
-            **face_tables(self._rest_problem.form.faces, keep, self.arrays.keep)._asdict(),
         )
 
     def _make_rows(self):
@@ -176,7 +169,7 @@ class TaichiLocalStep:
         self.start_device()
         if not self.arrays.is_resident:
             U = np.ascontiguousarray(U, dtype=self.real)
-        self._kernels.local_step(U, *self._arguments)
+        self._kernels.local_step(U, *self._arguments, *self._tables)
         if self._sum_on_device is not None:
             return self._summed(U, self._sum_on_device)
         rows = self._uncertified()

@@ -4,6 +4,7 @@
 import numpy as np
 
 from ..errors import CubicCraftError
+from ..orientation_search import binned
 from .polytope import encloses_origin
 
 NEAR = np.cos(np.radians(12.0))
@@ -11,6 +12,7 @@ NEAR = np.cos(np.radians(12.0))
 LEAST_SHARE = 1e-3
 """of all area; less makes no direction of its own"""
 _ROUNDS = 8
+_BINS = 50  # per unit; normals in one cell count as one
 
 
 def directions_of(normals, areas, most=48):
@@ -37,7 +39,7 @@ def directions_of(normals, areas, most=48):
     CubicCraftError
         There is no normal with an area.
     """
-    d, a = _merged(np.asarray(normals, np.float64), np.asarray(areas, np.float64))
+    d, a = binned(np.asarray(normals, np.float64), np.asarray(areas, np.float64), _BINS)
     if not len(d):
         raise CubicCraftError("it has no faces with an area")
     found = []
@@ -56,19 +58,6 @@ def directions_of(normals, areas, most=48):
         sizes = np.linalg.norm(sums, axis=1, keepdims=True)
         found = np.where(sizes > 0.0, sums / np.where(sizes > 0.0, sizes, 1.0), found)
     return _enclosing(found)
-
-
-def _merged(normals, areas):
-    """Return distinct normals and the sums of their areas."""
-    is_there = areas > 0.0
-    keys, index = np.unique(
-        np.round(normals[is_there] * 50.0).astype(int), axis=0, return_inverse=True
-    )
-    sums = np.zeros((len(keys), 3))
-    np.add.at(sums, index.ravel(), areas[is_there, None] * normals[is_there])
-    sizes = np.linalg.norm(sums, axis=1)
-    good = sizes > 0.0
-    return sums[good] / sizes[good, None], sizes[good]
 
 
 def _enclosing(d):

@@ -71,16 +71,12 @@ class Polytope:
 
     @property
     def facet_areas(self):
-        """(f,) areas of the facets."""
+        """(f,) areas of the facets: of the triangles between their edges and their middles."""
         a, b = self.vertices[self.edges[:, 0]], self.vertices[self.edges[:, 1]]
         areas = np.zeros(len(self.normals))
         for facets in self.edge_facets.T:
-            foot = self.offsets[facets, None] * self.normals[facets]
-            # of triangles with the foot point of the facet, which may lie outside it
-            parts = np.einsum("ei,ei->e", np.cross(a - foot, b - foot), self.normals[facets]) / 2
-            inward = self.middles[facets] - a
-            sign = np.einsum("ei,ei->e", np.cross(b - a, inward), self.normals[facets])
-            np.add.at(areas, facets, parts * np.sign(sign))
+            middle = self.middles[facets]
+            np.add.at(areas, facets, np.linalg.norm(np.cross(a - middle, b - middle), axis=1) / 2)
         return areas
 
     @property

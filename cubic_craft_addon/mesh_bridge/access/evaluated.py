@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface of an object as it is seen, with its modifiers; nothing is changed."""
+
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+
+
+def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Read the surface of an object of any kind that has one.
+
+    Returns
+    -------
+    points : (n,3) numpy float32 array, object space
+    triangles : (m,3) numpy int32 array
+
+    Raises
+    ------
+    CubicCraftError
+        It has no surface.
+    """
+    try:
+        evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        mesh = evaluated.to_mesh()
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
+    try:
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.ravel())
+        mesh.calc_loop_triangles()
+        triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    finally:
+        evaluated.to_mesh_clear()
+    return points, triangles
