@@ -3,12 +3,13 @@
 
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
-from .settings import form_pictures, group_renames, properties
-from .ui import edited, handles_panel, overlay, panel, preferences
+from .settings import form_pictures, group_renames, properties, region_properties
+from .ui import edited, handles_panel, overlay, panel, preferences, regions_panel
 
 _modules = (
     handles_properties,
     form_pictures,
+    region_properties,
     properties,
     preferences,
     live,
@@ -16,6 +17,7 @@ _modules = (
     handle_gizmos,
     overlay,
     handles_panel,
+    regions_panel,
     presets,
     panel,
     edited,

@@ -17,6 +17,9 @@ from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
 from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
 from .preset_add import CUBIC_CRAFT_OT_preset_add
 from .preset_remove import CUBIC_CRAFT_OT_preset_remove
+from .region_add import CUBIC_CRAFT_OT_region_add
+from .region_from_selection import CUBIC_CRAFT_OT_region_from_selection
+from .region_remove import CUBIC_CRAFT_OT_region_remove
 from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
 
@@ -39,5 +42,8 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_handle_pin_selection,
         CUBIC_CRAFT_OT_handle_follow,
         CUBIC_CRAFT_OT_handle_reset_pose,
+        CUBIC_CRAFT_OT_region_add,
+        CUBIC_CRAFT_OT_region_remove,
+        CUBIC_CRAFT_OT_region_from_selection,
     )
 )

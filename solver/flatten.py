@@ -72,7 +72,7 @@ class Flattened:
         return float(np.abs(heights - self.offsets[facet]).max(initial=0.0))
 
 
-def flatten_facets(positions, triangles, directions, angle, tolerance, walls=()):
+def flatten_facets(positions, triangles, directions, angle, tolerance, walls=(), counts=None):
     """Make the almost flat sides of a shape exactly planar.
 
     Connected triangles whose normals are nearest to the same direction, and within the angle of it,
@@ -96,6 +96,8 @@ def flatten_facets(positions, triangles, directions, angle, tolerance, walls=())
         unit of the positions.
     walls : sequence of ((n,) bool array, (3,) array_like), optional
         Vertices that may move only along a plane, such as that of a mirror, and its normal.
+    counts : (m,k) bool array, optional
+        Which directions each triangle may face; by default all.
 
     Returns
     -------
@@ -134,7 +136,7 @@ def flatten_facets(positions, triangles, directions, angle, tolerance, walls=())
     group, first, _ = weld(unit_box(V).to_unit(V), F)
     W, G = V[first], group[F]
     walls = [(is_inside[first], _unit_directions([normal])[0]) for is_inside, normal in walls]
-    patches = _Patches(W, G, N, angle, tolerance)
+    patches = _Patches(W, G, N, angle, tolerance, counts)
     moved, is_in = _without_turning_over(W, G, patches, tolerance, walls)
     is_moved = (moved != W).any(axis=1)
     lengths = np.linalg.norm(moved - W, axis=1)
@@ -168,8 +170,8 @@ class _Patches:
         The vertices of each patch, in ascending order; the patches of each vertex likewise.
     """
 
-    def __init__(self, V, F, directions, angle, tolerance):
-        areas, centroids, nearest = _facing(V, F, directions, np.cos(angle))
+    def __init__(self, V, F, directions, angle, tolerance, counts):
+        areas, centroids, nearest = _facing(V, F, directions, np.cos(angle), counts)
         one, other = faces_at_edges(F, len(V))
         is_same = (nearest[one] == nearest[other]) & (nearest[one] >= 0)
         pairs = np.stack([one[is_same], other[is_same]], axis=1)
@@ -216,11 +218,13 @@ def _vectors(V, F):
     return vectors
 
 
-def _facing(V, F, directions, least_cosine):
+def _facing(V, F, directions, least_cosine, counts):
     """Return areas and centroids of triangles, and the direction that each faces, or -1."""
     vectors = _vectors(V, F)
     lengths = np.linalg.norm(vectors, axis=1)
     cosines = vectors @ directions.T
+    if counts is not None:
+        cosines[~counts] = -np.inf
     nearest = cosines.argmax(axis=1)
     is_facing = cosines[np.arange(len(F)), nearest] >= least_cosine * lengths
     is_facing &= lengths > 0.0

@@ -5,7 +5,6 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .machine import Event
-from .properties import live_properties
 
 _session = None
 
@@ -47,10 +46,10 @@ def _on_update(_scene, depsgraph):
         elif isinstance(data, bpy.types.Object) and (
             update.is_updated_transform
             or not update.is_updated_geometry
-            or data.name == live_properties().form_object
+            or (data.data is not None and data.data.session_uid not in mesh_uids)
         ):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself;
-            # or the object that the form is made from was edited.
+            # or another object was edited, which a form may be made from.
             _session.wake()
         elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
             _session.wake()  # perhaps an object was deleted, of which Blender does not notify us

@@ -16,8 +16,9 @@ from ..environment.requirements import check_requirements
 from ..mesh_bridge import LastRun
 from ..settings.properties import settings_of
 from ..settings.values import Settings
-from .form_directions import form_directions
+from .form_directions import directions_at
 from .object_frame import Placement, placement_alone
+from .region_shares import region_shares
 from .whole import modifier_reflections
 
 _IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
@@ -68,13 +69,16 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
     settings = _settings_of_run(obj, run)
     placement = placement_alone(obj, settings)
     V = placement.place(present)
+    triangles = mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present)
+    directions, counts = directions_at(placement, triangles, region_shares(obj, settings))
     flat = solver.flatten_facets(
         V,
-        mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present),
-        form_directions(placement),
+        triangles,
+        directions,
         angle,
         tolerance * float(np.ptp(V, axis=0).max()),
         list(_walls(obj, placement, present)),
+        counts,
     )
     if not flat.count:
         raise CubicCraftError(

@@ -7,8 +7,12 @@ with those that its Mirror modifier adds.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
+from ...solver.styles.blending import Style, blended
+from ...solver.styles.cube import proper
 from ...solver.styles.forms import cube
 from ...solver.styles.polytope import Polytope
 from .. import handles
@@ -16,45 +20,87 @@ from .assembly import Prepared
 from .mirrored_cubes import orientations
 
 
-def cubeness(prepared: Prepared) -> float | np.ndarray:
-    """Return the cubeness, a number or (N,) of them."""
-    factors = [member.map_weights for member in prepared.members]
-    values = [member.settings.cubeness for member in prepared.members]
-    if len(set(values)) == 1 and all(isinstance(factor, float) for factor in factors):
-        return values[0] * factors[0]
+class Styles(NamedTuple):
+    """What each vertex is turned toward, as `solver.Stylization` takes it."""
+
+    cubeness: float | np.ndarray
+    """a number, or (N,) of them"""
+    orientation: np.ndarray
+    """(3,3), or (N,3,3) if they differ; beyond a plane of symmetry, forms are also mirrored"""
+    form: list[Polytope] | None
+    """None if all are cubes"""
+    form_of: np.ndarray | None
+    """(N,) int, the number of the form of each vertex"""
+
+
+def styles(prepared: Prepared) -> Styles:
+    """Return what each vertex is turned toward."""
+    found = [_of_member(member, placement) for member, placement, _ in prepared.parts()]
+    counts = [len(member.whole.source) for member in prepared.members]
+    if not any(body for style in found for body in style.bodies):
+        return Styles(_joined_cubeness(found, counts), proper(_joined(found, counts)), None, None)
+    distinct = list({body and body.key: body for style in found for body in style.bodies}.values())
+    numbers = {body and body.key: number for number, body in enumerate(distinct)}
+    form_of = [
+        np.broadcast_to(
+            np.array([numbers[body and body.key] for body in style.bodies])[style.body_of], count
+        )
+        for style, count in zip(found, counts, strict=True)
+    ]
+    return Styles(
+        _joined_cubeness(found, counts),
+        _joined(found, counts),
+        [body or cube() for body in distinct],
+        np.concatenate(form_of),
+    )
+
+
+class _OfMember(NamedTuple):
+    cubeness: float | np.ndarray
+    orientation: np.ndarray
+    bodies: list
+    body_of: np.ndarray
+
+
+def _of_member(member, placement):
+    settings, factor = member.settings, member.map_weights
+    own = orientations(member.whole, placement)
+    if member.region_shares is None:
+        cubeness = settings.cubeness * factor
+        if not isinstance(factor, float):
+            cubeness = member.of_whole(cubeness)
+        return _OfMember(cubeness, own, [placement.form], np.zeros(1, int))
+    all_styles = [
+        Style(own.cubeness, orientations(member.whole, place), place.form)
+        for own, place in zip(
+            (settings, *settings.regions), (placement, *placement.regions), strict=True
+        )
+    ]
+    cubeness, Q, bodies, body_of = blended(all_styles, member.of_whole(member.region_shares))
+    return _OfMember(cubeness * member.of_whole(factor), Q, bodies, body_of)
+
+
+def _joined_cubeness(found, counts):
+    values = [style.cubeness for style in found]
+    if all(isinstance(value, float) and value == values[0] for value in values):
+        return values[0]
+    return np.concatenate(
+        [np.broadcast_to(value, count) for value, count in zip(values, counts, strict=True)]
+    )
+
+
+def _joined(found, counts):
+    """Return the orientations of all vertices, or one for all."""
+    first = found[0].orientation[0]
+    # Ignore rounding errors of world matrices.
+    if all(np.allclose(style.orientation, first, rtol=0.0, atol=1e-6) for style in found):
+        return first
     return np.concatenate(
         [
-            member.of_whole(value * factor)
-            for member, value, factor in zip(prepared.members, values, factors, strict=True)
+            np.broadcast_to(style.orientation, (count, 3, 3))
+            for style, count in zip(found, counts, strict=True)
         ]
     )
-
-
-def orientation(prepared: Prepared) -> np.ndarray:
-    """Return the orientation, (3,3), or (N,3,3) if the objects' axes differ.
-
-    Beyond a plane of symmetry, the cube is also mirrored.
-    """
-    found = [orientations(member.whole, placement) for member, placement, _ in prepared.parts()]
-    first = found[0][0]
-    # Ignore rounding errors of world matrices.
-    if all(np.allclose(other, first, rtol=0.0, atol=1e-6) for other in found):
-        return first
-    counts = [len(member.whole.source) for member in prepared.members]
-    return np.concatenate(
-        [np.broadcast_to(Q, (count, 3, 3)) for Q, count in zip(found, counts, strict=True)]
-    )
-
-
-def forms(prepared: Prepared) -> tuple[list[Polytope] | None, np.ndarray | None]:
-    """Return the forms and the number of the form of each vertex (N,); None if all are cubes."""
-    found = [placement.form for placement in prepared.placements]
-    if not any(found):
-        return None, None
-    distinct = list(dict.fromkeys(found))
-    counts = [len(member.whole.source) for member in prepared.members]
-    numbers = np.repeat([distinct.index(form) for form in found], counts)
-    return [form or cube() for form in distinct], numbers
 
 
 def targets(prepared: Prepared) -> np.ndarray:

@@ -5,6 +5,9 @@ import numpy as np
 
 from .object_frame import Placement
 
+_LEAST_SHARE = 0.25
+"""of a region: a triangle with less does not face its sides"""
+
 
 def form_directions(placement: Placement) -> np.ndarray:
     """Return the outward unit normals (k,3) of the sides of the form, where it is solved."""
@@ -12,3 +15,27 @@ def form_directions(placement: Placement) -> np.ndarray:
     if placement.form is None:
         return np.concatenate([axes, -axes]) + 0.0
     return placement.form.normals @ axes
+
+
+def directions_at(
+    placement: Placement, triangles: np.ndarray, shares: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Return the directions of the form and of all regions, and which count for each triangle.
+
+    Parameters
+    ----------
+    placement
+    triangles : (m,3) int array
+    shares : (n,1+r) array, from `region_shares`, or None without regions
+
+    Returns
+    -------
+    directions : (k,3) array, as of `form_directions`
+    counts : (m,k) bool array, or None if all count everywhere
+    """
+    if shares is None:
+        return form_directions(placement), None
+    found = [form_directions(place) for place in (placement, *placement.regions)]
+    part = np.repeat(np.arange(len(found)), [len(some) for some in found])
+    is_there = shares[triangles].mean(axis=1) >= _LEAST_SHARE
+    return np.concatenate(found), is_there[:, part]

@@ -22,6 +22,7 @@ from ..environment.requirements import check_requirements
 from ..handles.reach import far_from, grown
 from ..settings.values import Settings
 from .object_frame import Placement, placements
+from .region_shares import region_shares
 from .whole import Whole, modifier_reflections
 
 
@@ -71,6 +72,8 @@ class Member:
     """(n,) weights of the vertices far from moved handles; None if all may move"""
     map_weights: np.ndarray | float
     """(n,) factors of the cubeness, or 1"""
+    region_shares: np.ndarray | None
+    """(n,1+k) shares of the object's own settings and of each of its k regions; None for k = 0"""
     seconds: float
     """time to read it"""
 
@@ -189,6 +192,7 @@ def read_member(
         handle_of,
         _rest_weights(settings, V, shape.triangles, handle_of, known),
         _map_weights(obj, settings, known),
+        _region_shares(obj, settings, known),
         time.perf_counter() - begin,
     )
 
@@ -230,6 +234,13 @@ def _map_weights(obj, settings, known):
         return known.map_weights
     weights = mesh_bridge.group_weights(obj, settings.map_group)
     return 1.0 - weights if settings.map_invert else weights
+
+
+def _region_shares(obj, settings, known):
+    groups = [region.group for region in settings.regions]
+    if known and groups == [region.group for region in known.settings.regions]:
+        return known.region_shares
+    return region_shares(obj, settings)
 
 
 def _whole(shape, reflections, settings, known):

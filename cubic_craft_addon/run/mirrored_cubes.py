@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...solver.styles.cube import proper
 from .object_frame import Placement
 from .whole import Whole
 
@@ -15,7 +14,8 @@ _ALIKE = 1e-5  # smaller rotations make no difference
 def orientations(whole: Whole, placement: Placement) -> np.ndarray:
     """Return the orientation of the form for all vertices (1,3,3), or for each of them (N,3,3).
 
-    One for all if the form is its own image about every plane.
+    One for all if the form is its own image about every plane. Otherwise those beyond a plane are
+    reflections.
     """
     Q = placement.orientation
     turns = [np.eye(3)]
@@ -26,8 +26,7 @@ def orientations(whole: Whole, placement: Placement) -> np.ndarray:
     form = placement.form
     if all(_looks_alike(Q @ turn @ Q.T, form) for turn in turns):
         return Q[None]
-    found = [Q @ turn for turn in turns]
-    return np.stack(found if form else [proper(turned) for turned in found])[whole.sides()]
+    return np.stack([Q @ turn for turn in turns])[whole.sides()]
 
 
 def _looks_alike(turn, form):

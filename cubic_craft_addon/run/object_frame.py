@@ -4,7 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -45,6 +45,8 @@ class Placement:
     """(3,) unit vector that points up in the world"""
     form: Polytope | None
     """None for the cube"""
+    regions: tuple[Placement, ...] = ()
+    """the same with the form and the orientation of each region"""
 
     @property
     def is_mirrored(self):
@@ -54,7 +56,8 @@ class Placement:
     @property
     def key(self):
         """All values, for comparison bit for bit."""
-        return self.shape_key, self.orientation.tobytes(), self.form and self.form.key
+        own = self.shape_key, self.orientation.tobytes(), self.form and self.form.key
+        return own, *(region.key for region in self.regions)
 
     @property
     def shape_key(self):
@@ -111,7 +114,13 @@ def placements(obj: bpy.types.Object, settings: Settings) -> tuple[Placement, Pl
         As `stretch_and_orientation`, and as `form_of`.
     """
     alone = placement_alone(obj, settings)
-    return alone, _in_world(obj, settings, alone.form)
+    in_world = _in_world(obj, settings, alone.form)
+    regions = [settings.of_region(region) for region in settings.regions]
+    if in_world is not None:
+        forms = [region.form for region in alone.regions]
+        found = (_in_world(obj, *pair) for pair in zip(regions, forms, strict=True))
+        in_world = replace(in_world, regions=tuple(found))
+    return alone, in_world
 
 
 def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
@@ -122,6 +131,12 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     CubicCraftError
         As `stretch_and_orientation`.
     """
+    regions = (settings.of_region(region) for region in settings.regions)
+    alone = _alone(obj, settings)
+    return replace(alone, regions=tuple(_alone(obj, region) for region in regions))
+
+
+def _alone(obj, settings):
     form = form_of(settings)
     stretch, orientation = stretch_and_orientation(obj, settings)
     orientation = _without_turns_that_do_nothing(orientation, form)

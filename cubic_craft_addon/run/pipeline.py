@@ -18,7 +18,7 @@ from ... import solver
 from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
 from .assembly import Prepared
-from .fields import cubeness, forms, orientation, targets
+from .fields import styles, targets
 from .floor import kept_on_floor
 
 
@@ -68,15 +68,15 @@ def start(prepared: Prepared) -> solver.Run:
     """
     use_extension_folder()
     settings = prepared.settings
-    form, form_of = forms(prepared)
+    style = styles(prepared)
     try:
         stylization = solver.Stylization(
             prepared.setup,
-            cubeness(prepared),
-            orientation(prepared),
+            style.cubeness,
+            style.orientation,
             targets(prepared),
-            form,
-            form_of,
+            style.form,
+            style.form_of,
             device=settings.device.lower(),
             keep_rotation=settings.rotation == "KEEP",
             hold_matrices=[hold.matrix for hold in prepared.holds],

@@ -185,9 +185,11 @@ class StepwiseRun:
 
 
 def _looks_at_weights(task):
-    return bool(task.settings.map_group or task.settings.handles)
+    return bool(task.settings.map_group or task.settings.handles or task.settings.regions)
 
 
 def _has_weights_of(now, before):
-    is_same = np.array_equal(now.map_weights, before.map_weights)
-    return is_same and np.array_equal(now.handle_of, before.handle_of)
+    return all(
+        np.array_equal(getattr(now, name), getattr(before, name))
+        for name in ("map_weights", "region_shares", "handle_of")
+    )

@@ -18,7 +18,12 @@ from .form import form_of
 
 # The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}
-_LABELS = {"handles": "Handles", "map_group": "Cubeness Map", "map_invert": "Cubeness Map"}
+_LABELS = {
+    "handles": "Handles",
+    "regions": "Regions",
+    "map_group": "Cubeness Map",
+    "map_invert": "Cubeness Map",
+}
 _ROUNDING = 1e-5  # of matrices, relative
 
 
@@ -31,10 +36,11 @@ def what_matters(settings: Settings) -> dict[str, Any]:
     names = (field.name for field in fields(settings) if field.name not in _IGNORED)
     values = {name: getattr(settings, name) for name in names}
     values["frame"] = _turn(settings.frame) if settings.space == "FRAME" else None
-    used = form_settings(settings.form)
-    values |= {name: None for name in FORM_SETTINGS if name not in used}
-    if settings.form in OF_OBJECT:
-        values["form_object"] = _body(settings)
+    values |= _form(settings)
+    values["regions"] = [
+        [region.group, {**region.own, **_form(settings.of_region(region))}]
+        for region in settings.regions
+    ]
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":
@@ -69,6 +75,15 @@ def _turn(frame):
     return None if frame is None else _matrix(frame.matrix_world.to_quaternion().to_matrix())
 
 
+def _form(settings):
+    """Return those of the FORM_SETTINGS that do not stand for themselves."""
+    used = form_settings(settings.form)
+    values: dict[str, Any] = {name: None for name in FORM_SETTINGS if name not in used}
+    if settings.form in OF_OBJECT:
+        values["form_object"] = _body(settings)
+    return values
+
+
 def _body(settings):
     try:
         form = form_of(settings)
@@ -88,8 +103,12 @@ def _matrix(array):
 
 def _is_same(now: Any, then: Any) -> bool:
     """Compare two values; single numbers in the 32 bits that Blender's properties have."""
-    if isinstance(now, dict):
+    if isinstance(now, dict) and "matrix" in now:
         return isinstance(then, dict) and _is_near(now["matrix"], then.get("matrix"))
+    if isinstance(now, dict):
+        return isinstance(then, dict) and all(
+            name in then and _is_same(value, then[name]) for name, value in now.items()
+        )
     if isinstance(now, list | tuple):
         is_alike = isinstance(then, list) and len(then) == len(now)
         return is_alike and all(map(_is_same, now, then))

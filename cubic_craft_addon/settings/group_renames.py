@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles and the cubeness map follow when their vertex group is renamed.
+"""Handles, regions and the cubeness map follow when their vertex group is renamed.
 
 Settings refer to a vertex group by its name, and Blender does not report the old name. The
 names are therefore compared after each update of an object: one that has changed while all others
@@ -49,7 +49,8 @@ def _follow(obj):
     if not has_properties(obj):
         return
     properties = object_properties(obj)
-    if not properties.handles and not properties.map_group:
+    parts = [*properties.handles, *properties.regions]
+    if not parts and not properties.map_group:
         return
     key = obj.name_full
     names = tuple(group.name for group in obj.vertex_groups)
@@ -60,7 +61,7 @@ def _follow(obj):
     renames = _renames.get(key)
     if not renames:
         return
-    for settings, name in ((properties, "map_group"), *((h, "group") for h in properties.handles)):
+    for settings, name in ((properties, "map_group"), *((part, "group") for part in parts)):
         old = getattr(settings, name)
         new = _name_now(old, names, renames)
         if new != old:

@@ -20,6 +20,7 @@ from ..mesh_bridge import Start
 from ..object_properties import object_properties
 from .forms import OF_OBJECT
 from .properties import CubicCraftProperties, RunProperties, settings_of, value_of
+from .region import object_regions
 from .values import Settings
 
 ALL = tuple(RunProperties.__annotations__)
@@ -30,7 +31,7 @@ POINTERS = {
 }
 """settings that are objects, and whether other settings ask for them; in the operator and in Live
 they are given by name"""
-OF_EACH_OBJECT = ("use_handles", "map_group", "map_invert")
+OF_EACH_OBJECT = ("use_handles", "use_regions", "map_group", "map_invert")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 
@@ -54,7 +55,7 @@ class SettingsOverrides:
         Raises
         ------
         CubicCraftError
-            The handles of the object cannot be used.
+            The handles or regions of the object cannot be used.
         """
         changes = {name: value for name, value in self.values.items() if name in _PLAIN}
         handles = self.handles
@@ -62,7 +63,9 @@ class SettingsOverrides:
             poses = self.poses.get(obj.session_uid)
             handles = posed_handles(obj, poses) if self.uses_own_handles(obj) else ()
         changes |= {name: self.pointers.get(name) for name in asked_for(self.values)}
-        return replace(settings_of(obj, handles), **changes)
+        is_on = self.values.get("use_regions", object_properties(obj).use_regions)
+        regions = object_regions(obj) if is_on else ()
+        return replace(settings_of(obj, handles, regions), **changes)
 
     def uses_own_handles(self, obj: bpy.types.Object) -> bool:
         """Return whether an object is cubified with its own handles."""

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings as Blender properties: on every object, and on the operator."""
 
-import math
 from dataclasses import fields
 from typing import Any
 
@@ -12,7 +11,6 @@ from bpy.props import (
     CollectionProperty,
     EnumProperty,
     FloatProperty,
-    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
@@ -25,7 +23,9 @@ from ..mesh_bridge import last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..screen import glimpse
-from .form_pictures import items as form_items
+from . import form_properties
+from .region import Region, object_regions
+from .region_properties import CubicCraftRegion
 from .values import Settings
 
 _SPACES = (
@@ -77,6 +77,9 @@ _DEVICES = (
 )
 
 
+_LISTS = ("handles", "regions")
+
+
 def _status(properties):
     """Return the status of the mesh, which several objects may share."""
     run = last_run(properties.id_data)
@@ -87,7 +90,7 @@ _STARTS = (
     ("HERE", "From Here", "Start from the mesh as it is now; the previous original is lost"),
     ("ORIGINAL", "From the Original", "Start from the original; edits made since are lost"),
 )
-_OPTIONS: Any = {"SKIP_SAVE", "ANIMATABLE"}
+_OPTIONS = form_properties.OPTIONS
 
 
 class StartProperty:
@@ -113,59 +116,11 @@ class RunProperties:
     SKIP_SAVE concerns the operator only: its values come from the object, not from its last run.
     """
 
-    cubeness: FloatProperty(
-        name="Cubeness",
-        description="How strongly the surface turns toward the sides of the form. 0 keeps the"
-        " shape, 0.1 moves it a third of the way, 0.4 most of it. You can type values beyond"
-        " the slider, up to 10",
-        default=Settings.cubeness,
-        min=0.0,
-        max=10.0,
-        soft_max=0.5,
-        step=1,
-        precision=3,
-        options=_OPTIONS,
-    )
-    form: EnumProperty(
-        name="Form",
-        description="What a ball would become: the surface turns toward the sides of this form",
-        items=form_items,
-        default=Settings.form,
-        options=_OPTIONS,
-        update=glimpse.on_turn,
-    )
-    form_sides: IntProperty(
-        name="Sides",
-        description="Number of walls or slopes around the Z axis",
-        default=Settings.form_sides,
-        min=3,
-        max=64,
-        soft_max=12,
-        options=_OPTIONS,
-        update=glimpse.on_turn,
-    )
-    form_weights: FloatVectorProperty(
-        name="Weights",
-        description="How strongly the surface turns away from each axis of the box. (1, 1, 0) makes"
-        " slabs, (0, 0, 1) upright walls",
-        subtype="XYZ",
-        default=Settings.form_weights,
-        min=0.0,
-        max=10.0,
-        soft_max=2.0,
-        options=_OPTIONS,
-        update=glimpse.on_turn,
-    )
-    orientation: FloatVectorProperty(
-        name="Orientation",
-        description="Rotation of the form",
-        subtype="EULER",
-        default=Settings.orientation,
-        soft_min=-math.pi / 4,
-        soft_max=math.pi / 4,
-        options=_OPTIONS,
-        update=glimpse.on_turn,
-    )
+    cubeness: form_properties.cubeness()
+    form: form_properties.form(glimpse.on_turn)
+    form_sides: form_properties.form_sides(glimpse.on_turn)
+    form_weights: form_properties.form_weights(glimpse.on_turn)
+    orientation: form_properties.orientation(glimpse.on_turn)
     space: EnumProperty(
         name="Relative To",
         description="Axes that the rotation of the form is relative to",
@@ -177,6 +132,12 @@ class RunProperties:
     use_handles: BoolProperty(
         name="Handles",
         description="Hold and pose the vertices of the object's handles",
+        default=True,
+        options=_OPTIONS,
+    )
+    use_regions: BoolProperty(
+        name="Regions",
+        description="Use the object's regions: vertex groups with a form of their own",
         default=True,
         options=_OPTIONS,
     )
@@ -299,15 +260,18 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         description="Object whose axes the form uses",
         type=bpy.types.Object,
     )
-    form_object: PointerProperty(
-        name="Form Object",
-        description="Object that the form is made from, about its origin",
-        type=bpy.types.Object,
-    )
+    form_object: form_properties.form_object()
     handles: CollectionProperty(type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",
         description="Index of the handle that the buttons act on",
+        min=0,
+        options=set(),
+    )
+    regions: CollectionProperty(type=CubicCraftRegion)
+    active_region: IntProperty(
+        name="Active Region",
+        description="Index of the region that the buttons act on",
         min=0,
         options=set(),
     )
@@ -337,7 +301,11 @@ def value_of(properties: Any, name: str) -> Any:
     return value if isinstance(value, str | int | float | bpy.types.ID | None) else tuple(value)
 
 
-def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None) -> Settings:
+def settings_of(
+    obj: bpy.types.Object,
+    handles: tuple[Handle, ...] | None = None,
+    regions: tuple[Region, ...] | None = None,
+) -> Settings:
     """Return the object's settings as plain values.
 
     Parameters
@@ -345,16 +313,23 @@ def settings_of(obj: bpy.types.Object, handles: tuple[Handle, ...] | None = None
     obj
     handles : tuple of Handle, optional
         Instead of the object's own.
+    regions : tuple of Region, optional
+        Likewise.
 
     Raises
     ------
     CubicCraftError
-        The object's own handles cannot be used, see `object_handles`.
+        The object's own handles or regions cannot be used, see `object_handles` and
+        `object_regions`.
     """
     p = object_properties(obj)
-    own = object_handles(obj) if handles is None else handles
-    names = [field.name for field in fields(Settings) if field.name != "handles"]
-    return Settings(handles=own, **{name: value_of(p, name) for name in names})
+    if handles is None:
+        handles = object_handles(obj)
+    if regions is None:
+        regions = object_regions(obj) if p.use_regions else ()
+    names = [field.name for field in fields(Settings) if field.name not in _LISTS]
+    values = {name: value_of(p, name) for name in names}
+    return Settings(handles=handles, regions=regions, **values)
 
 
 def register():

@@ -16,7 +16,7 @@ _DERIVED = ("preset",)  # derived from the others: setting it would set them
 def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
     """Restore the settings of all objects that use the meshes if the block raises.
 
-    Handles may change in it, but none may be added or removed.
+    Handles and regions may change in it, but none may be added or removed.
     """
     before = _read_all(meshes)
     try:
@@ -57,7 +57,7 @@ def _put_all_back(before: list[tuple[bpy.types.Object, Any]]) -> None:
 
 def _groups(obj: bpy.types.Object) -> list[Any]:
     properties = object_properties(obj)
-    return [properties, *properties.handles]
+    return [properties, *properties.handles, *properties.regions]
 
 
 def _read(group: Any) -> dict[str, Any]:

@@ -3,13 +3,14 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 
 from ... import solver
 from ..handles import Handle
 from ..mesh_bridge import Start
+from .region import Region
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +34,8 @@ class Settings:
     """the object that is the FRAME"""
     handles: tuple[Handle, ...] = ()
     """where they overlap, the first takes precedence"""
+    regions: tuple[Region, ...] = ()
+    """vertex groups with settings of their own"""
     map_group: str = ""
     """name of the vertex group that scales the cubeness, or empty"""
     map_invert: bool = False
@@ -69,3 +72,7 @@ class Settings:
             together=self.together != "OFF",
             refine=self.refine == "AUTO",
         )
+
+    def of_region(self, region: Region) -> Settings:
+        """Return the settings of a region of the object."""
+        return replace(self, **region.own)

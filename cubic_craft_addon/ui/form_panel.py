@@ -14,8 +14,8 @@ _SHARE = 0.27  # of the width, so that the picture is square in a sidebar of the
 _WITH_OWN_LABEL = ("form_sides",)
 
 
-def draw(layout: Any, properties: Any) -> None:
-    """Draw the selector for a group that has the settings."""
+def draw(layout: Any, properties: Any, is_shared: bool = True) -> None:
+    """Draw the selector for a group that has the settings: those that Live shares, or others."""
     row = layout.split(factor=_SHARE)
     row.template_icon_view(
         properties, "form", show_labels=True, scale=_SIZE, scale_popup=_SIZE_IN_LIST
@@ -25,7 +25,7 @@ def draw(layout: Any, properties: Any) -> None:
     column.prop(properties, "form", text="")
     for name in form_settings(properties.form):
         label = {} if name in _WITH_OWN_LABEL else {"text": ""}
-        if name in POINTERS and live.current():
+        if is_shared and name in POINTERS and live.current():
             column.prop_search(properties, name, bpy.data, "objects", **label)
         else:
             column.prop(properties, name, **label)

@@ -31,15 +31,17 @@ class CUBIC_MT_handle_groups(bpy.types.Menu):
 
     def draw(self, context):
         """Draw a line for each vertex group."""
-        obj = panel_object(bpy.context)
-        if obj is None or not obj.vertex_groups:
-            self.layout.label(text="The mesh has no vertex group")
-            return
-        for group in obj.vertex_groups:
-            line = self.layout.operator(
-                "cubic_craft.handle_add", text=group.name, icon="GROUP_VERTEX", translate=False
-            )
-            line.group = group.name
+        draw_groups(self.layout, panel_object(bpy.context), "cubic_craft.handle_add")
+
+
+def draw_groups(layout, obj, operator):
+    """Draw a line for each vertex group of an object, which calls an operator with its name."""
+    if obj is None or not obj.vertex_groups:
+        layout.label(text="The mesh has no vertex group")
+        return
+    for group in obj.vertex_groups:
+        line = layout.operator(operator, text=group.name, icon="GROUP_VERTEX", translate=False)
+        line.group = group.name
 
 
 def draw_switch(layout, obj):

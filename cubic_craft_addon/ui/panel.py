@@ -14,9 +14,11 @@ from ..object_properties import object_properties
 from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
 from ..settings.forms import OF_OBJECT
+from ..settings.region import object_regions
 from . import edited, form_panel, overlay, seen, status_panel
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
+from . import regions_panel as regions_panel
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
@@ -46,8 +48,8 @@ class CUBIC_PT_main(bpy.types.Panel):
         _draw_cubify(context, layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             header, body = layout.panel(identifier, default_closed=is_closed)
-            if identifier == handles_panel.SECTION:
-                handles_panel.draw_switch(header, obj)
+            if identifier in _SWITCHES:
+                _SWITCHES[identifier](header, obj)
             header.label(text=title)
             header.enabled = job.current() is None
             if body is not None:
@@ -150,10 +152,15 @@ _SECTIONS = (
     ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
     ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
     (handles_panel.SECTION, "Handles", handles_panel.draw, False),
+    (regions_panel.SECTION, "Regions", regions_panel.draw, True),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
     ("CUBIC_PT_result", "Result", _draw_result, False),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),
 )
+_SWITCHES = {
+    handles_panel.SECTION: handles_panel.draw_switch,
+    regions_panel.SECTION: regions_panel.draw_switch,
+}
 
 
 def _problem(context, obj):
@@ -165,6 +172,8 @@ def _problem(context, obj):
         mesh_bridge.check_usable(obj)
         object_handles(obj)
         properties = object_properties(obj)
+        if properties.use_regions:
+            object_regions(obj)
         if properties.map_group:
             mesh_bridge.vertex_group(obj, properties.map_group)
     except CubicCraftError as error:

@@ -5,9 +5,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-NUMBERS = 6
+NUMBERS = 7
 """of each face: its body's vertices from and to, its links from and to, its two ends: for an edge
-its vertices, for a vertex itself, for a facet one of its vertices"""
+its vertices, for a vertex itself, for a facet one of its vertices; then for a vertex where in
+`between` its own numbers begin"""
 
 
 class FaceTables(NamedTuple):
@@ -16,13 +17,13 @@ class FaceTables(NamedTuple):
     frames: Any
     """(k,3,3) in rows the point, the axis, and the length with two zeros"""
     numbers: Any
-    """(6k,) int, see `NUMBERS`"""
+    """(7k,) int, see `NUMBERS`"""
     targets: Any
     """(l,) int"""
     ways: Any
     """(l,3)"""
     between: Any
-    """(v v,) int"""
+    """(b,) int"""
     edge_start: int
     facet_start: int
 
@@ -47,13 +48,15 @@ def face_tables(faces, keep, keep_integers):
     ends[faces.edge_start : faces.facet_start] = faces.edge_ends
     facets = slice(faces.facet_start, None)
     ends[facets] = ends[a.targets[a.links[facets, 0]]]
-    numbers = np.concatenate([a.vertices, a.links, ends], axis=1)
+    starts = np.zeros((len(a.points), 1), int)
+    starts[: faces.edge_start, 0] = faces.between_start
+    numbers = np.concatenate([a.vertices, a.links, ends, starts], axis=1)
     return FaceTables(
         frames=keep(np.stack([a.points, a.axes, lengths], axis=1)),
         numbers=keep_integers(numbers.ravel().astype(np.int32)),
         targets=keep_integers(a.targets),
         ways=keep(a.ways),
-        between=keep_integers(faces.between.ravel()),
+        between=keep_integers(faces.between),
         edge_start=faces.edge_start,
         facet_start=faces.facet_start,
     )

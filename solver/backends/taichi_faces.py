@@ -178,7 +178,8 @@ def from_vertex(
     way = row(kind, frames[best], 0) - row(kind, frames[face], 0)
     is_kept = way.dot(x) <= kind.real(kind.tolerances.slack) * way.norm()
     if not is_kept:
-        face = between[face * edge_start + best]
+        number = NUMBERS * face
+        face = between[numbers[number + 6] + best - numbers[number]]
         if face >= facet_start and row(kind, frames[face], 1).dot(x) < kind.real(NEAREST_FACET):
             face = best
         if face < edge_start:

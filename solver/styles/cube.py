@@ -124,8 +124,9 @@ def nearest_to_identity(Q):
 
 
 def proper(matrix):
-    """Return the rotation (3,3) that is equivalent for a cube, which equals its mirror image."""
-    return matrix if np.linalg.det(matrix) > 0.0 else -matrix
+    """Return the rotations (...,3,3) that are equivalent for a cube, which is its mirror image."""
+    is_proper = np.linalg.det(matrix)[..., None, None] > 0.0
+    return np.where(is_proper, matrix, -matrix)
 
 
 @cache

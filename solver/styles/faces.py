@@ -51,12 +51,19 @@ class Faces:
     edge_ends: np.ndarray
     """(e,2) int, the vertices of each edge"""
     between: np.ndarray
-    """(v,v) int, the edge or the facet that two vertices share; where there is none, the second"""
+    """(b,) int, for each vertex and all vertices of its body, the edge or the facet that both
+    share; where there is none, the other vertex"""
+    between_start: np.ndarray
+    """(v,) int, where in `between` those of a vertex begin"""
     bodies: tuple
 
     def ends_of(self, edge):
         """Return the two vertices of edges (n,)."""
         return self.edge_ends[edge - self.edge_start].T
+
+    def shared(self, vertex, other):
+        """Return the face (n,) that two vertices of one body share, or the other vertex."""
+        return self.between[self.between_start[vertex] + other - self.arrays.vertices[vertex, 0]]
 
     def onto_edge(self, points, edge):
         """Return the points (n,3) of edges (n,) nearest to points (n,3), and their faces (n,)."""
@@ -94,12 +101,16 @@ def faces_of(bodies):
     edge_ends = np.concatenate(
         [body.edges + first[0] for body, first in zip(bodies, offsets[:-1], strict=True)]
     )
-    between = np.tile(np.arange(totals[0], dtype=np.int32), (totals[0], 1))
-    for body, first in zip(bodies, offsets, strict=False):
-        part = slice(first[0], first[0] + len(body.vertices))
-        between[part, part] = _between(body, first)
+    between = [_between(body, first) for body, first in zip(bodies, offsets, strict=False)]
+    sizes = np.concatenate([np.full(len(shared), len(shared)) for shared in between])
     return Faces(
-        arrays, int(totals[0]), int(totals[0] + totals[1]), edge_ends, between, tuple(bodies)
+        arrays,
+        int(totals[0]),
+        int(totals[0] + totals[1]),
+        edge_ends,
+        np.concatenate([shared.ravel() for shared in between]).astype(np.int32),
+        sizes.cumsum() - sizes,
+        tuple(bodies),
     )
 
 

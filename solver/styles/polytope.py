@@ -93,6 +93,13 @@ class Polytope:
         """Return the body in another size: its costs are as many times those of this one."""
         return Polytope(self.normals, factor * self.offsets, factor * self.vertices)
 
+    def turned(self, turn):
+        """Return the body whose cost at x is that of this one at ``turn x``, for (3,3) rotations.
+
+        Reflections are welcome, too.
+        """
+        return Polytope(self.normals @ turn, self.offsets, self.vertices @ turn)
+
     def cost(self, x):
         """Return the support function (n,) of vectors x (n,3)."""
         return (x @ self.vertices.T).max(axis=1)
@@ -136,7 +143,8 @@ def from_directions(directions, offsets=None):
         vertices = spatial.HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
     except spatial.QhullError as error:
         raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
-    vertices = _apart(vertices, SAME * np.linalg.norm(vertices, axis=1).max())
+    size = np.linalg.norm(vertices, axis=1).max()
+    vertices = vertices[_first_of_alike(vertices, 10 * SAME * size)]
     body = Polytope(d, r, vertices)
     touching = body.incidence.sum(axis=0) >= 3
     d, r = d[touching], r[touching]
@@ -174,17 +182,22 @@ def from_points(points):
     return from_directions(normals, offsets)
 
 
+def minkowski_sum(a, b):
+    """Return the body whose costs are the sums of those of two Polytopes."""
+    points = (a.vertices[:, None] + b.vertices).reshape(-1, 3)
+    planes = _scipy_spatial().ConvexHull(points).equations
+    offsets = -planes[:, 3]
+    body = from_directions(planes[:, :3], offsets)
+    return body.scaled(offsets.min() / body.offsets.min())
+
+
 def _distinct(d, r):
     """Return directions without those that are there already, each with its nearest side."""
     order = np.argsort(r, kind="stable")
     _, first = np.unique(np.round(d[order] / SAME / 10).astype(np.int64), axis=0, return_index=True)
     kept = order[np.sort(first)]
-    # Rounding may part two that are alike; each is compared with the ones that are kept.
-    chosen = []
-    for k in kept:
-        if all(np.abs(d[k] - d[other]).max() > 10 * SAME for other in chosen):
-            chosen.append(k)
-    chosen = np.sort(chosen)
+    # Rounding may part two that are alike.
+    chosen = np.sort(kept[_first_of_alike(d[kept], 10 * SAME)])
     return d[chosen], r[chosen]
 
 
@@ -204,10 +217,10 @@ def _scipy_spatial():
     return scipy.spatial
 
 
-def _apart(points, distance):
-    """Return points without those that lie at others."""
+def _first_of_alike(points, distance):
+    """Return the numbers (k,) of points (n,3), without those that are at an earlier one."""
     kept = []
-    for point in points:
-        if all(np.abs(point - other).max() > 10 * distance for other in kept):
-            kept.append(point)
+    for number, point in enumerate(points):
+        if not kept or np.abs(points[kept] - point).max(axis=1).min() > distance:
+            kept.append(number)
     return np.array(kept)

@@ -126,7 +126,7 @@ def _from_vertex(problem, s, face, force, x, y, slack):
     way = faces.arrays.points[best] - faces.arrays.points[face]
     size = np.linalg.norm(way, axis=1)
     is_kept = np.einsum("ni,ni->n", way, x) <= slack * size
-    shared = faces.between[face, best]
+    shared = faces.shared(face, best)
     is_far = (shared >= faces.facet_start) & (
         np.einsum("ni,ni->n", faces.arrays.axes[shared], x) < NEAREST_FACET
     )

@@ -65,7 +65,7 @@ def test_links_lead_to_and_fro():
         assert len(near[edge]) == 2
         assert all(edge in near[facet] for facet in near[edge])
         assert edge in near[first] and edge in near[second]
-        assert faces.between[first, second] == faces.between[second, first] == edge
+        assert faces.shared(first, second) == faces.shared(second, first) == edge
     np.testing.assert_allclose(np.linalg.norm(a.ways, axis=1), 1.0)
 
 

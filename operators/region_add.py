@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add a region: a vertex group of the mesh with a form of its own."""
+
+import bpy
+from bpy.props import StringProperty
+
+from ..cubic_craft_addon import live
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.mesh_bridge import vertex_group
+from ..cubic_craft_addon.object_properties import object_properties
+from ..solver.errors import CubicCraftError
+from ._shared.active_handle import poll_mesh
+from ._shared.active_region import add_region
+from ._shared.selection import report_all
+
+
+class CUBIC_CRAFT_OT_region_add(bpy.types.Operator):
+    """Give a vertex group a form of its own."""
+
+    bl_idname = "cubic_craft.region_add"
+    bl_label = "Add Region"
+    bl_description = (
+        "Give the active vertex group, or the first one that is no region yet, a form, an"
+        " orientation and a cubeness of its own; at first those of the object"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group that the region covers; empty for the active one",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh with a vertex group."""
+        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
+            return False
+        if not panel_object(context).vertex_groups:
+            cls.poll_message_set(
+                "The mesh has no vertex group; add one, or use Region from Selection"
+            )
+            return False
+        return True
+
+    def execute(self, context):
+        """Add the region with the settings of the object."""
+        obj = panel_object(context)
+        taken = {region.group for region in object_properties(obj).regions}
+        if not self.group:
+            candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
+            self.group = next((name for name in candidates if name not in taken), "")
+            if not self.group:
+                return report_all(self, "", ["Every vertex group already is a region"])
+        try:
+            vertex_group(obj, self.group)
+            if self.group in taken:
+                raise CubicCraftError(f'"{self.group}" already is a region')
+            add_region(obj, self.group, live.settings_now(obj))
+        except CubicCraftError as error:
+            return report_all(self, "", [str(error)])
+        return report_all(self, f'Added the region "{self.group}"', [])
