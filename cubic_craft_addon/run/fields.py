@@ -64,17 +64,16 @@ class _OfMember(NamedTuple):
 
 def _of_member(member, placement):
     settings, factor = member.settings, member.map_weights
-    own = orientations(member.whole, placement)
+    places = (placement, *placement.regions)
+    turned = orientations(member.whole, places)
     if member.region_shares is None:
         cubeness = settings.cubeness * factor
         if not isinstance(factor, float):
             cubeness = member.of_whole(cubeness)
-        return _OfMember(cubeness, own, [placement.form], np.zeros(1, int))
+        return _OfMember(cubeness, turned[0], [placement.form], np.zeros(1, int))
+    values = [settings.cubeness, *(region.cubeness for region in settings.regions)]
     all_styles = [
-        Style(own.cubeness, orientations(member.whole, place), place.form)
-        for own, place in zip(
-            (settings, *settings.regions), (placement, *placement.regions), strict=True
-        )
+        Style(value, Q, place.form) for value, Q, place in zip(values, turned, places, strict=True)
     ]
     cubeness, Q, bodies, body_of = blended(all_styles, member.of_whole(member.region_shares))
     return _OfMember(cubeness * member.of_whole(factor), Q, bodies, body_of)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .object_frame import Placement
@@ -11,22 +13,23 @@ from .whole import Whole
 _ALIKE = 1e-5  # smaller rotations make no difference
 
 
-def orientations(whole: Whole, placement: Placement) -> np.ndarray:
-    """Return the orientation of the form for all vertices (1,3,3), or for each of them (N,3,3).
+def orientations(whole: Whole, placements: Sequence[Placement]) -> list[np.ndarray]:
+    """Return the orientation of each form for all vertices (1,3,3), or for each of them (N,3,3).
 
-    One for all if the form is its own image about every plane. Otherwise those beyond a plane are
+    One for all if each form is its own image about every plane. Otherwise those beyond a plane are
     reflections.
     """
-    Q = placement.orientation
+    first = placements[0]
     turns = [np.eye(3)]
     for reflection in whole.mirrored:
-        linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
-        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
+        linear = first.linear @ np.reshape(reflection.linear, (3, 3))
+        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(first.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    form = placement.form
-    if all(_looks_alike(Q @ turn @ Q.T, form) for turn in turns):
-        return Q[None]
-    return np.stack([Q @ turn for turn in turns])[whole.sides()]
+    axes = [(placement.orientation, placement.form) for placement in placements]
+    if all(_looks_alike(Q @ turn @ Q.T, form) for Q, form in axes for turn in turns):
+        return [Q[None] for Q, _ in axes]
+    sides = whole.sides()
+    return [np.stack([Q @ turn for turn in turns])[sides] for Q, _ in axes]
 
 
 def _looks_alike(turn, form):
