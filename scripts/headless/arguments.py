@@ -12,6 +12,7 @@ from .checks import check_batch, check_single
 from .errors import InputError
 from .formats import KEEP_VERTICES, READABLE, listing
 from .handles_file import read_handles
+from .region_option import region_option
 
 __all__ = ("parse",)
 
@@ -19,6 +20,8 @@ FORMS = (
     *("cube", "box", "octahedron", "tetrahedron", "dodecahedron", "icosahedron", "rhombic"),
     *("prism", "pyramid", "cylinder", "cone", "object", "directions"),
 )
+OF_FILE = ("object", "directions")
+"""forms that are made from a file"""
 DEFAULTS = {
     "solidity": (0.1, 0.0),
     "together": ("selection", "off"),
@@ -41,6 +44,9 @@ HELP = {
     "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     "--form-object": "for --form object the file whose convex hull is the form, for directions the "
     "one whose faces are, about the origin of its scene",
+    "--region": "a vertex group with a form and a cubeness of its own, such as head:octahedron:0.8 "
+    "or, with a number of sides, hat:prism5:1; where its weights are less than 1, it blends into "
+    "the rest",
     "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
@@ -190,6 +196,8 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
     weights = _number(0, 10)
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--form-object", type=Path, metavar="FILE")
+    region = region_option([name for name in FORMS if name not in ("box", *OF_FILE)])
+    add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")

@@ -13,6 +13,7 @@ from .extension import Extension
 from .load_meshes import Loaded
 from .pose import groups_of, handles_of_all, start_of
 from .progress import ProgressBar
+from .region_option import region_of
 
 __all__ = ("Sculpture", "cubify_all")
 
@@ -104,6 +105,7 @@ def _settings(
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,
+        regions=_regions(obj, options, extension),
         start=start_of(obj),
         map_group=options.map if options.map in obj.vertex_groups else "",
         solidity=options.solidity,
@@ -119,9 +121,26 @@ def _settings(
     )
 
 
+def _regions(obj: bpy.types.Object, options: Namespace, extension: Extension) -> tuple[Any, ...]:
+    return tuple(
+        extension.region.Region(
+            group=region.group,
+            cubeness=region.cubeness,
+            form=region.form.upper(),
+            form_sides=region.sides,
+            form_weights=(1.0, 1.0, 1.0),
+            form_object=None,
+            orientation=tuple(math.radians(angle) for angle in options.orientation),
+        )
+        for region in map(region_of, options.region)
+        if region.group in obj.vertex_groups
+    )
+
+
 def _check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
     there, has = groups_of(objects)
     wanted = [("--pin", group) for group in options.pin]
+    wanted += [("--region", region_of(text).group) for text in options.region]
     wanted += [("--map", options.map)] if options.map else []
     for option, group in wanted:
         if group not in there:

@@ -31,6 +31,7 @@ class Extension:
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.named_forms = _room("solver.styles.forms")
         self.presets = _room("cubic_craft_addon.presets.files")
+        self.region = _room("cubic_craft_addon.settings.region")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
         self._warnings = _room("cubic_craft_addon.environment.new_taichi_warnings")

@@ -74,6 +74,13 @@ CONTENT = {
     "infinite text .stl": (["text.stl"], ["text.stl", "vertex 2", "finite"]),
     "no such object": (["ok.obj", "--object", "Cube"], ["--object", "Cube", '"ok"']),
     "no such pin group": (["ok.obj", "--pin", "hand"], ["--pin", "hand", "vertex group"]),
+    "no such region group": (
+        ["ok.obj", "--region", "hand:cone:1"],
+        ["--region", "hand", "vertex group"],
+    ),
+    "no region": (["ok.obj", "--region", "hand:cone"], ["GROUP:FORM:CUBENESS", "hand:cone"]),
+    "no form of a region": (["ok.obj", "--region", "hand:cow:1"], ["'cow' is none of cube"]),
+    "no sides of a form": (["ok.obj", "--region", "hand:cube5:1"], ["GROUP:FORM:CUBENESS"]),
     "no such map group": (["ok.obj", "--map", "hand"], ["--map", "hand", "vertex group"]),
 }
 

@@ -145,7 +145,7 @@ def test_report(results):
     assert entry == what | {"solved_with": []}
     by_default = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
     off = {"symmetry": "", "floor": False, "hold_rest": "on", "with_modifiers": False}
-    form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0]}
+    form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}
     assert report["settings"] == {**form, "space": "world", **by_default, **off}
     assert [run["cubeness"] for run in runs] == [0.0, 0.5]
     for run in runs:

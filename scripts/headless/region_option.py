@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A region as it is given on the command line: GROUP:FORM:CUBENESS."""
+
+import argparse
+import re
+from typing import NamedTuple
+
+__all__ = ("GivenRegion", "region_of", "region_option")
+
+_WITH_SIDES = ("prism", "pyramid")
+
+
+class GivenRegion(NamedTuple):
+    """A vertex group with a form and a cubeness of its own."""
+
+    group: str
+    form: str
+    sides: int
+    cubeness: float
+
+
+def region_of(text: str) -> GivenRegion:
+    """Read a region, such as "head:octahedron:0.8", or "hat:prism5:1" with a number of sides.
+
+    Raises
+    ------
+    ValueError
+        It is none.
+    """
+    group, form, cubeness = text.rsplit(":", 2)
+    found = re.fullmatch(r"([a-z]+?)(\d*)", form.lower())
+    if not group or not found:
+        raise ValueError
+    name, sides = found[1], int(found[2] or 6)
+    if (found[2] and name not in _WITH_SIDES) or not 3 <= sides <= 64:
+        raise ValueError
+    value = float(cubeness)
+    if not 0.0 <= value <= 10.0:
+        raise ValueError
+    return GivenRegion(group, name, sides, value)
+
+
+def region_option(forms):
+    """Return the type of the option: it checks a text, and leaves it as it is for the workers.
+
+    Parameters
+    ----------
+    forms : names of forms that need no further settings than a number of sides
+    """
+
+    def check(text: str) -> str:
+        try:
+            region = region_of(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not GROUP:FORM:CUBENESS, such as head:octahedron:0.8 or hat:prism5:1"
+            ) from None
+        if region.form not in forms:
+            names = ", ".join(forms)
+            raise argparse.ArgumentTypeError(f"{text!r}: {region.form!r} is none of {names}")
+        return text
+
+    return check
