@@ -47,10 +47,10 @@ def _on_update(_scene, depsgraph):
         elif isinstance(data, bpy.types.Object) and (
             update.is_updated_transform
             or not update.is_updated_geometry
-            or data.name == live_properties().form_object
+            or data.name in (live_properties().form_object, live_properties().capture_object)
         ):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself;
-            # or the object that the form is made from was edited.
+            # or an object was edited that the form or the normal capture is made from.
             _session.wake()
         elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
             _session.wake()  # perhaps an object was deleted, of which Blender does not notify us

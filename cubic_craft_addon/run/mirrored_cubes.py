@@ -23,15 +23,19 @@ def orientations(whole: Whole, placement: Placement) -> np.ndarray:
         linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
         U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    form = placement.form
-    if all(_looks_alike(Q @ turn @ Q.T, form) for turn in turns):
+    if all(_looks_alike(Q @ turn @ Q.T, placement) for turn in turns):
         return Q[None]
     found = [Q @ turn for turn in turns]
-    return np.stack(found if form else [proper(turned) for turned in found])[whole.sides()]
+    if placement.is_plain_cube:
+        found = [proper(turned) for turned in found]
+    return np.stack(found)[whole.sides()]
 
 
-def _looks_alike(turn, form):
-    """Return whether the form, or the cube for None, looks the same after a turn or reflection."""
+def _looks_alike(turn, placement):
+    """Return whether the form looks the same after a turn or reflection; captures never do."""
+    form = placement.form
+    if placement.capture is not None:
+        return np.abs(turn - np.eye(3)).max() <= _ALIKE
     if form is not None:
         costs = form.cost(form.normals @ turn.T)
         return bool(np.abs(costs - form.offsets).max() <= _ALIKE * form.radius)

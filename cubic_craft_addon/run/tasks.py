@@ -66,7 +66,7 @@ class Task:
     def key(self):
         """Everything but the mesh that determines the solution; no references to Blender's data."""
         up = self._alone.up.tobytes() if self.settings.floor else b""
-        settings = replace(self.settings, frame=None, form_object=None)
+        settings = replace(self.settings, frame=None, form_object=None, capture_object=None)
         return settings, self._reflections, up, self._alone.key
 
     @property

@@ -15,6 +15,7 @@ from ..settings.forms import FORM_SETTINGS, OF_OBJECT, form_settings
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 from .form import form_of
+from .normal_capture import has_capture, note_of
 
 # The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}
@@ -35,6 +36,9 @@ def what_matters(settings: Settings) -> dict[str, Any]:
     values |= {name: None for name in FORM_SETTINGS if name not in used}
     if settings.form in OF_OBJECT:
         values["form_object"] = _body(settings)
+    values["capture_object"] = note_of(settings)
+    if not has_capture(settings):
+        values["capture_strength"] = None
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":

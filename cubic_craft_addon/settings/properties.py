@@ -21,7 +21,7 @@ from bpy.props import (
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
-from ..mesh_bridge import last_run
+from ..mesh_bridge import KINDS, last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..screen import glimpse
@@ -155,6 +155,18 @@ class RunProperties:
         soft_max=2.0,
         options=_OPTIONS,
         update=glimpse.on_turn,
+    )
+    capture_strength: FloatProperty(
+        name="Strength",
+        description="How strongly the surface turns the way the normal capture shows, beside the"
+        " cubeness. You can type values beyond the slider, up to 10",
+        default=Settings.capture_strength,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
     )
     orientation: FloatVectorProperty(
         name="Orientation",
@@ -290,6 +302,11 @@ class RunProperties:
     )
 
 
+def _may_be_capture(properties, obj):
+    """Return whether an object may be the normal capture of the one with the properties."""
+    return obj.type in KINDS and obj != properties.id_data
+
+
 class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
@@ -303,6 +320,13 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         name="Form Object",
         description="Object that the form is made from, about its origin",
         type=bpy.types.Object,
+    )
+    capture_object: PointerProperty(
+        name="Normal Capture",
+        description="Object whose normals show which way a surface should face that faces as the"
+        " object did when it was a ball",
+        type=bpy.types.Object,
+        poll=_may_be_capture,
     )
     handles: CollectionProperty(type=CubicCraftHandle)
     active_handle: IntProperty(
