@@ -41,6 +41,9 @@ HELP = {
     "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     "--form-object": "for --form object the file whose convex hull is the form, for directions the "
     "one whose faces are, about the origin of its scene",
+    "--capture": "file with a ball whose normals say which way a surface should face that faces as "
+    "its vertices do from the origin of its scene",
+    "--capture-strength": "of the normals of --capture, beside the cubeness (default: 0.4)",
     "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
@@ -190,6 +193,8 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
     weights = _number(0, 10)
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--form-object", type=Path, metavar="FILE")
+    add("--capture", type=Path, metavar="FILE")
+    add("--capture-strength", type=_number(0, 10), default=0.4, metavar="X")
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")
