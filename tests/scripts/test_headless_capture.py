@@ -6,22 +6,25 @@ import pytest
 from headless import headless_ok, headless_refused, make_blend, run_to_blend
 
 MAKE = """
-import bpy
+import sys, bpy
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
 bpy.context.object.name = "Ball"
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 BALL = """
-import bpy
+import sys, bpy
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
 for vertex in bpy.context.object.data.vertices:
     vertex.co /= sum(abs(x) ** 8 for x in vertex.co) ** (1 / 8)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 FLAT = """
-import bpy
+import sys, bpy
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.mesh.primitive_plane_add()
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 FAST = ("--device", "numpy", "--cubeness", 0)
 
