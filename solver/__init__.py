@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .edge_distances import edge_distances, nearest_distances
     from .flatten import Flattened, flatten_facets
+    from .normal_capture import NormalCapture
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
@@ -36,6 +37,7 @@ __all__ = [
     "Energy",
     "Flattened",
     "Mirror",
+    "NormalCapture",
     "Progress",
     "ProxyOptions",
     "RestMesh",
@@ -67,6 +69,7 @@ _MODULES = {
     "Mirror": "symmetry",
     "MATCHING": "symmetry",
     "NO_PARTNER": "symmetry",
+    "NormalCapture": "normal_capture",
     "PAPER": "proxy.options",
     "Progress": "progress",
     "ProxyOptions": "proxy.options",

@@ -2,6 +2,7 @@
 """The local-global iteration on one mesh, step by step."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from .backends import local_step_class
 from .errors import CubicCraftError
 from .holds import Holds
 from .mesh_checks import per_vertex
+from .normal_capture import targets_for
 from .styles.admm import AdmmOptions
 from .styles.polytopes import polytopes
 
@@ -34,7 +36,7 @@ class Energy:
     arap: float
     """of the as-rigid-as-possible deformation"""
     cubic: float
-    """of the normals, which is lowest along the axes of the cube"""
+    """of the normals, which is lowest along the axes of the cube, and along captured ones"""
 
     @property
     def total(self):
@@ -56,6 +58,12 @@ class Stylization:
         What the normals are drawn to, see `forms`; by default the cube.
     form_of : (N,) numpy int array, optional
         Which of several forms each vertex of the input has.
+    capture : NormalCapture or sequence of NormalCaptures, optional
+        Which way the normals should face, in the frame of the form; by default it says nothing.
+    capture_strength : float or (N,) numpy array
+        Weight mu of that, per vertex of the input, beside the cubeness.
+    capture_of : (N,) numpy int array, optional
+        Which of several captures each vertex of the input has.
     targets : (N,3) numpy array, optional
         Positions of the pinned vertices in the units of the input; by default their rest positions.
         The rows of all other vertices are ignored.
@@ -129,27 +137,36 @@ class Stylization:
         keep_rotation=False,
         is_coarse=False,
         hold_matrices=(),
+        capture=None,
+        capture_strength: Any = 0.0,
+        capture_of=None,
     ):
         self.setup = setup
         self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
         self._keep_rotation = keep_rotation
         self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
-        lam = per_vertex(cubeness, "cubeness", len(rest.input_positions))
-        lam = rest.input_map.spread(lam) * rest.cubic_shares
-        lam[setup.pinned] = 0.0  # otherwise their rotations would shear the pinned part
-        Q = _orientation(orientation, rest, may_mirror=form is not None)
-        self._lam = lam
-        self._Q = _with_boxes(Q, rest.box_frames) if keep_rotation and form is None else Q
-        self._form, self._form_of = form, _bodies(form_of, rest)
+        lam = self._lam = _spread(cubeness, "cubeness", setup)
+        Q = _orientation(orientation, rest, may_mirror=not (form is None and capture is None))
+        self._form, self._form_of = form, _numbers(form_of, rest)
+        self._capture, self._capture_of = capture, _numbers(capture_of, rest)
+        faces = rest if form is None and capture is None else rest.facing_outward
+        captured, mu = None, np.zeros_like(lam)
+        if capture is not None:
+            mu = _spread(capture_strength, "capture_strength", setup)
+            captured = targets_for(capture, self._capture_of, mu, Q, faces.normals)
+        self._mu = mu
+        frames = rest.box_frames if keep_rotation and form is None else None
+        self._Q = _with_boxes(Q, frames, mu == 0.0)
         make_local_step = local_step_class(device, precision)
         self._targets = _targets(targets, setup)
         self._local = make_local_step(
-            rest if form is None else rest.facing_outward,
+            faces,
             lam,
             self._Q,
             admm or AdmmOptions(),
             polytopes(form, self._form_of),
+            captured,
         )
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
@@ -203,10 +220,11 @@ class Stylization:
 
         is_pinned = np.zeros(len(self.rest.V))
         is_pinned[self.setup.pinned] = 1.0
+        free = areas * (1.0 - is_pinned) + 1e-300
         moved = (self.positions - self.rest.V).T
         return Stylization(
             setup,
-            means(self._lam, areas * (1.0 - is_pinned) + 1e-300),
+            means(self._lam, free),
             Q,
             coarsening.rest.input_positions
             + np.stack([means(column, is_pinned) for column in moved], axis=1),
@@ -216,6 +234,9 @@ class Stylization:
             keep_rotation=True,
             is_coarse=True,
             hold_matrices=self._hold_matrices_of(setup),
+            capture=self._capture,
+            capture_strength=means(self._mu, free),
+            capture_of=self._capture_of[first],
         )
 
     def _hold_matrices_of(self, coarse):
@@ -324,11 +345,20 @@ def _orientation(Q, rest, may_mirror):
     return Q
 
 
-def _bodies(form_of, rest):
-    """Return the number of the form (n,) of the used vertices."""
-    if form_of is None:
+def _spread(weights, name, setup):
+    """Return a number or weights (N,) of the input at the solved vertices (n,)."""
+    rest = setup.rest
+    weights = per_vertex(weights, name, len(rest.input_positions))
+    weights = rest.input_map.spread(weights) * rest.cubic_shares
+    weights[setup.pinned] = 0.0  # otherwise their rotations would shear the pinned part
+    return weights
+
+
+def _numbers(of_input, rest):
+    """Return the number of the form or the capture (n,) of the used vertices."""
+    if of_input is None:
         return np.zeros(len(rest.V), int)
-    return np.asarray(form_of)[rest.used]
+    return np.asarray(of_input)[rest.used]
 
 
 def _targets(targets, setup):
@@ -356,12 +386,13 @@ def _moved(setup, targets):
     return moved / share[:, None]
 
 
-def _with_boxes(Q, frames):
-    """Return the orientations with those of rotated boxes replaced, see `proxy/boxes`."""
+def _with_boxes(Q, frames, is_free):
+    """Return those of rotated boxes instead, see `proxy/boxes`, where nothing is captured (n,)."""
     if frames is None:
         return Q
     turn = np.abs(Q @ frames.swapaxes(1, 2))
     is_askew = frames.any(axis=(1, 2)) & (np.minimum(turn, 1.0 - turn).max(axis=(1, 2)) > 1e-9)
+    is_askew &= is_free
     if not is_askew.any():
         return Q
     return np.where(is_askew[:, None, None], frames, Q)

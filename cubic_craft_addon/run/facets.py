@@ -99,7 +99,7 @@ def _settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
         for name, value in noted.items()
         if value is not None
     }
-    return replace(settings_of(obj, handles=()), **values)
+    return replace(settings_of(obj, handles=()), **values, capture_object=None)
 
 
 def _walls(

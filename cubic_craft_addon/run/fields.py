@@ -37,8 +37,11 @@ def styles(prepared: Prepared) -> Styles:
     """Return what each vertex is turned toward."""
     found = [_of_member(member, placement) for member, placement, _ in prepared.parts()]
     counts = [len(member.whole.source) for member in prepared.members]
+    cubeness, orientation = _joined_cubeness(found, counts), _joined(found, counts)
     if not any(body for style in found for body in style.bodies):
-        return Styles(_joined_cubeness(found, counts), proper(_joined(found, counts)), None, None)
+        if not any(placement.capture for placement in prepared.placements):
+            orientation = proper(orientation)
+        return Styles(cubeness, orientation, None, None)
     distinct = list({body and body.key: body for style in found for body in style.bodies}.values())
     numbers = {body and body.key: number for number, body in enumerate(distinct)}
     form_of = [
@@ -47,12 +50,8 @@ def styles(prepared: Prepared) -> Styles:
         )
         for style, count in zip(found, counts, strict=True)
     ]
-    return Styles(
-        _joined_cubeness(found, counts),
-        _joined(found, counts),
-        [body or cube() for body in distinct],
-        np.concatenate(form_of),
-    )
+    bodies = [body or cube() for body in distinct]
+    return Styles(cubeness, orientation, bodies, np.concatenate(form_of))
 
 
 class _OfMember(NamedTuple):

@@ -25,15 +25,19 @@ def orientations(whole: Whole, placements: Sequence[Placement]) -> list[np.ndarr
         linear = first.linear @ np.reshape(reflection.linear, (3, 3))
         U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(first.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    axes = [(placement.orientation, placement.form) for placement in placements]
-    if all(_looks_alike(Q @ turn @ Q.T, form) for Q, form in axes for turn in turns):
-        return [Q[None] for Q, _ in axes]
+    axes = [placement.orientation for placement in placements]
+    pairs = zip(axes, placements, strict=True)
+    if all(_looks_alike(Q @ turn @ Q.T, placement) for Q, placement in pairs for turn in turns):
+        return [Q[None] for Q in axes]
     sides = whole.sides()
-    return [np.stack([Q @ turn for turn in turns])[sides] for Q, _ in axes]
+    return [np.stack([Q @ turn for turn in turns])[sides] for Q in axes]
 
 
-def _looks_alike(turn, form):
-    """Return whether the form, or the cube for None, looks the same after a turn or reflection."""
+def _looks_alike(turn, placement):
+    """Return whether the form looks the same after a turn or reflection; captures never do."""
+    form = placement.form
+    if placement.capture is not None:
+        return np.abs(turn - np.eye(3)).max() <= _ALIKE
     if form is not None:
         costs = form.cost(form.normals @ turn.T)
         return bool(np.abs(costs - form.offsets).max() <= _ALIKE * form.radius)

@@ -16,6 +16,7 @@ from ...solver.styles.cube import proper
 from ...solver.styles.polytope import Polytope
 from ..settings.values import Settings
 from .form import form_of
+from .normal_capture import capture_of, has_capture
 
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
@@ -40,11 +41,14 @@ class Placement:
     """(3,3) symmetric stretch S of A = T S, up to rounding"""
     orientation: np.ndarray
     """(3,3) rotation Q that maps the coordinates that it is solved in into the form's frame; for a
-    cube one of the 24 that are the same, for other forms of a mirrored object a reflection"""
+    cube without a capture one of the 24 that are the same, else of a mirrored object a reflection
+    """
     up: np.ndarray
     """(3,) unit vector that points up in the world"""
     form: Polytope | None
     """None for the cube"""
+    capture: solver.NormalCapture | None = None
+    """which way normals should face, in the form's frame"""
     regions: tuple[Placement, ...] = ()
     """the same with the form and the orientation of each region"""
 
@@ -56,8 +60,17 @@ class Placement:
     @property
     def key(self):
         """All values, for comparison bit for bit."""
-        own = self.shape_key, self.orientation.tobytes(), self.form and self.form.key
+        own = self.shape_key, self.orientation.tobytes(), *self._directions_key
         return own, *(region.key for region in self.regions)
+
+    @property
+    def _directions_key(self):
+        return self.form and self.form.key, self.capture and self.capture.key
+
+    @property
+    def is_plain_cube(self):
+        """Whether any of the cube's 24 rotations, and its mirror images, are the same."""
+        return self.form is None and self.capture is None
 
     @property
     def shape_key(self):
@@ -114,13 +127,12 @@ def placements(obj: bpy.types.Object, settings: Settings) -> tuple[Placement, Pl
         As `stretch_and_orientation`, and as `form_of`.
     """
     alone = placement_alone(obj, settings)
-    in_world = _in_world(obj, settings, alone.form)
-    regions = [settings.of_region(region) for region in settings.regions]
-    if in_world is not None:
-        forms = [region.form for region in alone.regions]
-        found = (_in_world(obj, *pair) for pair in zip(regions, forms, strict=True))
-        in_world = replace(in_world, regions=tuple(found))
-    return alone, in_world
+    in_world = _in_world(obj, settings, alone)
+    if in_world is None:
+        return alone, None
+    pairs = zip(settings.regions, alone.regions, strict=True)
+    found = (_in_world(obj, settings.of_region(region), place) for region, place in pairs)
+    return alone, replace(in_world, regions=tuple(found))
 
 
 def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
@@ -131,28 +143,30 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     CubicCraftError
         As `stretch_and_orientation`.
     """
+    capture = capture_of(obj, settings)
     regions = (settings.of_region(region) for region in settings.regions)
-    alone = _alone(obj, settings)
-    return replace(alone, regions=tuple(_alone(obj, region) for region in regions))
+    alone = _alone(obj, settings, capture)
+    return replace(alone, regions=tuple(_alone(obj, region, capture) for region in regions))
 
 
-def _alone(obj, settings):
+def _alone(obj, settings, capture):
     form = form_of(settings)
     stretch, orientation = stretch_and_orientation(obj, settings)
-    orientation = _without_turns_that_do_nothing(orientation, form)
+    orientation = _without_turns_that_do_nothing(orientation, form is None and capture is None)
     turn, _ = _turn_and_stretch(obj)
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form)
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form, capture)
 
 
-def _in_world(obj, settings, form):
+def _in_world(obj, settings, alone):
     world = np.array(obj.matrix_world, dtype=np.float64)
     linear, offset = np.ascontiguousarray(world[:3, :3]), world[:3, 3].copy()
     turn, stretch = _turn_and_stretch(obj)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
     orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T, settings)
-    orientation = _without_turns_that_do_nothing(orientation, form)
-    return Placement(linear, offset, turn, stretch, orientation, np.array([0.0, 0.0, 1.0]), form)
+    orientation = _without_turns_that_do_nothing(orientation, alone.is_plain_cube)
+    up = np.array([0.0, 0.0, 1.0])
+    return Placement(linear, offset, turn, stretch, orientation, up, alone.form, alone.capture)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -258,16 +272,19 @@ def _into_space(obj, settings, turn):
 
 
 def _proper(matrix, settings):
-    """Return the rotation that is equivalent for a cube; other forms are mirrored as they are."""
-    return proper(matrix) if settings.form == "CUBE" else matrix
+    """Return the rotation that is equivalent for a cube.
+
+    Other forms, and normal captures, are mirrored as they are.
+    """
+    return proper(matrix) if settings.form == "CUBE" and not has_capture(settings) else matrix
 
 
-def _without_turns_that_do_nothing(orientation, form):
+def _without_turns_that_do_nothing(orientation, is_plain_cube):
     """Return the identity if the form looks as if it were not rotated.
 
     An object that is rotated by a right angle, as is common for imported files, or mirrored then
     gives the same bits as one that is not.
     """
-    same = np.round(orientation) if form is None else np.eye(3)
+    same = np.round(orientation) if is_plain_cube else np.eye(3)
     is_like = np.allclose(orientation, same, rtol=0.0, atol=_SMALLEST_TURN)
     return np.eye(3) if is_like else orientation

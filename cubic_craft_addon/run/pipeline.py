@@ -20,6 +20,7 @@ from ..environment.kernel_cache import use_extension_folder
 from .assembly import Prepared
 from .fields import styles, targets
 from .floor import kept_on_floor
+from .normal_capture import captures
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,7 @@ def start(prepared: Prepared) -> solver.Run:
             device=settings.device.lower(),
             keep_rotation=settings.rotation == "KEEP",
             hold_matrices=[hold.matrix for hold in prepared.holds],
+            **captures(prepared),
         )
         return solver.Run(stylization, settings.max_iterations, settings.tolerance)
     except solver.CubicCraftError as error:

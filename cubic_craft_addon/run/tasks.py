@@ -66,8 +66,9 @@ class Task:
     def key(self):
         """Everything but the mesh that determines the solution; no references to Blender's data."""
         up = self._alone.up.tobytes() if self.settings.floor else b""
-        regions = (replace(region, form_object=None) for region in self.settings.regions)
-        settings = replace(self.settings, frame=None, form_object=None, regions=tuple(regions))
+        pointers = {"frame": None, "form_object": None, "capture_object": None}
+        regions = tuple(replace(region, form_object=None) for region in self.settings.regions)
+        settings = replace(self.settings, regions=regions, **pointers)
         return settings, self._reflections, up, self._alone.key
 
     @property

@@ -15,6 +15,7 @@ from ..settings.forms import FORM_SETTINGS, OF_OBJECT, form_settings
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 from .form import form_of
+from .normal_capture import has_capture, note_of
 
 # The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}
@@ -41,6 +42,9 @@ def what_matters(settings: Settings) -> dict[str, Any]:
         [region.group, {**region.own, **_form(settings.of_region(region))}]
         for region in settings.regions
     ]
+    values["capture_object"] = note_of(settings)
+    if not has_capture(settings):
+        values["capture_strength"] = None
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":

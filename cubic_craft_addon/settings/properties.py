@@ -19,7 +19,7 @@ from bpy.props import (
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
-from ..mesh_bridge import last_run
+from ..mesh_bridge import KINDS, last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..screen import glimpse
@@ -120,6 +120,18 @@ class RunProperties:
     form: form_properties.form(glimpse.on_turn)
     form_sides: form_properties.form_sides(glimpse.on_turn)
     form_weights: form_properties.form_weights(glimpse.on_turn)
+    capture_strength: FloatProperty(
+        name="Strength",
+        description="How strongly the surface turns the way the normal capture shows, beside the"
+        " cubeness. You can type values beyond the slider, up to 10",
+        default=Settings.capture_strength,
+        min=0.0,
+        max=10.0,
+        soft_max=1.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
     orientation: form_properties.orientation(glimpse.on_turn)
     space: EnumProperty(
         name="Relative To",
@@ -251,6 +263,11 @@ class RunProperties:
     )
 
 
+def _may_be_capture(properties, obj):
+    """Return whether an object may be the normal capture of the one with the properties."""
+    return obj.type in KINDS and obj != properties.id_data
+
+
 class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
@@ -261,6 +278,13 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         type=bpy.types.Object,
     )
     form_object: form_properties.form_object()
+    capture_object: PointerProperty(
+        name="Normal Capture",
+        description="Object whose normals show which way a surface should face that faces as the"
+        " object did when it was a ball",
+        type=bpy.types.Object,
+        poll=_may_be_capture,
+    )
     handles: CollectionProperty(type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",

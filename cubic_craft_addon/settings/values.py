@@ -26,6 +26,10 @@ class Settings:
     """of the axes of a box"""
     form_object: bpy.types.Object | None = None
     """the object that an OBJECT or DIRECTIONS form is made from"""
+    capture_object: bpy.types.Object | None = None
+    """the ball whose normals say which way surfaces should face"""
+    capture_strength: float = 0.4
+    """of its normals, beside the cubeness"""
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Euler XYZ angles in radians"""
     space: str = "WORLD"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of the form, to choose another one, and beside it the form's own settings."""
+"""The picture of the form, to choose another one, its own settings, and the normal capture."""
 
 from typing import Any
 
@@ -24,8 +24,19 @@ def draw(layout: Any, properties: Any, is_shared: bool = True) -> None:
     column.use_property_split = False
     column.prop(properties, "form", text="")
     for name in form_settings(properties.form):
-        label = {} if name in _WITH_OWN_LABEL else {"text": ""}
-        if is_shared and name in POINTERS and live.current():
-            column.prop_search(properties, name, bpy.data, "objects", **label)
-        else:
-            column.prop(properties, name, **label)
+        own = {} if name in _WITH_OWN_LABEL else {"text": ""}
+        _draw_setting(column, properties, name, own, is_shared)
+
+
+def draw_capture(layout: Any, properties: Any) -> None:
+    """Draw the normal capture, and its strength where there is one."""
+    _draw_setting(layout, properties, "capture_object", {})
+    if properties.capture_object:
+        layout.prop(properties, "capture_strength", slider=True)
+
+
+def _draw_setting(layout, properties, name, label, is_shared=True):
+    if is_shared and name in POINTERS and live.current():
+        layout.prop_search(properties, name, bpy.data, "objects", **label)
+    else:
+        layout.prop(properties, name, **label)

@@ -116,6 +116,7 @@ def _draw_orientation(layout, obj):
 def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
     form_panel.draw(layout, properties)
+    form_panel.draw_capture(layout, properties)
     layout.prop(properties, "together")
     layout.prop(properties, "solidity", slider=True)
     layout.prop(properties, "refine")

@@ -14,7 +14,7 @@ from headless.progress import ProgressBar
 from headless.render import render
 from headless.studio import furnish
 
-from . import cubeness, forms, handles, orientations, teaser, uv_texture
+from . import captures, cubeness, forms, handles, orientations, teaser, uv_texture
 from .figure_meshes import FigureMeshes
 
 __all__ = ("render_figures",)
@@ -41,6 +41,7 @@ FIGURES = {
     "5": Figure("figure_5_cubeness", cubeness.compose, 460),
     "6": Figure("figure_6_orientations", orientations.compose, 520),
     "forms": Figure("figure_forms", forms.compose, 700),
+    "captures": Figure("figure_captures", captures.compose, 460),
 }
 
 

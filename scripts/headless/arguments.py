@@ -47,6 +47,9 @@ HELP = {
     "--region": "a vertex group with a form and a cubeness of its own, such as head:octahedron:0.8 "
     "or, with a number of sides, hat:prism5:1; where its weights are less than 1, it blends into "
     "the rest",
+    "--capture": "file with a ball whose normals say which way a surface should face that faces as "
+    "its vertices do from the origin of its scene",
+    "--capture-strength": "of the normals of --capture, beside the cubeness (default: 0.4)",
     "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
@@ -198,6 +201,8 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
     add("--form-object", type=Path, metavar="FILE")
     region = region_option([name for name in FORMS if name not in ("box", *OF_FILE)])
     add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
+    add("--capture", type=Path, metavar="FILE")
+    add("--capture-strength", type=_number(0, 10), default=0.4, metavar="X")
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")

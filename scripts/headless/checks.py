@@ -38,7 +38,7 @@ def check_form(options: Namespace) -> None:
     Raises
     ------
     InputError
-        It has none, or the file cannot be read.
+        It has none, or the file cannot be read, or that of the normal capture.
     """
     needs_file = options.form in ("object", "directions")
     if needs_file and options.form_object is None:
@@ -49,6 +49,8 @@ def check_form(options: Namespace) -> None:
         if not needs_file:
             raise InputError("--form-object: is for --form object and --form directions")
         _check_input(options.form_object)
+    if options.capture is not None:
+        _check_input(options.capture)
 
 
 def check_batch(options: Namespace) -> None:
@@ -167,6 +169,6 @@ def _check_outputs(options: Namespace) -> None:
         outputs["--error-file"] = [options.error_file]
     for option, paths in outputs.items():
         check_writable(option, paths)
-        for source in (options.input, options.handles_file):
+        for source in (options.input, options.handles_file, options.capture):
             if source is not None and source.resolve() in (path.resolve() for path in paths):
                 raise InputError(f"{option} {source}: this is the input; give another name")

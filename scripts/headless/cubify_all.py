@@ -57,7 +57,7 @@ def cubify_all(
     members = [
         extension.member.read_member(
             users[0],
-            _settings(users[0], handles[users[0].name], options, extension, loaded.form),
+            _settings(users[0], handles[users[0].name], options, extension, loaded),
         )
         for users in by_mesh.values()
     ]
@@ -94,14 +94,16 @@ def _settings(
     handles: tuple[Any, ...],
     options: Namespace,
     extension: Extension,
-    form: bpy.types.Object | None,
+    loaded: Loaded,
 ) -> Any:
     """Return the Settings for one object; a group that only others have does not concern it."""
     return extension.settings.Settings(
         form=options.form.upper(),
         form_sides=options.form_sides,
         form_weights=tuple(options.form_weights),
-        form_object=form,
+        form_object=loaded.form,
+        capture_object=loaded.capture,
+        capture_strength=options.capture_strength,
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,

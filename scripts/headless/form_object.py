@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh of another file that the form is made from."""
+"""The mesh of another file that the form, or the normal capture, is made from."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -45,8 +45,8 @@ def read_form(path: Path, verbose: bool) -> FormMesh:
     return FormMesh(np.concatenate(points), np.concatenate(triangles))
 
 
-def make_form(form: FormMesh) -> bpy.types.Object:
+def make_form(form: FormMesh, name: str = "Form") -> bpy.types.Object:
     """Make an object that is in no scene, so that nothing of it is written."""
-    mesh = bpy.data.meshes.new("Form")
+    mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(form.points.tolist(), [], form.triangles.tolist())
-    return bpy.data.objects.new("Form", mesh)
+    return bpy.data.objects.new(name, mesh)

@@ -44,6 +44,8 @@ class Loaded:
     """not just one object that was named"""
     form: bpy.types.Object | None = None
     """what the form is made from"""
+    capture: bpy.types.Object | None = None
+    """what the normal capture is made from"""
 
 
 def empty_blender() -> None:

@@ -41,17 +41,25 @@ def run(options: Namespace, root: Path, begin: float) -> None:
     if options.save_mesh:
         check_exporter(options.save_mesh)
     form = read_form(options.form_object, options.verbose) if options.form_object else None
+    capture = read_form(options.capture, options.verbose) if options.capture else None
     with registered(root) as extension:
-        _run(options, extension, form, begin)
+        _run(options, extension, form, capture, begin)
 
 
-def _run(options: Namespace, extension: Extension, form: FormMesh | None, begin: float) -> None:
+def _run(
+    options: Namespace,
+    extension: Extension,
+    form: FormMesh | None,
+    capture: FormMesh | None,
+    begin: float,
+) -> None:
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         seen_by = extension if options.with_modifiers else None
         loaded = load(options.input, options.object, options.verbose, seen_by)
         loaded.form = make_form(form) if form else None
+        loaded.capture = make_form(capture, options.capture.stem) if capture else None
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:

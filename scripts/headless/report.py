@@ -42,7 +42,8 @@ def write_report(
         "versions": _versions(extension),
         "device": sculptures[0].solutions[0].result.device,
         "notices": extension.notices(),
-        "settings": {name: getattr(options, name) for name in SETTINGS},
+        "settings": {name: getattr(options, name) for name in SETTINGS}
+        | {"capture_strength": options.capture_strength if options.capture else None},
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }

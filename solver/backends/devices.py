@@ -12,7 +12,7 @@ DEVICES = ("auto", "cpu", "gpu", "numpy")
 
 
 def local_step_class(device="auto", precision=None):
-    """Return a function of (rest, lam, Q, options, form) that makes the local step for the device.
+    """Return a function that makes the local step, with the arguments of `NumpyLocalStep`.
 
     Parameters
     ----------

@@ -29,6 +29,8 @@ class NumpyLocalStep:
     options : AdmmOptions
     form : Cube or Polytopes, optional
         What the normals are drawn to.
+    captured : (n,4) float64 array, optional
+        Unit normals that they are drawn to besides, and how strongly, per area; see `LocalProblem`.
 
     Attributes
     ----------
@@ -42,7 +44,7 @@ class NumpyLocalStep:
     compile_seconds = 0.0
     resolution = 1e-9
 
-    def __init__(self, rest, lam, Q, options, form: Any = CUBE):
+    def __init__(self, rest, lam, Q, options, form: Any = CUBE, captured=None):
         self._rest = rest
         self._options = options
         matrices = rest.matrices
@@ -55,9 +57,11 @@ class NumpyLocalStep:
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         lam = local_cubeness(rest, lam)
-        self._cubic_weight = lam * rest.areas
         Q = np.broadcast_to(Q, (n, 3, 3))
-        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, Q, lam, form)
+        captured = local_captured(rest, captured)
+        nothing = np.zeros((n, 3, 3))
+        self._rest_problem = LocalProblem(nothing, rest.normals, Q, lam, form, captured)
+        self._normal_weight = self._rest_problem.weights(rest.areas)
         self._states = self._rest_problem.starting(self.R)
 
     def motion(self, setup, U, constraints=()):
@@ -90,10 +94,10 @@ class NumpyLocalStep:
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
         self.R = np.where(is_worse[:, None, None], last, R)
         self._states = np.where(is_worse[:, None], self._states, states)
-        fit, l1 = problem.costs(self.R)
+        fit, cost = problem.energy_terms(self.R)
         trace = self._rest.topology.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace
-        return arap, self._rest.topology.sum_parts(self._cubic_weight * l1)
+        return arap, self._rest.topology.sum_parts(self._normal_weight * cost)
 
     def _near_origin(self, U):
         """Return U with each component moved, so that the energy of a tiny one is no rounding."""
@@ -119,3 +123,11 @@ def local_cubeness(rest, lam):
     """Return the cubeness (n,) with which the L1 term stands beside the divided ARAP term."""
     has_normal = rest.normals.any(axis=1)
     return np.where((rest.areas > SMALLEST_AREA) & has_normal, lam, 0.0)
+
+
+def local_captured(rest, captured):
+    """Return captured normals (n,4) without those of vertices that have no normal, or None."""
+    if captured is None:
+        return None
+    strength = local_cubeness(rest, captured[:, 3])
+    return np.where(strength > 0.0, captured.T, 0.0).T

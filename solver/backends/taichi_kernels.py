@@ -26,7 +26,7 @@ from .taichi_active_set import Kind, rotation_near
 from .taichi_faces import rotation_on_faces
 
 
-def make_kernels(real, width):
+def make_kernels(real, width, is_captured=False):
     """Return the kernels `local_step` and `right_hand_side`.
 
     Parameters
@@ -34,9 +34,11 @@ def make_kernels(real, width):
     real : ti.f64 or ti.f32
     width : {3, 4}
         Of the states of vertices: 3 for the cube, 4 for polytopes.
+    is_captured : bool
+        Whether normals are drawn to captured ones; else `captured` is not read.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
-    vec4, _ = state_types(real, 4)
+    vec4, vectors4 = state_types(real, 4)
     _, states = state_types(real, width)
     kind = Kind(real, vec3, vec4, mat3, DOUBLE if real == ti.f64 else SINGLE)
     is_cube = width == 3
@@ -55,8 +57,9 @@ def make_kernels(real, width):
         q_stride: ti.i32,
         R: matrices,
         subgradients: states,
-        energies: vectors,  # per vertex: sum w |d|^2, tr(R S), h(Q R n)
+        energies: vectors,  # per vertex: sum w |d|^2, and the `energy_terms` of a `LocalProblem`
         certified: integers,  # where 0, the rotation is the last one
+        captured: vectors4,
         frames: matrices,  # these are the fields of `FaceTables`
         numbers: integers,
         targets: integers,
@@ -77,6 +80,10 @@ def make_kernels(real, width):
                 S += mat3(ti.static(outer(*gather[entry], *edge)))
                 quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
             S /= area_scale[i]
+            if ti.static(is_captured):
+                wanted = captured[i]
+                pull = vec3(wanted[0], wanted[1], wanted[2]) * wanted[3]
+                S += mat3(ti.static(outer(*normals[i], *pull)))
             present = R[i]
             last = mat3(ti.static(nearer_to_orthogonal(*present)))
             if ti.static(is_cube):
@@ -108,6 +115,16 @@ def make_kernels(real, width):
                 subgradients[i] = s
                 energies[i] = vec3(quadratic, fit * area_scale[i], cost)
                 certified[i] = ti.cast(is_certified, ti.i32)
+            if ti.static(is_captured):
+                terms, strength = energies[i], captured[i][3]
+                target = vec3(captured[i][0], captured[i][1], captured[i][2])
+                rotated = vec3(ti.static(times(*R[i], *normals[i])))
+                off = target - rotated
+                energies[i] = vec3(
+                    terms[0],
+                    terms[1] - strength * target.dot(rotated) * area_scale[i],
+                    lam[i] * terms[2] + strength * off.dot(off) / 2,
+                )
 
     @ti.kernel
     def right_hand_side(

@@ -14,7 +14,7 @@ from ..styles.local_problem import LocalProblem
 from . import taichi_runtime
 from .arrays import arrays_for
 from .face_tables import face_tables
-from .numpy_local_step import area_scale, local_cubeness
+from .numpy_local_step import area_scale, local_captured, local_cubeness
 from .rows import HostRows
 from .warmup import warm_up
 
@@ -35,6 +35,7 @@ class _Arguments(NamedTuple):
     subgradients: Any
     energies: Any
     certified: Any
+    captured: Any
 
 
 class TaichiLocalStep:
@@ -42,7 +43,7 @@ class TaichiLocalStep:
 
     Parameters
     ----------
-    rest, lam, Q, options, form
+    rest, lam, Q, options, form, captured
         As in `NumpyLocalStep`.
     device : {"cpu", "gpu"}
     precision : {"f64", "f32"}, optional
@@ -62,7 +63,18 @@ class TaichiLocalStep:
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
 
-    def __init__(self, rest, lam, Q, options, form: Any = CUBE, *, device="cpu", precision=None):
+    def __init__(
+        self,
+        rest,
+        lam,
+        Q,
+        options,
+        form: Any = CUBE,
+        captured=None,
+        *,
+        device="cpu",
+        precision=None,
+    ):
         runtime = taichi_runtime.start(device)
         self._rest = rest
         self._wanted, self.device = device, runtime.device
@@ -71,16 +83,18 @@ class TaichiLocalStep:
             raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
-        self._kernels = _kernels(precision, form.width)
+        self._kernels = _kernels(precision, form.width, captured is not None)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
         n = len(rest.V)
         lam = local_cubeness(rest, lam)
         self._options = options
-        self._cubic_weight = lam * rest.areas
+        captured = local_captured(rest, captured)
         # for what the kernel does not certify; the covariances come with the positions
         all_Q = np.broadcast_to(Q, (n, 3, 3))
-        self._rest_problem = LocalProblem(np.zeros((n, 3, 3)), rest.normals, all_Q, lam, form)
+        nothing = np.zeros((n, 3, 3))
+        self._rest_problem = LocalProblem(nothing, rest.normals, all_Q, lam, form, captured)
+        self._normal_weight = self._rest_problem.weights(rest.areas)
         self._arguments = self._make_arguments(Q)
         self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
@@ -100,6 +114,7 @@ class TaichiLocalStep:
     def _make_arguments(self, Q):
         m, rest, keep = self._rest.matrices, self._rest, self._keep
         identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
+        captured = self._rest_problem.captured
         return _Arguments(
             indptr=self.arrays.keep(m.indptr),
             indices=self.arrays.keep(m.indices),
@@ -114,6 +129,7 @@ class TaichiLocalStep:
             subgradients=keep(self._rest_problem.starting(identity)),
             energies=keep(np.zeros((len(rest.V), 3))),
             certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
+            captured=keep(np.zeros((1, 4)) if captured is None else captured),  # else never read
         )
 
     def _make_rows(self):
@@ -144,7 +160,7 @@ class TaichiLocalStep:
         # Taken from each vertex. Taken from their sum, which is as large as that of all squared
         # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
         at_rest = keep(setup.rest.energy_terms.astype(self.real))
-        weight = keep(self._cubic_weight.astype(self.real))
+        weight = keep(self._normal_weight.astype(self.real))
         arguments = (
             keep(bounds),
             self._arguments.energies,
@@ -175,12 +191,12 @@ class TaichiLocalStep:
         rows = self._uncertified()
         if len(rows):
             self._solve_by_admm(U, rows)
-        quadratic, trace, l1 = self.arrays.fetch(self._arguments.energies).T.astype(
+        quadratic, trace, cost = self.arrays.fetch(self._arguments.energies).T.astype(
             np.float64, copy=False
         )
         sum_parts = self._rest.topology.sum_parts
         arap = 0.75 * self._rest.edge_sums + sum_parts(0.75 * quadratic - trace)
-        return arap, sum_parts(self._cubic_weight * l1)
+        return arap, sum_parts(self._normal_weight * cost)
 
     def _summed(self, U, sum_on_device):
         """Return the energies where kernels sum them up."""
@@ -204,7 +220,7 @@ class TaichiLocalStep:
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
         R = np.where(is_worse[:, None, None], last, R)
         s = np.where(is_worse[:, None], last_s, s)
-        fit, cost = problem.costs(R)
+        fit, cost = problem.energy_terms(R)
         self._rows.put(rows, R, s, fit * area_scale(self._rest.areas[rows]), cost)
 
     def right_hand_side(self):
@@ -240,8 +256,8 @@ class TaichiLocalStep:
 
 
 @cache
-def _kernels(precision, width):
+def _kernels(precision, width, is_captured):
     from .taichi_kernels import make_kernels
 
     ti = taichi_runtime.import_taichi()
-    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width)
+    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, is_captured)

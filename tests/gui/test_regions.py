@@ -35,16 +35,6 @@ def open_section():
     return (yield from gui.find_button("cubic_craft.region_from_selection"))
 
 
-def choose_form():
-    """Take the second form after the present one in the row of the region."""
-    region = scene.settings().regions[0]
-    before = region.form
-    yield from gui.click((yield from gui.find_button("cubic_craft.regions[0].form")))
-    yield 0.5
-    yield from gui.keys("DOWN_ARROW", "DOWN_ARROW", "RET")
-    yield from gui.wait_until(lambda: region.form != before, what="another form", timeout=60)
-
-
 def test():
     gui.simplify_viewport()
     scene.add_monkey(levels=2)
@@ -58,8 +48,7 @@ def test():
     assert bpy.context.mode == "OBJECT" and regions[0].group == "Region"
     yield from gui.screenshot("added.png")
 
-    yield from choose_form()
-    yield from gui.screenshot("chosen.png")
+    regions[0].form = "OCTAHEDRON"  # test_choose_form.py clicks on a selector of forms
     regions[0].cubeness = 1.0
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")

@@ -15,6 +15,7 @@ from scripts.headless.batch.task import Batch, do, key_of
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj
     --region top:prism5:0.3
+    --capture other/b.ply --capture-strength 0.7
     --space object --solidity 0 --together parts --refine off --rotation free
     --symmetry zx --floor --hold-rest off --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
@@ -52,6 +53,7 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
         assert getattr(there, name) == getattr(options, name)
     assert there.handles[0].vertices == options.handles[0].vertices == (0,)
     assert there.form_object == folder / "other" / "A.obj"
+    assert there.capture == folder / "other" / "b.ply"
     assert there.input == folder / "a.obj"
     assert there.output == folder / "out" / "a.png"
     without = in_a_worker(batch_options("--no-render", "--report", "r.json"), monkeypatch)

@@ -17,6 +17,7 @@ OF_THE_BATCH = {
     *("inputs", "input", "handles", "handles_file", "output", "save_mesh", "report", "error_file"),
     *(
         "form_object",
+        "capture",
         "output_folder",
         "recursive",
         "jobs",
@@ -56,7 +57,7 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
     jobs = [_job(options, source) for source in sources]
     inputs = {
         path.resolve()
-        for path in (*(s.path for s in sources), options.handles_file, options.form_object)
+        for path in (*(s.path for s in sources), options.handles_file, *_shapes(options))
         if path
     }
     for path in (path for job in jobs for path in job.outputs):
@@ -80,9 +81,14 @@ def settings_of(options: Namespace) -> str:
 def decisive(options: Namespace, version: str) -> str:
     """Return all but the content of an input that decides about its results, as a text."""
     handles = options.handles_file and options.handles_file.read_text(encoding="utf-8")
-    form = options.form_object and hashlib.sha256(options.form_object.read_bytes()).hexdigest()
+    shapes = [path and hashlib.sha256(path.read_bytes()).hexdigest() for path in _shapes(options)]
     settings = settings_of(Namespace(**vars(options) | {"verbose": False}))
-    return json.dumps([version, settings, options.save_mesh, handles, form])
+    return json.dumps([version, settings, options.save_mesh, handles, *shapes])
+
+
+def _shapes(options: Namespace) -> tuple[Path | None, Path | None]:
+    """Return the files that the form and the normal capture are made from."""
+    return options.form_object, options.capture
 
 
 def _job(options: Namespace, source: Source) -> Job:
@@ -100,5 +106,7 @@ def _job(options: Namespace, source: Source) -> Job:
         arguments.append(f"--handles={options.handles_file.absolute()}")
     if options.form_object:
         arguments.append(f"--form-object={options.form_object.absolute()}")
+    if options.capture:
+        arguments.append(f"--capture={options.capture.absolute()}")
     outputs = written(picture, options.turntable, mesh, options.cubeness)
     return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))

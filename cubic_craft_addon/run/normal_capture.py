@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The normal capture of the settings, for the solver: which way surfaces should face."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import hashlib
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ... import solver
+from ...solver import CubicCraftError
+from ...solver.rest_measures import areas_and_normals
+from .. import mesh_bridge
+from ..environment.requirements import check_requirements
+from ..settings.values import Settings
+
+if TYPE_CHECKING:
+    from .assembly import Prepared
+
+STRENGTH = 4.0
+"""of the solver, for a strength of 1: with a cube for a ball, the same strength and cubeness deform
+a monkey equally much, by the first term of the energy (0.0743 and 0.0746 at 0.4)"""
+
+
+def has_capture(settings: Settings) -> bool:
+    """Return whether the settings have a normal capture that is felt."""
+    return settings.capture_object is not None and settings.capture_strength > 0.0
+
+
+def capture_of(obj: bpy.types.Object, settings: Settings) -> solver.NormalCapture | None:
+    """Return the normal capture for an object, None for none.
+
+    The same settings give the same object, so that captures can be compared by identity.
+
+    Raises
+    ------
+    CubicCraftError
+        The object that it is made from cannot be used.
+    """
+    ball = settings.capture_object
+    if ball is None or not has_capture(settings):
+        return None
+    if ball == obj:
+        raise CubicCraftError(f'"{obj.name}" cannot be its own normal capture; pick another ball')
+    check_requirements()
+    points, triangles, before = _read(ball)
+    linear = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)
+    side = np.sign(np.linalg.det(linear))
+    points = points @ linear.T  # in the axes of the world, about the object's origin
+    normals = side * areas_and_normals(points, triangles)[1]
+    directions = points
+    if before is not None:
+        directions = side * areas_and_normals(before @ linear.T, triangles)[1]
+    try:
+        return _made(directions.tobytes(), normals.tobytes())
+    except CubicCraftError as error:
+        raise CubicCraftError(f'"{ball.name}" is no normal capture: {error}') from error
+
+
+def note_of(settings: Settings) -> Any:
+    """Return what the normal capture is made from, as values for JSON; None for none."""
+    ball = settings.capture_object
+    if ball is None or not has_capture(settings):
+        return None
+    try:
+        content = _read(ball)
+    except CubicCraftError:
+        return None
+    found = hashlib.sha256()
+    for values in content:
+        found.update(b"" if values is None else values.tobytes())
+    turn = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)
+    return [found.hexdigest(), {"matrix": turn.ravel().tolist()}]
+
+
+def captures(prepared: Prepared) -> dict[str, Any]:
+    """Return the arguments of a Stylization for the captures of all members, none for no capture.
+
+    Where the cubeness map is 0, nothing has to face anywhere.
+    """
+    found = [placement.capture for placement in prepared.placements]
+    distinct = list(dict.fromkeys(capture for capture in found if capture is not None))
+    if not distinct:
+        return {}
+    numbers, strengths = [], []
+    for member, capture in zip(prepared.members, found, strict=True):
+        strength = 0.0 if capture is None else STRENGTH * member.settings.capture_strength
+        strengths.append(member.of_whole(strength * member.map_weights))
+        number = 0 if capture is None else distinct.index(capture)
+        numbers.append(np.full(len(strengths[-1]), number))
+    return {
+        "capture": distinct,
+        "capture_strength": np.concatenate(strengths),
+        "capture_of": np.concatenate(numbers),
+    }
+
+
+def _read(ball):
+    """Return points (n,3) and triangles (m,3) as they are seen, and points before Cubify or None.
+
+    The latter only where each vertex has one: with the same modifiers that add none.
+    """
+    points, triangles = mesh_bridge.read_evaluated(ball)
+    if not len(triangles):
+        raise CubicCraftError(f'"{ball.name}" has no surface; pick another object')
+    mesh = ball.data
+    if isinstance(mesh, bpy.types.Mesh) and mesh_bridge.has_original(mesh):
+        before = mesh_bridge.original_positions(mesh, "ORIGINAL")
+        if len(before) == len(points):
+            return points, triangles, before.astype(np.float64)
+    return points, triangles, None
+
+
+@lru_cache(maxsize=8)
+def _made(directions, normals):
+    d, n = (np.frombuffer(values).reshape(-1, 3) for values in (directions, normals))
+    return solver.NormalCapture(d, n)
