@@ -10,16 +10,18 @@ import numpy as np
 from ... import solver
 from ...solver import CubicCraftError
 from ...solver.styles import forms
-from ...solver.styles.clusters import directions_of
+from ...solver.styles.clusters import directions_of, enclosing
 from ...solver.styles.polytope import Polytope, from_directions, from_points
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
+from ..settings.direction_text import read_directions
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
 
 MOST_DIRECTIONS = 48
-"""of a form from another object"""
+"""of a form from another object, or from selected faces"""
 _NAMED = {
+    "ROUNDED": forms.rounded_cube,
     "OCTAHEDRON": forms.octahedron,
     "TETRAHEDRON": forms.tetrahedron,
     "DODECAHEDRON": forms.dodecahedron,
@@ -38,12 +40,15 @@ def form_of(settings: Settings) -> Polytope | None:
     Raises
     ------
     CubicCraftError
-        The form is that of another object which is not set or cannot be used.
+        The form is that of another object which is not set or cannot be used, or that of faces
+        of which none were picked.
     """
     if settings.form != "CUBE":
         check_requirements()
     if settings.form in OF_OBJECT:
         return _of_object(settings)
+    if settings.form == "FACES":
+        return _picked(settings.form_directions)
     return _named(settings.form, settings.form_sides, settings.form_weights)
 
 
@@ -56,6 +61,21 @@ def _named(name, sides, weights):
     if name == "PYRAMID":
         return forms.pyramid(sides)
     return _NAMED[name]() if name in _NAMED else None
+
+
+@lru_cache(maxsize=64)
+def _picked(text):
+    if not text.strip():
+        raise CubicCraftError(
+            "no faces were picked for the form; select some in Edit Mode and click Directions from"
+            " Selection, or choose another form"
+        )
+    directions = enclosing(read_directions(text))
+    if len(directions) > MOST_DIRECTIONS:
+        raise CubicCraftError(
+            f"the form has {len(directions)} directions; give at most {MOST_DIRECTIONS}"
+        )
+    return from_directions(directions)
 
 
 def _of_object(settings):

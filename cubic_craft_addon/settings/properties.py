@@ -156,6 +156,13 @@ class RunProperties:
         options=_OPTIONS,
         update=glimpse.on_turn,
     )
+    form_directions: StringProperty(
+        name="Directions",
+        description="Directions that the sides of the form face, in its own axes: three numbers for"
+        ' each, such as "0 0 1, 1 0 0". Directions from Selection writes them',
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
     orientation: FloatVectorProperty(
         name="Orientation",
         description="Rotation of the form",

@@ -25,6 +25,8 @@ class Settings:
     """of the axes of a box"""
     form_object: bpy.types.Object | None = None
     """the object that an OBJECT or DIRECTIONS form is made from"""
+    form_directions: str = ""
+    """of the sides of a form of FACES, in its own axes, see `direction_text`"""
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Euler XYZ angles in radians"""
     space: str = "WORLD"

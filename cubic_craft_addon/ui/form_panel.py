@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 
 from .. import live
+from ..settings.direction_text import count_directions
 from ..settings.forms import form_settings
 from ..settings.overrides import POINTERS
 
@@ -25,7 +26,16 @@ def draw(layout: Any, properties: Any) -> None:
     column.prop(properties, "form", text="")
     for name in form_settings(properties.form):
         label = {} if name in _WITH_OWN_LABEL else {"text": ""}
-        if name in POINTERS and live.current():
+        if name == "form_directions":
+            column.operator("cubic_craft.form_from_selection", icon="FACESEL", text="Use Selection")
+            draw_count(column, properties)
+        elif name in POINTERS and live.current():
             column.prop_search(properties, name, bpy.data, "objects", **label)
         else:
             column.prop(properties, name, **label)
+
+
+def draw_count(layout: Any, properties: Any) -> None:
+    """Draw how many directions were picked, instead of their numbers."""
+    count = count_directions(properties.form_directions)
+    layout.label(text=f"{count} directions" if count else "No faces picked")

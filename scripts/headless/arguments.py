@@ -16,8 +16,8 @@ from .handles_file import read_handles
 __all__ = ("parse",)
 
 FORMS = (
-    *("cube", "box", "octahedron", "tetrahedron", "dodecahedron", "icosahedron", "rhombic"),
-    *("prism", "pyramid", "cylinder", "cone", "object", "directions"),
+    *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
+    *("rhombic", "prism", "pyramid", "cylinder", "cone", "object", "directions", "faces"),
 )
 DEFAULTS = {
     "solidity": (0.1, 0.0),
@@ -41,6 +41,8 @@ HELP = {
     "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     "--form-object": "for --form object the file whose convex hull is the form, for directions the "
     "one whose faces are, about the origin of its scene",
+    "--form-directions": "for --form faces the directions of its sides, three numbers for each: "
+    '"0 0 1, 1 0 0"; where they leave a side open, those opposite are added',
     "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
@@ -190,6 +192,7 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
     weights = _number(0, 10)
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--form-object", type=Path, metavar="FILE")
+    add("--form-directions", default="", metavar="VECTORS")
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")

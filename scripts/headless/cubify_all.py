@@ -101,6 +101,7 @@ def _settings(
         form_sides=options.form_sides,
         form_weights=tuple(options.form_weights),
         form_object=form,
+        form_directions=options.form_directions,
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,

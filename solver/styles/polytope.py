@@ -16,6 +16,10 @@ from ..errors import CubicCraftError
 
 SAME = 1e-7
 """relative; distances below are rounding"""
+MERGED = 1e-5
+"""relative distance of vertices that are one: directions from meshes have 32 bits"""
+ON = 2 * MERGED
+"""relative distance from a facet of the vertices that lie on it"""
 NARROWEST = 1e-3
 """of the distances from the origin to the sides, relative to the size of the body"""
 STRONGEST = 4.0
@@ -55,7 +59,7 @@ class Polytope:
     def incidence(self):
         """(v,f) bool, which vertex lies on which facet."""
         distances = self.vertices @ self.normals.T - self.offsets
-        return np.abs(distances) < SAME * self.radius
+        return np.abs(distances) < ON * self.radius
 
     @cached_property
     def edges(self):
@@ -136,7 +140,7 @@ def from_directions(directions, offsets=None):
         vertices = spatial.HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
     except spatial.QhullError as error:
         raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
-    vertices = _apart(vertices, SAME * np.linalg.norm(vertices, axis=1).max())
+    vertices = _apart(vertices, MERGED * np.linalg.norm(vertices, axis=1).max())
     body = Polytope(d, r, vertices)
     touching = body.incidence.sum(axis=0) >= 3
     d, r = d[touching], r[touching]
@@ -208,6 +212,6 @@ def _apart(points, distance):
     """Return points without those that lie at others."""
     kept = []
     for point in points:
-        if all(np.abs(point - other).max() > 10 * distance for other in kept):
+        if all(np.abs(point - other).max() > distance for other in kept):
             kept.append(point)
     return np.array(kept)

@@ -14,6 +14,7 @@ from scripts.headless.batch.task import Batch, do, key_of
 
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj
+    --form-directions 0,0,1
     --space object --solidity 0 --together parts --refine off --rotation free
     --symmetry zx --floor --hold-rest off --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json

@@ -40,6 +40,7 @@ OPTIONS = {
     "orientation": (["ok.obj", "--orientation", "1", "2", "inf"], ["--orientation", "inf"]),
     "resolution": (["ok.obj", "--resolution", "0", "600"], ["--resolution", "0"]),
     "device": (["ok.obj", "--device", "tpu"], ["--device", "tpu", "numpy"]),
+    "faces of none": (["ok.obj", "--form", "faces"], ["--form faces", "--form-directions"]),
     "unknown option": (["ok.obj", "--cubenes", "1"], ["--cubenes"]),
     "missing file": (["none.obj"], ["none.obj", "no such file"]),
     "a folder": (["folder.obj"], ["folder.obj", "--output-folder"]),
@@ -74,6 +75,10 @@ CONTENT = {
     "infinite text .stl": (["text.stl"], ["text.stl", "vertex 2", "finite"]),
     "no such object": (["ok.obj", "--object", "Cube"], ["--object", "Cube", '"ok"']),
     "no such pin group": (["ok.obj", "--pin", "hand"], ["--pin", "hand", "vertex group"]),
+    "no directions": (
+        ["ok.obj", "--form", "faces", "--form-directions", "up"],
+        ['"up" is no list of directions'],
+    ),
     "no such map group": (["ok.obj", "--map", "hand"], ["--map", "hand", "vertex group"]),
 }
 
