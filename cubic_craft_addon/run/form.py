@@ -18,7 +18,7 @@ from ..settings.direction_text import read_directions
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
 
-MOST_DIRECTIONS = 48
+MOST_DIRECTIONS = 64
 """of a form from another object, or from selected faces"""
 _NAMED = {
     "ROUNDED": forms.rounded_cube,

@@ -15,7 +15,7 @@ _ROUNDS = 8
 _BINS = 50  # per unit; normals in one cell count as one
 
 
-def directions_of(normals, areas, most=48):
+def directions_of(normals, areas, most):
     """Return directions that the normals of a surface cluster about, such that they enclose 0.
 
     The normal with most area near it becomes a direction, and so on with the rest; then each moves

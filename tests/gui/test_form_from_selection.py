@@ -5,36 +5,33 @@ import bmesh
 import bpy
 import guidrive as gui
 import live_scene as scene
+from mathutils import Vector
 
 BUTTON = "cubic_craft.form_from_selection"
+DIRECTIONS = ((0, 0.6, 0.8), (0.9, 0, 0.4), (-0.9, 0, 0.4), (0, -0.8, -0.6))
 
 
 def choose_selected_faces():
     """Take the last form of the list by hand."""
     yield from gui.click((yield from gui.find_button("cubic_craft.form")))
     yield 0.5
-    count = len(scene.settings().bl_rna.properties["form"].enum_items)
-    yield from gui.keys(*["DOWN_ARROW"] * (count - 1), "RET")
+    yield from gui.keys("END", "RET")
     yield from gui.wait_until(lambda: scene.settings().form == "FACES", what="the form")
 
 
-def select_face_upward():
-    """Select the face of the monkey that looks up most, and some of its sides."""
+def select_faces():
+    """Select the faces of the monkey that look most along each of the directions."""
     with gui.in_region():
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.context.tool_settings.mesh_select_mode = (False, False, True)
         bpy.ops.mesh.select_all(action="DESELECT")
         mesh = bpy.context.object.data
         edited = bmesh.from_edit_mesh(mesh)
-        for direction in ((0, 0.6, 0.8), (0.9, 0, 0.4), (-0.9, 0, 0.4), (0, -0.8, -0.6)):
-            best = max(edited.faces, key=lambda face: sum(map(_product, face.normal, direction)))
+        for direction in map(Vector, DIRECTIONS):
+            best = max(edited.faces, key=lambda face: face.normal.dot(direction))
             best.select_set(True)
         bmesh.update_edit_mesh(mesh)
         bpy.ops.ed.undo_push(message="Select faces")
-
-
-def _product(a, b):
-    return a * b
 
 
 def test():
@@ -47,7 +44,7 @@ def test():
     yield from choose_selected_faces()
     yield from gui.click((yield from gui.find_button("cubic_craft_overlay")))
     yield from gui.screenshot("nothing_picked.png")
-    select_face_upward()
+    select_faces()
     yield from gui.click((yield from gui.find_button(BUTTON)))
     yield from gui.wait_until(lambda: scene.settings().form_directions, what="the directions")
     assert bpy.context.mode == "OBJECT"
