@@ -3,6 +3,7 @@
 
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
+from .run import form_cache
 from .settings import form_pictures, group_renames, properties
 from .ui import edited, handles_panel, overlay, panel, preferences
 
@@ -20,6 +21,7 @@ _modules = (
     panel,
     edited,
     group_renames,
+    form_cache,
 )
 
 

@@ -166,16 +166,27 @@ def from_points(points):
     CubicCraftError
         The points are flat, or the origin does not lie inside.
     """
-    points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    normals, offsets, _ = hull_planes(np.asarray(points, dtype=np.float64).reshape(-1, 3))
+    return from_directions(normals, offsets)
+
+
+def hull_planes(points):
+    """Return unit normals (m,3), offsets (m,) and triangles (m,3) of the hull of points (n,3).
+
+    Raises
+    ------
+    CubicCraftError
+        As `from_points`.
+    """
     spatial = _scipy_spatial()
     try:
-        planes = spatial.ConvexHull(points).equations
+        hull = spatial.ConvexHull(points)
     except (spatial.QhullError, ValueError) as error:
         raise CubicCraftError("a form needs at least four points that are not flat") from error
-    normals, offsets = planes[:, :3], -planes[:, 3]
+    normals, offsets = hull.equations[:, :3], -hull.equations[:, 3]
     if not (offsets > NARROWEST * np.abs(points).max()).all():
         raise CubicCraftError("the origin of the form must lie inside it")
-    return from_directions(normals, offsets)
+    return normals, offsets, hull.simplices
 
 
 def _distinct(d, r):
