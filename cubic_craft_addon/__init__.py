@@ -3,6 +3,7 @@
 
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
+from .run import form_cache
 from .settings import form_pictures, group_renames, properties, region_properties
 from .ui import edited, handles_panel, overlay, panel, preferences, regions_panel
 
@@ -22,6 +23,7 @@ _modules = (
     panel,
     edited,
     group_renames,
+    form_cache,
 )
 
 

@@ -8,6 +8,7 @@ from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .cubify_cancel import CUBIC_CRAFT_OT_cubify_cancel
 from .flatten import CUBIC_CRAFT_OT_flatten
+from .form_from_selection import CUBIC_CRAFT_OT_form_from_selection
 from .handle_add import CUBIC_CRAFT_OT_handle_add
 from .handle_follow import CUBIC_CRAFT_OT_handle_follow
 from .handle_move import CUBIC_CRAFT_OT_handle_move
@@ -31,6 +32,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_auto_orient,
+        CUBIC_CRAFT_OT_form_from_selection,
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,
         CUBIC_CRAFT_OT_preset_add,

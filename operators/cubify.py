@@ -31,6 +31,7 @@ from ..cubic_craft_addon.settings.overrides import (
     values_of,
 )
 from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
+from ..cubic_craft_addon.ui import form_panel
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, report_all, selected_meshes, selected_sources
 from ._shared.unexpected_errors import reporting
@@ -167,7 +168,9 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         layout.prop(self, "cubeness", slider=True)
         layout.prop(self, "form")
         for name in form_settings(self.form):
-            if name in POINTERS:
+            if name == "form_directions":
+                form_panel.draw_count(layout, self)
+            elif name in POINTERS:
                 layout.prop_search(self, name, context.blend_data, "objects")
             else:
                 layout.prop(self, name)

@@ -9,6 +9,7 @@ Restore and Apply remove without a trace.
 from .access.checks import check_editable, check_usable, mesh_of
 from .access.evaluated import read_evaluated
 from .access.group_names import set_groups_aside
+from .access.selected_faces import read_selected_faces
 from .access.triangulation import triangles
 from .access.vertex_groups import group_weights, vertex_group
 from .memory.last_run import LastRun, last_run
@@ -50,6 +51,7 @@ __all__ = (
     "original_positions",
     "read_evaluated",
     "read_positions",
+    "read_selected_faces",
     "remove_seen",
     "restore",
     "result_positions",

@@ -22,7 +22,7 @@ from .region_shares import region_shares
 from .whole import modifier_reflections
 
 _IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
-_OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights")
+_OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights", "form_directions")
 """settings that a result has been made with, whatever the panel shows now"""
 
 

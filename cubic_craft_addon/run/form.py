@@ -5,21 +5,26 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 from functools import lru_cache
 
+import bpy
 import numpy as np
 
 from ... import solver
 from ...solver import CubicCraftError
 from ...solver.styles import forms
-from ...solver.styles.clusters import directions_of
-from ...solver.styles.polytope import Polytope, from_directions, from_points
+from ...solver.styles.clusters import directions_of, enclosing
+from ...solver.styles.hulls import simple_hull
+from ...solver.styles.polytope import Polytope, from_directions
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
+from ..settings.direction_text import read_directions
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
+from .form_cache import form_kept
 
-MOST_DIRECTIONS = 48
-"""of a form from another object"""
+MOST_DIRECTIONS = 64
+"""of a form from another object, or from selected faces"""
 _NAMED = {
+    "ROUNDED": forms.rounded_cube,
     "OCTAHEDRON": forms.octahedron,
     "TETRAHEDRON": forms.tetrahedron,
     "DODECAHEDRON": forms.dodecahedron,
@@ -38,12 +43,15 @@ def form_of(settings: Settings) -> Polytope | None:
     Raises
     ------
     CubicCraftError
-        The form is that of another object which is not set or cannot be used.
+        The form is that of another object which is not set or cannot be used, or that of faces
+        of which none were picked.
     """
     if settings.form != "CUBE":
         check_requirements()
     if settings.form in OF_OBJECT:
         return _of_object(settings)
+    if settings.form == "FACES":
+        return _picked(settings.form_directions)
     return _named(settings.form, settings.form_sides, settings.form_weights)
 
 
@@ -58,15 +66,36 @@ def _named(name, sides, weights):
     return _NAMED[name]() if name in _NAMED else None
 
 
+@lru_cache(maxsize=64)
+def _picked(text):
+    if not text.strip():
+        raise CubicCraftError(
+            "no faces were picked for the form; select some in Edit Mode and click Directions from"
+            " Selection, or choose another form"
+        )
+    directions = enclosing(read_directions(text))
+    if len(directions) > MOST_DIRECTIONS:
+        raise CubicCraftError(
+            f"the form has {len(directions)} directions; give at most {MOST_DIRECTIONS}"
+        )
+    return from_directions(directions)
+
+
 def _of_object(settings):
     obj = settings.form_object
     if obj is None:
         raise CubicCraftError("no object is set for the form; pick one or choose another form")
-    points, triangles = mesh_bridge.read_evaluated(obj)
+    bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
     linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    what = (settings.form, linear.tobytes())
+    return form_kept(obj, what, lambda: _made_of(obj, settings.form, linear))
+
+
+def _made_of(obj, form, linear):
+    points, triangles = mesh_bridge.read_evaluated(obj)
     points = points @ linear.T  # in the axes of the world, about the object's origin
     try:
-        if settings.form == "OBJECT":
+        if form == "OBJECT":
             return _hull(points.tobytes())
         areas, normals = solver.triangle_areas_and_normals(points, triangles)
         normals *= np.sign(np.linalg.det(linear))
@@ -77,11 +106,7 @@ def _of_object(settings):
 
 @lru_cache(maxsize=8)
 def _hull(points):
-    body = from_points(np.frombuffer(points).reshape(-1, 3))
-    if len(body.normals) <= MOST_DIRECTIONS:
-        return body
-    d = directions_of(body.normals, body.facet_areas, MOST_DIRECTIONS)
-    return from_directions(d, body.cost(d))
+    return simple_hull(np.frombuffer(points).reshape(-1, 3), MOST_DIRECTIONS)
 
 
 @lru_cache(maxsize=8)

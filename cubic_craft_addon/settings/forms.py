@@ -6,12 +6,13 @@ OF_OBJECT = ("OBJECT", "DIRECTIONS")
 WITH_SIDES = ("PRISM", "PYRAMID")
 """those with a number of sides"""
 
-FORM_SETTINGS = ("form_sides", "form_weights", "form_object")
+FORM_SETTINGS = ("form_sides", "form_weights", "form_object", "form_directions")
 """further settings, of which each form has those of `form_settings`"""
 
 FORMS = (
     ("CUBE", "Cube", "Six squares, as in the paper"),
     ("BOX", "Box", "A cube with a strength of its own along each axis, for pillars and slabs"),
+    ("ROUNDED", "Rounded Cube", "A cube with bevels at its edges and corners"),
     ("OCTAHEDRON", "Octahedron", "Eight triangles, like a cut gem"),
     ("TETRAHEDRON", "Tetrahedron", "Four triangles"),
     ("DODECAHEDRON", "Dodecahedron", "Twelve pentagons"),
@@ -23,6 +24,7 @@ FORMS = (
     ("CONE", "Cone", "A round slope and a base"),
     ("OBJECT", "Object", "The convex hull of another object, about its origin"),
     ("DIRECTIONS", "Directions", "The directions that the faces of another object face"),
+    ("FACES", "Selected Faces", "The directions that faces of this mesh face, picked in Edit Mode"),
 )
 
 
@@ -35,4 +37,6 @@ def form_settings(form: str) -> list[str]:
         names.append("form_weights")
     if form in OF_OBJECT:
         names.append("form_object")
+    if form == "FACES":
+        names.append("form_directions")
     return names

@@ -132,6 +132,13 @@ class RunProperties:
         precision=3,
         options=_OPTIONS,
     )
+    form_directions: StringProperty(
+        name="Directions",
+        description="Directions that the sides of the form face, in its own axes: three numbers for"
+        ' each, such as "0 0 1, 1 0 0". Directions from Selection writes them',
+        options=_OPTIONS,
+        update=glimpse.on_turn,
+    )
     orientation: form_properties.orientation(glimpse.on_turn)
     space: EnumProperty(
         name="Relative To",

@@ -30,6 +30,8 @@ class Settings:
     """the ball whose normals say which way surfaces should face"""
     capture_strength: float = 0.4
     """of its normals, beside the cubeness"""
+    form_directions: str = ""
+    """of the sides of a form of FACES, in its own axes, see `direction_text`"""
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Euler XYZ angles in radians"""
     space: str = "WORLD"

@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 
 from .. import live
+from ..settings.direction_text import count_directions
 from ..settings.forms import form_settings
 from ..settings.overrides import POINTERS
 
@@ -24,6 +25,9 @@ def draw(layout: Any, properties: Any, is_shared: bool = True) -> None:
     column.use_property_split = False
     column.prop(properties, "form", text="")
     for name in form_settings(properties.form):
+        if name == "form_directions":
+            _draw_directions(column, properties, is_shared)
+            continue
         own = {} if name in _WITH_OWN_LABEL else {"text": ""}
         _draw_setting(column, properties, name, own, is_shared)
 
@@ -40,3 +44,17 @@ def _draw_setting(layout, properties, name, label, is_shared=True):
         layout.prop_search(properties, name, bpy.data, "objects", **label)
     else:
         layout.prop(properties, name, **label)
+
+
+def draw_count(layout: Any, properties: Any) -> None:
+    """Draw how many directions were picked, instead of their numbers."""
+    count = count_directions(properties.form_directions)
+    layout.label(text=f"{count} directions" if count else "No faces picked")
+
+
+def _draw_directions(layout, properties, is_shared):
+    """Draw those that were picked; a region has those of its object."""
+    if not is_shared:
+        properties = live.shared_properties(properties.id_data)
+    layout.operator("cubic_craft.form_from_selection", icon="FACESEL", text="Use Selection")
+    draw_count(layout, properties)

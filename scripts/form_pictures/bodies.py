@@ -12,7 +12,7 @@ from mathutils import Matrix, Vector
 
 __all__ = ("FROM_OBJECTS", "body_of")
 
-FROM_OBJECTS = ("OBJECT", "DIRECTIONS")
+FROM_OBJECTS = ("OBJECT", "DIRECTIONS", "FACES")
 """forms that are what the artist makes of them; their pictures have another colour"""
 SETTINGS = {
     "BOX": {"form_weights": (0.8, 1.0, 0.4)},
@@ -27,6 +27,8 @@ TURN = math.radians(-21.0)
 """of the arrows about Z, so that none points at the camera"""
 BALL = 0.6
 """radius, beside arrows that reach to 1"""
+GEM = 0.72
+"""distance of the sides of the gem with arrows on them"""
 SHAFT, HEAD, HEAD_LENGTH = 0.09, 0.24, 0.36
 """radii of an arrow, and the length of its head"""
 ARROW_SIDES = 24
@@ -36,7 +38,13 @@ def body_of(form: str, extension: Extension) -> bpy.types.Mesh:
     """Return the mesh of a form, one of the identifiers of the settings."""
     edited = bmesh.new()
     if form == "DIRECTIONS":
-        _add_arrows(edited)
+        bmesh.ops.create_icosphere(edited, subdivisions=4, radius=BALL)
+        axes = np.array(Matrix.Rotation(TURN, 3, "Z")).T
+        _add_arrows(edited, np.concatenate([axes, -axes]))
+    elif form == "FACES":
+        gem = extension.named_forms.rhombic_dodecahedron()
+        _add_hull(edited, gem.vertices * GEM / gem.offsets.min())
+        _add_arrows(edited, gem.normals[gem.normals[:, 2] > 0.1])  # as if these were selected
     elif form == "OBJECT":
         _add_hull(edited, _pebble())
     else:
@@ -69,11 +77,9 @@ def _add_hull(edited: bmesh.types.BMesh, points: np.ndarray) -> None:
     )
 
 
-def _add_arrows(edited: bmesh.types.BMesh) -> None:
-    """Add a ball with six arrows."""
-    bmesh.ops.create_icosphere(edited, subdivisions=4, radius=BALL)
-    axes = np.array(Matrix.Rotation(TURN, 3, "Z"))
-    for axis in (*axes.T, *-axes.T):
+def _add_arrows(edited: bmesh.types.BMesh, axes: np.ndarray) -> None:
+    """Add an arrow along each of the axes (n,3)."""
+    for axis in axes:
         turn = Vector((0.0, 0.0, 1.0)).rotation_difference(Vector(axis)).to_matrix().to_4x4()
         for low, high, radius, top in (
             (BALL, 1.0, SHAFT, SHAFT),

@@ -17,8 +17,8 @@ from .region_option import region_option
 __all__ = ("parse",)
 
 FORMS = (
-    *("cube", "box", "octahedron", "tetrahedron", "dodecahedron", "icosahedron", "rhombic"),
-    *("prism", "pyramid", "cylinder", "cone", "object", "directions"),
+    *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
+    *("rhombic", "prism", "pyramid", "cylinder", "cone", "object", "directions", "faces"),
 )
 OF_FILE = ("object", "directions")
 """forms that are made from a file"""
@@ -50,6 +50,8 @@ HELP = {
     "--capture": "file with a ball whose normals say which way a surface should face that faces as "
     "its vertices do from the origin of its scene",
     "--capture-strength": "of the normals of --capture, beside the cubeness (default: 0.4)",
+    "--form-directions": "for --form faces the directions of its sides, three numbers for each: "
+    '"0 0 1, 1 0 0"; where they leave a side open, those opposite are added',
     "--orientation": "Euler angles of the form in degrees, as in the panel",
     "--space": "what they are relative to: the axes of the scene that the file is read into, where "
     "Z is up, or those of each object (default: world)",
@@ -199,7 +201,8 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
     weights = _number(0, 10)
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--form-object", type=Path, metavar="FILE")
-    region = region_option([name for name in FORMS if name not in ("box", *OF_FILE)])
+    add("--form-directions", default="", metavar="VECTORS")
+    region = region_option([name for name in FORMS if name not in ("box", "faces", *OF_FILE)])
     add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
     add("--capture", type=Path, metavar="FILE")
     add("--capture-strength", type=_number(0, 10), default=0.4, metavar="X")

@@ -33,18 +33,21 @@ def check_single(options: Namespace) -> None:
 
 
 def check_form(options: Namespace) -> None:
-    """Check that a form that is made from a file has one, and no other has.
+    """Check that a form that is made from a file has one and no other has, and FACES directions.
 
     Raises
     ------
     InputError
-        It has none, or the file cannot be read, or that of the normal capture.
+        It has none, the directions are missing, or the file cannot be read, or that of the normal
+        capture.
     """
     needs_file = options.form in ("object", "directions")
     if needs_file and options.form_object is None:
         raise InputError(
             f"--form {options.form}: name the file that it is made from, --form-object FILE"
         )
+    if options.form == "faces" and not options.form_directions.strip():
+        raise InputError('--form faces: give its directions, --form-directions "0 0 1, 1 0 0"')
     if options.form_object is not None:
         if not needs_file:
             raise InputError("--form-object: is for --form object and --form directions")

@@ -104,6 +104,7 @@ def _settings(
         form_object=loaded.form,
         capture_object=loaded.capture,
         capture_strength=options.capture_strength,
+        form_directions=options.form_directions,
         orientation=tuple(math.radians(angle) for angle in options.orientation),
         space=options.space.upper(),
         handles=handles,

@@ -18,7 +18,7 @@ from .output_files import write_json, written
 __all__ = ("write_report",)
 
 SETTINGS = (
-    *("form", "form_sides", "form_weights", "region"),
+    *("form", "form_sides", "form_weights", "form_directions", "region"),
     *("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
     "with_modifiers",
 )

@@ -15,7 +15,7 @@ _ROUNDS = 8
 _BINS = 50  # per unit; normals in one cell count as one
 
 
-def directions_of(normals, areas, most=48):
+def directions_of(normals, areas, most):
     """Return directions that the normals of a surface cluster about, such that they enclose 0.
 
     The normal with most area near it becomes a direction, and so on with the rest; then each moves
@@ -29,6 +29,7 @@ def directions_of(normals, areas, most=48):
     areas : (n,) array
         Their weights.
     most : int
+        At least 6.
 
     Returns
     -------
@@ -42,6 +43,14 @@ def directions_of(normals, areas, most=48):
     d, a = binned(np.asarray(normals, np.float64), np.asarray(areas, np.float64), _BINS)
     if not len(d):
         raise CubicCraftError("it has no faces with an area")
+    all_sides = enclosing(_clusters(d, a, most))
+    if len(all_sides) <= most:
+        return all_sides
+    return enclosing(_clusters(d, a, most // 2 - 1))  # room for those opposite, and for an axis
+
+
+def _clusters(d, a, most):
+    """Return unit vectors (k,3), at most so many, that unit vectors d with weights a lie about."""
     found = []
     left = a.copy()
     near = d @ d.T > NEAR if len(d) <= 3000 else None
@@ -57,11 +66,14 @@ def directions_of(normals, areas, most=48):
         np.add.at(sums, nearest, a[:, None] * d)
         sizes = np.linalg.norm(sums, axis=1, keepdims=True)
         found = np.where(sizes > 0.0, sums / np.where(sizes > 0.0, sizes, 1.0), found)
-    return _enclosing(found)
+    return found
 
 
-def _enclosing(d):
-    """Return directions that point to all sides."""
+def enclosing(d):
+    """Return directions (k,3) that point to all sides: these, and if needed others.
+
+    Those opposite are added, and where all lie in one plane or on one line, the axes across it.
+    """
     if encloses_origin(d):
         return d
     both = np.concatenate([d, -d])

@@ -19,6 +19,8 @@ SLOPE = np.radians(30.0)
 """angle of the sides of a pyramid or cone above the horizontal that their normals have"""
 LEAST_WEIGHT = 0.01
 """of a box; with 0 it would be flat"""
+BEVEL = 0.25
+"""width of the bevels of the rounded cube on its six sides, relative to its half size"""
 
 
 @cache
@@ -40,6 +42,18 @@ def box(weights):
     sizes = np.maximum(np.asarray(weights, dtype=np.float64), LEAST_WEIGHT)
     body = from_directions(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
     return body.scaled(sizes.min() / body.offsets.min())
+
+
+def rounded_cube():
+    """Return the cube with bevels at its edges and corners: 26 sides.
+
+    The bevels of edges are rectangles and those of corners triangles, which share their corners.
+    """
+    edges = _cyclic([(a, b, 0) for a, b in _signs(2)])
+    directions = np.concatenate([np.eye(3), -np.eye(3), edges, _signs(3)])
+    corner = np.array([1.0, 1.0 - BEVEL, 1.0 - BEVEL])
+    offsets = -np.sort(-np.abs(directions), axis=1) @ corner
+    return from_directions(directions, offsets / np.linalg.norm(directions, axis=1))
 
 
 def octahedron():

@@ -16,6 +16,10 @@ from ..errors import CubicCraftError
 
 SAME = 1e-7
 """relative; distances below are rounding"""
+MERGED = 1e-5
+"""relative distance of vertices that are one: directions from meshes have 32 bits"""
+ON = 2 * MERGED
+"""relative distance from a facet of the vertices that lie on it"""
 NARROWEST = 1e-3
 """of the distances from the origin to the sides, relative to the size of the body"""
 STRONGEST = 4.0
@@ -55,7 +59,7 @@ class Polytope:
     def incidence(self):
         """(v,f) bool, which vertex lies on which facet."""
         distances = self.vertices @ self.normals.T - self.offsets
-        return np.abs(distances) < SAME * self.radius
+        return np.abs(distances) < ON * self.radius
 
     @cached_property
     def edges(self):
@@ -144,7 +148,7 @@ def from_directions(directions, offsets=None):
     except spatial.QhullError as error:
         raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
     size = np.linalg.norm(vertices, axis=1).max()
-    vertices = vertices[_first_of_alike(vertices, 10 * SAME * size)]
+    vertices = vertices[_first_of_alike(vertices, MERGED * size)]
     body = Polytope(d, r, vertices)
     touching = body.incidence.sum(axis=0) >= 3
     d, r = d[touching], r[touching]
@@ -170,16 +174,27 @@ def from_points(points):
     CubicCraftError
         The points are flat, or the origin does not lie inside.
     """
-    points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    normals, offsets, _ = hull_planes(np.asarray(points, dtype=np.float64).reshape(-1, 3))
+    return from_directions(normals, offsets)
+
+
+def hull_planes(points):
+    """Return unit normals (m,3), offsets (m,) and triangles (m,3) of the hull of points (n,3).
+
+    Raises
+    ------
+    CubicCraftError
+        As `from_points`.
+    """
     spatial = _scipy_spatial()
     try:
-        planes = spatial.ConvexHull(points).equations
+        hull = spatial.ConvexHull(points)
     except (spatial.QhullError, ValueError) as error:
         raise CubicCraftError("a form needs at least four points that are not flat") from error
-    normals, offsets = planes[:, :3], -planes[:, 3]
+    normals, offsets = hull.equations[:, :3], -hull.equations[:, 3]
     if not (offsets > NARROWEST * np.abs(points).max()).all():
         raise CubicCraftError("the origin of the form must lie inside it")
-    return from_directions(normals, offsets)
+    return normals, offsets, hull.simplices
 
 
 def minkowski_sum(a, b):

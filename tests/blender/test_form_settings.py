@@ -12,7 +12,16 @@ from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
 from test_symmetry import FLIP_X, add_lump, partner_of
 
 NAMES = (
-    *("CUBE", "BOX", "OCTAHEDRON", "TETRAHEDRON", "DODECAHEDRON", "ICOSAHEDRON", "RHOMBIC"),
+    *(
+        "CUBE",
+        "BOX",
+        "ROUNDED",
+        "OCTAHEDRON",
+        "TETRAHEDRON",
+        "DODECAHEDRON",
+        "ICOSAHEDRON",
+        "RHOMBIC",
+    ),
     *("PRISM", "PYRAMID", "CYLINDER", "CONE", "OBJECT", "DIRECTIONS"),
 )
 OPTIONS = {"refine": "OFF", "max_iterations": 200}

@@ -16,6 +16,7 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj
     --region top:prism5:0.3
     --capture other/b.ply --capture-strength 0.7
+    --form-directions 0,0,1
     --space object --solidity 0 --together parts --refine off --rotation free
     --symmetry zx --floor --hold-rest off --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json

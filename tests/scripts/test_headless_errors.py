@@ -40,6 +40,7 @@ OPTIONS = {
     "orientation": (["ok.obj", "--orientation", "1", "2", "inf"], ["--orientation", "inf"]),
     "resolution": (["ok.obj", "--resolution", "0", "600"], ["--resolution", "0"]),
     "device": (["ok.obj", "--device", "tpu"], ["--device", "tpu", "numpy"]),
+    "faces of none": (["ok.obj", "--form", "faces"], ["--form faces", "--form-directions"]),
     "unknown option": (["ok.obj", "--cubenes", "1"], ["--cubenes"]),
     "missing file": (["none.obj"], ["none.obj", "no such file"]),
     "a folder": (["folder.obj"], ["folder.obj", "--output-folder"]),
@@ -83,6 +84,10 @@ CONTENT = {
     "no region": (["ok.obj", "--region", "hand:cone"], ["GROUP:FORM:CUBENESS", "hand:cone"]),
     "no form of a region": (["ok.obj", "--region", "hand:cow:1"], ["'cow' is none of cube"]),
     "no sides of a form": (["ok.obj", "--region", "hand:cube5:1"], ["GROUP:FORM:CUBENESS"]),
+    "no directions": (
+        ["ok.obj", "--form", "faces", "--form-directions", "up"],
+        ['"up" is no list of directions'],
+    ),
     "no such map group": (["ok.obj", "--map", "hand"], ["--map", "hand", "vertex group"]),
 }
 

@@ -147,6 +147,7 @@ def test_report(results):
     off = {"symmetry": "", "floor": False, "hold_rest": "on", "with_modifiers": False}
     form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}
     form["capture_strength"] = None
+    form["form_directions"] = ""
     assert report["settings"] == {**form, "space": "world", **by_default, **off}
     assert [run["cubeness"] for run in runs] == [0.0, 0.5]
     for run in runs:

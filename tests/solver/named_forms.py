@@ -8,6 +8,7 @@ POLYTOPES = {
     "box": lambda: forms.box((1, 2, 3)),
     "slab": lambda: forms.box((1, 1, 0)),
     "pillar": lambda: forms.box((0, 0, 1)),
+    "rounded cube": forms.rounded_cube,
     "octahedron": forms.octahedron,
     "tetrahedron": forms.tetrahedron,
     "dodecahedron": forms.dodecahedron,

@@ -13,6 +13,7 @@ from solver.styles.polytope import from_directions, from_points
 
 COUNTS = {
     "cube": (8, 12, 6),
+    "rounded cube": (24, 48, 26),
     "octahedron": (6, 12, 8),
     "tetrahedron": (4, 6, 4),
     "dodecahedron": (20, 30, 12),
@@ -32,6 +33,21 @@ def test_vertices_edges_and_facets(name):
     heights = body.vertices @ body.normals.T - body.offsets
     assert heights.max() < 1e-9
     assert (body.incidence.sum(axis=0) >= 3).all() and (body.incidence.sum(axis=1) >= 3).all()
+
+
+@pytest.mark.parametrize("noise", [1e-8, 1e-7, 1e-6])
+@pytest.mark.parametrize("left", range(6))
+def test_no_side_is_lost_where_many_meet_but_for_rounding(noise, left):
+    """Ten of the twelve directions of a dodecahedron, of which five meet at a corner."""
+    d = POLYTOPES["dodecahedron"]().normals
+    axis = d[left]
+    d = d[np.abs(d @ axis) < 0.9]
+    assert len(d) == 10
+    d = d + noise * np.random.default_rng(left).normal(size=d.shape)
+    body = from_directions(d)
+    assert len(body.normals) == 10
+    assert len(body.vertices) - len(body.edges) + len(body.normals) == 2
+    assert (body.incidence.sum(axis=1).max()) == 5
 
 
 @pytest.mark.parametrize("name", POLYTOPES)

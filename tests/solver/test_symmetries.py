@@ -17,6 +17,7 @@ COUNTS = {
     "box": 4,
     "slab": 8,
     "pillar": 8,
+    "rounded cube": 24,
     "octahedron": 24,
     "tetrahedron": 12,
     "dodecahedron": 60,

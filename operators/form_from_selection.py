@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Directions from Selection: the sides of the form face as the selected faces do.
+
+It leaves Edit Mode, because the undo steps of Edit Mode hold only the mesh: the form would remain
+after an undo. A single undo then reverts everything, back into Edit Mode.
+"""
+
+import bpy
+
+from ..cubic_craft_addon import live
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.run.picked_directions import picked_directions
+from ..cubic_craft_addon.settings.direction_text import write_directions
+from ..solver import CubicCraftError
+from ._shared.active_handle import poll_mesh
+from ._shared.selection import report_all
+from ._shared.unexpected_errors import reporting
+
+
+class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
+    """Make the selected faces the sides of the form."""
+
+    bl_idname = "cubic_craft.form_from_selection"
+    bl_label = "Directions from Selection"
+    bl_description = (
+        "Make the faces that are selected in Edit Mode the sides of the form: similar ones count as"
+        " one, and where they leave a side open, those opposite are added"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh in Edit Mode."""
+        if live.current() is not None:
+            cls.poll_message_set("Confirm or cancel Live first")
+            return False
+        if context.mode != "EDIT_MESH":
+            cls.poll_message_set("Switch to Edit Mode and select faces first")
+            return False
+        return poll_mesh(cls, context, ("EDIT_MESH",))
+
+    @reporting
+    def execute(self, context):
+        """Cluster the normals, and choose the form of them."""
+        obj = panel_object(context)
+        try:
+            directions, count = picked_directions(obj)
+        except CubicCraftError as error:
+            return report_all(self, "", [str(error)])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        properties = object_properties(obj)
+        properties.form_directions = write_directions(directions)
+        properties.form = "FACES"
+        faces = "1 face" if count == 1 else f"{count} faces"
+        return report_all(self, f"The form has {len(directions)} directions from {faces}", [])
