@@ -4,7 +4,7 @@
 from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
 from .settings import form_pictures, group_renames, properties
-from .ui import edited, handles_panel, overlay, panel, preferences
+from .ui import angles, angles_overlay, edited, handles_panel, overlay, panel, preferences
 
 _modules = (
     handles_properties,
@@ -14,7 +14,9 @@ _modules = (
     live,
     job,
     handle_gizmos,
-    overlay,
+    angles,
+    angles_overlay,
+    overlay,  # its lines are drawn over the colors
     handles_panel,
     presets,
     panel,

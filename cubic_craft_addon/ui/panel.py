@@ -14,7 +14,7 @@ from ..object_properties import object_properties
 from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
 from ..settings.forms import OF_OBJECT
-from . import edited, form_panel, overlay, seen, status_panel
+from . import angles_overlay, edited, form_panel, overlay, seen, status_panel
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
 from .symmetry_panel import draw_symmetry
@@ -100,7 +100,9 @@ def _draw_problem(context, layout, text):
 
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
-    layout.prop(bpy.context.window_manager, overlay.PROPERTY)
+    row = layout.row(heading="Show")
+    row.prop(bpy.context.window_manager, overlay.PROPERTY, text="Form")
+    row.prop(bpy.context.window_manager, angles_overlay.PROPERTY, text="Angles")
     layout.prop(properties, "space")
     if properties.space == "FRAME":
         if live.current():
