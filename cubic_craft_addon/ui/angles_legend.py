@@ -18,7 +18,7 @@ TITLE = "Angle to the form"
 LARGEST = 30.0
 """degrees; larger angles have the color of this one"""
 
-# The upper three quarters of "viridis", whose steps look alike, also to the color-blind and in gray.
+# The upper three quarters of "viridis", whose steps look alike, to the color-blind and in gray too.
 _STOPS = (
     np.array(
         [

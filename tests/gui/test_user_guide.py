@@ -241,6 +241,20 @@ def picture_of_map():
         bpy.ops.cubic_craft.restore()
 
 
+def picture_of_angles():
+    """Cubify, and color the surface by its angles to the form."""
+    with gui.in_region():
+        bpy.ops.cubic_craft.cubify(cubeness=0.8)
+    bpy.context.window_manager.cubic_craft_angles = True
+    picture = yield from whole("angles_view")
+    view = gui.region()
+    middle, half = view.y + view.height / 2, 0.4 * view.width
+    cut(picture, "angles", view.x, middle - half, view.x + view.width, middle + half)
+    bpy.context.window_manager.cubic_craft_angles = False
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+
+
 def add_handles():
     """Pin the chin, let the ear follow an empty, and go back to the monkey."""
     monkey = bpy.data.objects[scene.NAME]
@@ -286,6 +300,7 @@ def test():
     yield from picture_of_changed()
     yield from picture_of_presets()
     yield from picture_of_live()
+    yield from picture_of_angles()
     yield from picture_of_map()
     yield from add_handles()
     yield from pictures_of_sections()

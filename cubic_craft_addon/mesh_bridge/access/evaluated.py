@@ -26,6 +26,7 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
         mesh = evaluated.to_mesh()
     except RuntimeError as error:
         raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
+    assert mesh is not None
     try:
         points = np.empty((len(mesh.vertices), 3), np.float32)
         mesh.vertices.foreach_get("co", points.ravel())
