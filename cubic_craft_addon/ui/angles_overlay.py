@@ -71,6 +71,7 @@ def _draw_surface():
     if found is None:
         return
     obj, measured = found
+    shader, batch = _surface_shader(), _batch_of(measured)
     nearer = Matrix.Translation((0.0, 0.0, -_TOWARD_VIEWER))
     gpu.state.depth_test_set("LESS_EQUAL")
     gpu.state.depth_mask_set(True)
@@ -78,7 +79,7 @@ def _draw_surface():
     gpu.matrix.push_projection()
     gpu.matrix.multiply_matrix(obj.matrix_world)
     gpu.matrix.load_projection_matrix(nearer @ gpu.matrix.get_projection_matrix())
-    _batch_of(measured).draw(_surface_shader())
+    batch.draw(shader)
     gpu.matrix.pop_projection()
     gpu.matrix.pop()
     gpu.state.depth_mask_set(False)
