@@ -5,7 +5,16 @@ from . import handle_gizmos, job, live, presets
 from .handles import properties as handles_properties
 from .run import form_cache
 from .settings import form_pictures, group_renames, properties, region_properties
-from .ui import edited, handles_panel, overlay, panel, preferences, regions_panel
+from .ui import (
+    angles,
+    angles_overlay,
+    edited,
+    handles_panel,
+    overlay,
+    panel,
+    preferences,
+    regions_panel,
+)
 
 _modules = (
     handles_properties,
@@ -16,7 +25,9 @@ _modules = (
     live,
     job,
     handle_gizmos,
-    overlay,
+    angles,
+    angles_overlay,
+    overlay,  # its lines are drawn over the colors
     handles_panel,
     regions_panel,
     presets,

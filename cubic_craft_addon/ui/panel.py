@@ -15,7 +15,7 @@ from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
 from ..settings.forms import OF_OBJECT
 from ..settings.region import object_regions
-from . import edited, form_panel, overlay, seen, status_panel
+from . import angles_overlay, edited, form_panel, overlay, seen, status_panel
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
 from . import regions_panel as regions_panel
@@ -102,7 +102,9 @@ def _draw_problem(context, layout, text):
 
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
-    layout.prop(bpy.context.window_manager, overlay.PROPERTY)
+    row = layout.row(heading="Show")
+    row.prop(bpy.context.window_manager, overlay.PROPERTY, text="Form")
+    row.prop(bpy.context.window_manager, angles_overlay.PROPERTY, text="Angles")
     layout.prop(properties, "space")
     if properties.space == "FRAME":
         if live.current():

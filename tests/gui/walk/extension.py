@@ -163,8 +163,9 @@ def change_preference(rng):
         return None
     if rng.random() < 0.5:
         manager = bpy.context.window_manager
-        manager.cubic_craft_overlay = not manager.cubic_craft_overlay
-        return "overlay"
+        name = rng.choice(("cubic_craft_overlay", "cubic_craft_angles"))
+        setattr(manager, name, not getattr(manager, name))
+        return name
     preferences = bpy.context.preferences.addons[scene.EXTENSION].preferences
     preferences.tab = "Other"
     yield from turns(3)

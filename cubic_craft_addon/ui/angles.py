@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The angles to the form of the mesh that the panel shows, kept until they change.
+
+Reading a mesh takes too long for each redraw, so its angles are kept until Blender reports that the
+mesh has changed, or its form or orientation is another one.
+"""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .. import live
+from ..environment.requirements import check_requirements
+from ..run.angles import Angles, remaining_angles
+from ..run.object_frame import placement_alone
+
+_MOST = 2
+"""objects of which angles are kept: windows may show different scenes"""
+
+_known: dict[int, tuple[tuple, Angles]] = {}
+"""what the angles were measured with, and the angles, by the object's ``session_uid``"""
+
+
+def angles_now(obj: bpy.types.Object) -> Angles:
+    """Return the angles of a mesh object as it is seen; the same ones until they change.
+
+    Raises
+    ------
+    CubicCraftError
+        SciPy is missing, the form or its orientation is not defined, because an object is not set,
+        or the object has no surface.
+    """
+    check_requirements()
+    placement = placement_alone(obj, live.settings_now(obj))
+    key, known = placement.key, _known.get(obj.session_uid)
+    if known is not None and known[0] == key:
+        return known[1]
+    angles = remaining_angles(obj, placement)
+    _known.pop(obj.session_uid, None)
+    while len(_known) >= _MOST:
+        del _known[next(iter(_known))]
+    _known[obj.session_uid] = key, angles
+    return angles
+
+
+@persistent
+def _on_update(_scene, depsgraph):
+    if not _known:
+        return
+    for update in depsgraph.updates:
+        data = update.id.original
+        if isinstance(data, bpy.types.Object) and update.is_updated_geometry:
+            _known.pop(data.session_uid, None)  # also if only one of its modifiers has changed
+
+
+@persistent
+def forget(*_):
+    """Measure the angles anew when they are asked for."""
+    _known.clear()
+
+
+_HANDLERS = (
+    ("depsgraph_update_post", _on_update),
+    ("frame_change_post", _on_update),
+    ("undo_post", forget),
+    ("redo_post", forget),
+    ("load_post", forget),
+)
+
+
+def register():
+    """Begin to listen to Blender."""
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister():
+    """Listen no longer."""
+    for name, handler in _HANDLERS:
+        getattr(bpy.app.handlers, name).remove(handler)
+    forget()
