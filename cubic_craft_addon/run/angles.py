@@ -11,8 +11,10 @@ import numpy as np
 
 from ... import solver
 from .. import mesh_bridge
-from .form_directions import form_directions
+from ..settings.values import Settings
+from .form_directions import directions_at
 from .object_frame import Placement
+from .region_shares import region_shares
 
 ALIGNED = 6.0
 """degrees; what is not farther from a side of the form seems to lie in it"""
@@ -37,13 +39,14 @@ class Angles:
         return float(self.areas[self.degrees <= ALIGNED].sum() / total) if total else 0.0
 
 
-def remaining_angles(obj: bpy.types.Object, placement: Placement) -> Angles:
+def remaining_angles(obj: bpy.types.Object, placement: Placement, settings: Settings) -> Angles:
     """Measure the angles on the surface of an object with its modifiers.
 
     Parameters
     ----------
     obj
     placement : of the object solved alone; its coordinates have the angles that are seen
+    settings : those of the object, for its regions
 
     Raises
     ------
@@ -56,15 +59,30 @@ def remaining_angles(obj: bpy.types.Object, placement: Placement) -> Angles:
     is_seen = np.isfinite(areas) & (areas > 0.0)
     if not is_seen.all():
         triangles, areas, normals = triangles[is_seen], areas[is_seen], normals[is_seen]
-    degrees = np.degrees(np.arccos(np.clip(_cosines(normals, placement), -1.0, 1.0)))
+    shares = _shares(obj, settings, len(points))
+    cosines = _cosines(normals, *directions_at(placement, triangles, shares))
+    degrees = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
     return Angles(points[triangles], degrees, areas)
 
 
-def _cosines(normals: np.ndarray, placement: Placement) -> np.ndarray:
-    """Return the cosine (m,) of the angle from each normal to the nearest direction of the form."""
-    directions = form_directions(placement)
+def _shares(obj, settings, count):
+    """Return the shares (count,1+r) of the regions, None without any.
+
+    Where a modifier has made vertices, the sides of all regions count everywhere.
+    """
+    shares = region_shares(obj, settings)
+    if shares is None or len(shares) == count:
+        return shares
+    return np.ones((count, shares.shape[1]))
+
+
+def _cosines(normals: np.ndarray, directions: np.ndarray, counts: np.ndarray | None):
+    """Return the cosine (m,) of the angle from each normal to the nearest direction that counts."""
     nearest = np.empty(len(normals))
     for start in range(0, len(normals), _AT_ONCE):
         part = slice(start, start + _AT_ONCE)
-        nearest[part] = (directions @ normals[part].T).max(axis=0)
+        cosines = directions @ normals[part].T
+        if counts is not None:
+            cosines[~counts[part].T] = -1.0
+        nearest[part] = cosines.max(axis=0)
     return nearest

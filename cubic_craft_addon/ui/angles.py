@@ -32,11 +32,12 @@ def angles_now(obj: bpy.types.Object) -> Angles:
         or the object has no surface.
     """
     check_requirements()
-    placement = placement_alone(obj, live.settings_now(obj))
+    settings = live.settings_now(obj)
+    placement = placement_alone(obj, settings)
     key, known = placement.key, _known.get(obj.session_uid)
     if known is not None and known[0] == key:
         return known[1]
-    angles = remaining_angles(obj, placement)
+    angles = remaining_angles(obj, placement, settings)
     _known.pop(obj.session_uid, None)
     while len(_known) >= _MOST:
         del _known[next(iter(_known))]
