@@ -276,7 +276,7 @@ def _proper(matrix, settings):
 
     Other forms, and normal captures, are mirrored as they are.
     """
-    return proper(matrix) if settings.form == "CUBE" and not has_capture(settings) else matrix
+    return proper(matrix) if form_of(settings) is None and not has_capture(settings) else matrix
 
 
 def _without_turns_that_do_nothing(orientation, is_plain_cube):

@@ -90,6 +90,17 @@ def test_a_cube_as_an_object_is_the_cube():
     np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-3)
 
 
+def test_a_box_of_equal_sides_is_the_cube_for_a_mirrored_object_too():
+    shapes = []
+    for form in ("CUBE", "BOX"):
+        obj = add_triangles()
+        obj.scale.x, obj.rotation_euler = -1.0, (0.3, 0.4, 0.5)
+        bpy.context.view_layer.update()
+        cubify(form=form, **OPTIONS)
+        shapes.append(bits(obj))
+    assert shapes[0] == shapes[1]
+
+
 def test_directions_of_half_a_box_are_completed(body_of):
     ball = add_triangles()
     ball.cubic_craft.form, ball.cubic_craft.form_object = "DIRECTIONS", add_solid("plane")
