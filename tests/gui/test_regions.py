@@ -7,7 +7,7 @@ import guidrive as gui
 import live_scene as scene
 import numpy as np
 
-TRIANGLE, HEADER = 18, 22  # pixels from the lower left corner of the button above
+TRIANGLE, SWITCH, HEADER = 18, 37, 22  # pixels from the lower left corner of the button above
 
 
 def array():
@@ -27,11 +27,16 @@ def select_the_top():
     return is_top
 
 
+def click_header(place):
+    """Click in the header of the section, which is below that of the handles."""
+    above = yield from gui.find_button("cubic_craft.handle_reset_pose")
+    yield from gui.click((round(above.left + place), round(above.bottom - HEADER)))
+    yield from gui.wait_redraw("UI")
+
+
 def open_section():
     """Click on the header of the section, which is closed at first."""
-    above = yield from gui.find_button("cubic_craft.handle_reset_pose")
-    yield from gui.click((round(above.left + TRIANGLE), round(above.bottom - HEADER)))
-    yield from gui.wait_redraw("UI")
+    yield from click_header(TRIANGLE)
     return (yield from gui.find_button("cubic_craft.region_from_selection"))
 
 
@@ -54,8 +59,10 @@ def test():
     yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")
     yield from gui.screenshot("cubified.png")
     with_region = array().copy()
-    yield from gui.click((yield from gui.find_button("cubic_craft.use_regions")))
-    yield from gui.wait_until(lambda: not scene.settings().use_regions, what="the switch")
+    yield from click_header(SWITCH)
+    yield from gui.wait_until(
+        lambda: not scene.settings().use_regions, what="the switch", timeout=60
+    )
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: (array() != with_region).any(), what="Cubify without")
     moved = np.linalg.norm(array() - with_region, axis=1)
