@@ -41,6 +41,7 @@ FIGURES = {
     "5": Figure("figure_5_cubeness", cubeness.compose, 460),
     "6": Figure("figure_6_orientations", orientations.compose, 520),
     "forms": Figure("figure_forms", forms.compose, 700),
+    "targets": Figure("figure_targets", forms.compose_targets, 560),
 }
 
 

@@ -20,6 +20,7 @@ HEIGHTS = {
     "figure_5_cubeness": 460,
     "figure_6_orientations": 520,
     "figure_forms": 700,
+    "figure_targets": 560,
 }
 """of a picture of 1600 pixels"""
 RED, GREEN, BLUE = range(3)
@@ -42,7 +43,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--width", WIDTH, "--samples", 1)
-    numbers = ("--only", 1, 2, 3, 5, 6, "forms")
+    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
@@ -71,7 +72,14 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
 
 
 @pytest.mark.parametrize(
-    "name", ["figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"]
+    "name",
+    [
+        "figure_1_teaser",
+        "figure_5_cubeness",
+        "figure_6_orientations",
+        "figure_forms",
+        "figure_targets",
+    ],
 )
 def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):
     picture = pictures[name]
