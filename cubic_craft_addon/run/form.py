@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 from functools import lru_cache
+from hashlib import blake2b
 
 import bpy
 import numpy as np
@@ -23,6 +24,8 @@ from .form_cache import form_kept
 
 MOST_DIRECTIONS = 64
 """of a form from another object, or from selected faces"""
+_MOST_MADE = 16  # forms of objects that are remembered
+_made: dict[tuple, Polytope] = {}
 _NAMED = {
     "ROUNDED": forms.rounded_cube,
     "OCTAHEDRON": forms.octahedron,
@@ -96,20 +99,27 @@ def _made_of(obj, form, linear):
     points = points @ linear.T  # in the axes of the world, about the object's origin
     try:
         if form == "OBJECT":
-            return _hull(points.tobytes())
+            return _once(_hull, points)
         areas, normals = solver.triangle_areas_and_normals(points, triangles)
         normals *= np.sign(np.linalg.det(linear))
-        return _facing(normals.tobytes(), areas.tobytes())
+        return _once(_facing, normals, areas)
     except CubicCraftError as error:
         raise CubicCraftError(f'"{obj.name}" gives no form: {error}') from error
 
 
-@lru_cache(maxsize=8)
+def _once(make, *arrays):
+    """Return the same form for the same arrays, which are not kept: they may be large."""
+    key = make, *(blake2b(array.tobytes()).digest() for array in arrays)
+    if key not in _made:
+        if len(_made) >= _MOST_MADE:
+            del _made[next(iter(_made))]
+        _made[key] = make(*arrays)
+    return _made[key]
+
+
 def _hull(points):
-    return simple_hull(np.frombuffer(points).reshape(-1, 3), MOST_DIRECTIONS)
+    return simple_hull(points, MOST_DIRECTIONS)
 
 
-@lru_cache(maxsize=8)
 def _facing(normals, areas):
-    d = directions_of(np.frombuffer(normals).reshape(-1, 3), np.frombuffer(areas), MOST_DIRECTIONS)
-    return from_directions(d)
+    return from_directions(directions_of(normals, areas, MOST_DIRECTIONS))

@@ -185,6 +185,8 @@ def _problem(context, obj):
         return "No frame object is set; pick one or choose another space"
     if properties.form in OF_OBJECT and properties.form_object is None:
         return "No form object is set; pick one or choose another form"
+    if properties.form == "FACES" and not properties.form_directions:
+        return "No faces are picked for the form; select some in Edit Mode and click Use Selection"
     return ""
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Forms: one mesh as each of them, but for that of directions, which are hard to see."""
+"""Forms: one mesh as each of them; and one as what another add-on is compared by."""
 
 import numpy as np
 from headless.form_object import FormMesh, make_form
@@ -7,7 +7,7 @@ from headless.gallery import Group
 
 from .figure_meshes import FigureMeshes
 
-__all__ = ("compose",)
+__all__ = ("compose", "compose_targets")
 
 CUBENESS = 0.6
 HOUSE = ((-0.6, -0.5), (0.6, -0.5), (0.6, 0.3), (0.0, 0.8), (-0.6, 0.3))
@@ -29,15 +29,37 @@ FORMS = {
     "object: a house": {"form": "OBJECT"},
 }
 """label: settings"""
+TARGETS = {
+    "cube": {"form": "CUBE"},
+    "octahedron": {"form": "OCTAHEDRON"},
+    "pyramid, 4 sides": {"form": "PYRAMID", "form_sides": 4},
+    "prism, 6 sides": {"form": "PRISM", "form_sides": 6},
+    "rounded cube": {"form": "ROUNDED"},
+    "five directions": {
+        "form": "FACES",
+        "form_directions": "1 0 1, -1 0 1, 0 1 0, 0 -1 0, 0 0 -1",
+    },
+    "directions of a house": {"form": "DIRECTIONS"},
+    "hull of a house": {"form": "OBJECT"},
+}
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
     """Return the versions of Blender's own bear, whatever meshes there are."""
+    return _compose(FORMS, meshes)
+
+
+def compose_targets(meshes: FigureMeshes) -> list[Group]:
+    """Return the versions of the bear for the page that compares them."""
+    return _compose(TARGETS, meshes)
+
+
+def _compose(forms: dict[str, dict], meshes: FigureMeshes) -> list[Group]:
     (model,) = meshes.there([], instead=["bear"])
     house = make_form(_house())
     groups = []
-    for label, settings in FORMS.items():
-        own = {"form_object": house} if settings["form"] == "OBJECT" else {}
+    for label, settings in forms.items():
+        own = {"form_object": house} if settings["form"] in ("OBJECT", "DIRECTIONS") else {}
         shape = meshes.cubified(model, CUBENESS, **settings, **own)
         groups.append(meshes.group(model, shape, label, "green"))
     return groups

@@ -42,6 +42,7 @@ FIGURES = {
     "6": Figure("figure_6_orientations", orientations.compose, 520),
     "forms": Figure("figure_forms", forms.compose, 700),
     "captures": Figure("figure_captures", captures.compose, 460),
+    "targets": Figure("figure_targets", forms.compose_targets, 560),
 }
 
 
