@@ -3,7 +3,7 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1300x2100
+# Window: 1300x2500
 
 import importlib
 import math
@@ -27,6 +27,7 @@ SECTIONS = {
     "shape": ("together", 95 * SCALE),  # also while Live runs; the form is above
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
+    "regions": ("cubic_craft.region_add", 33 * SCALE),
     "map": ("cubic_craft.map_group", 38 * SCALE),
     "result": ("cubic_craft.result", 33 * SCALE),
     "solver": ("cubic_craft.device", 33 * SCALE),
@@ -89,6 +90,22 @@ def open_solver():
     """Click on the header below the last section that is open."""
     above = yield from gui.find_button("cubic_craft.result")
     yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))
+    yield from gui.wait_redraw("UI")
+
+
+def open_regions():
+    """Click on the header between the handles and the map."""
+    above = yield from gui.find_button("cubic_craft.handle_reset_pose")
+    yield from gui.click((above.at(0.5)[0], round(above.bottom - 22 * SCALE)))
+    yield from gui.wait_redraw("UI")
+
+
+def add_region():
+    """Make an octahedron of the upper half."""
+    with gui.in_region():
+        bpy.ops.cubic_craft.region_add(group="Upper Half")
+        bpy.ops.ed.undo_push(message="Region")
+    scene.settings().regions[0].form = "OCTAHEDRON"
     yield from gui.wait_redraw("UI")
 
 
@@ -310,6 +327,8 @@ def test():
     yield from picture_of_angles()
     yield from picture_of_map()
     yield from add_handles()
+    yield from add_region()
+    yield from open_regions()
     yield from pictures_of_sections()
     yield from picture_of_message()
     yield from picture_of_preferences()

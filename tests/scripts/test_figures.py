@@ -20,11 +20,8 @@ HEIGHTS = {
     "figure_5_cubeness": 460,
     "figure_6_orientations": 520,
     "figure_forms": 700,
-<<<<<<< HEAD
     "figure_captures": 460,
-=======
     "figure_targets": 560,
->>>>>>> side-d
 }
 """of a picture of 1600 pixels"""
 RED, GREEN, BLUE = range(3)
@@ -47,11 +44,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--width", WIDTH, "--samples", 1)
-<<<<<<< HEAD
-    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "captures")
-=======
-    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets")
->>>>>>> side-d
+    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets", "captures")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
@@ -82,16 +75,9 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
 @pytest.mark.parametrize(
     "name",
     [
-<<<<<<< HEAD
         *("figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"),
         "figure_captures",
-=======
-        "figure_1_teaser",
-        "figure_5_cubeness",
-        "figure_6_orientations",
-        "figure_forms",
         "figure_targets",
->>>>>>> side-d
     ],
 )
 def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):
