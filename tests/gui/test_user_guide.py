@@ -24,7 +24,7 @@ PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
 SECTIONS = {
     # first button of each, and pixels from there to the upper edge of the header
-    "shape": ("together", 95 * SCALE),  # also while Live runs; the form is above
+    "shape": ("together", 120 * SCALE),  # also while Live runs; the form is above
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
     "regions": ("cubic_craft.region_add", 33 * SCALE),
