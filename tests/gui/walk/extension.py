@@ -9,6 +9,10 @@ from mathutils import Matrix
 from . import meshes
 from .actions import action, active_mesh, call, is_cubifying, is_live, is_on, turns
 
+FORMS = (
+    *("CUBE", "CUBE", "CUBE", "BOX", "ROUNDED", "OCTAHEDRON", "TETRAHEDRON", "ICOSAHEDRON"),
+    *("PRISM", "PYRAMID", "CYLINDER", "OBJECT", "DIRECTIONS", "FACES"),
+)
 invariants = None  # set by the walk
 
 
@@ -101,6 +105,42 @@ def _change_handle(name, rng):
     return f"{name} of {handle.group}"
 
 
+@action(4)
+def regions(rng):
+    if not is_on():
+        return None
+    name = rng.choice(["add", "add", "remove", "from_selection", "change", "change", "change"])
+    obj = active_mesh()
+    if name != "change":
+        if name == "from_selection" and obj and obj.mode == "OBJECT":
+            vertices = obj.data.vertices
+            vertices.foreach_set("select", [rng.random() < 0.3 for _ in vertices])
+        return call(f"cubic_craft.region_{name}", "INVOKE_DEFAULT")
+    if obj is None or not obj.cubic_craft.regions:
+        return None
+    region = rng.choice(list(obj.cubic_craft.regions))
+    what, value = rng.choice(
+        [
+            ("form", rng.choice(FORMS)),
+            ("cubeness", rng.choice([0.0, 0.2, 1.0, 5.0])),
+            ("form_sides", rng.randrange(3, 10)),
+            ("orientation", tuple(rng.uniform(-1, 1) for _ in range(3))),
+            ("form_object", rng.choice(list(bpy.data.objects))),
+            ("group", rng.choice(["Group", "Handle", "missing"])),
+        ]
+    )
+    setattr(region, what, value)
+    bpy.ops.ed.undo_push(message="Change a region")
+    return f"{what} = {value!r}"
+    yield
+
+
+@action(1)
+def directions_from_selection(_rng):
+    return call("cubic_craft.form_from_selection", "INVOKE_DEFAULT") if is_on() else None
+    yield
+
+
 @action(7)
 def change_setting(rng):
     """Change a setting where the panel would: on the object, or in Live on the session."""
@@ -117,6 +157,14 @@ def change_setting(rng):
             ("map_group", rng.choice(["", "", "Handle", "Group", "missing"])),
             ("map_invert", rng.random() < 0.5),
             ("use_handles", rng.random() < 0.5),
+            ("use_regions", rng.random() < 0.7),
+            ("form", rng.choice(FORMS)),
+            ("form", rng.choice(FORMS)),
+            ("form_sides", rng.randrange(3, 10)),
+            ("form_weights", tuple(rng.choice([0.0, 1.0, 2.0]) for _ in range(3))),
+            ("form_object", rng.choice(list(bpy.data.objects))),
+            ("capture_object", rng.choice(list(bpy.data.objects))),
+            ("capture_strength", rng.choice([0.0, 0.0, 0.4])),
             ("result", rng.choice(["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"])),
             ("solidity", rng.choice([0.0, 0.1, 1.0, 10.0])),
             ("together", rng.choice(["OFF", "PARTS", "SELECTION"])),
@@ -136,7 +184,7 @@ def change_setting(rng):
     )
     if not hasattr(target, name):  # Live has not all
         return None
-    if name == "frame" and is_live():
+    if name in ("frame", "form_object", "capture_object") and is_live():
         value = value.name
     setattr(target, name, value)
     if not is_live():

@@ -22,6 +22,14 @@ _ALWAYS = (
     ("depsgraph_update_post", "_follow_updates"),
     ("depsgraph_update_post", "_on_update"),
     *((name, "_forget") for name in ("undo_post", "redo_post", "load_post")),
+    # the angles
+    ("depsgraph_update_post", "_on_update"),
+    ("frame_change_post", "_on_update"),
+    *((name, "forget") for name in ("undo_post", "redo_post", "load_post")),
+    # forms of objects
+    ("depsgraph_update_post", "_on_update"),
+    *((name, "_forget") for name in ("frame_change_post", "undo_post", "redo_post")),
+    *((name, "_forget") for name in ("load_pre", "load_post")),
 )
 _IN_LIVE = (
     ("undo_post", "_on_undo"),
