@@ -16,7 +16,7 @@ from ...solver.styles.cube import proper
 from ...solver.styles.polytope import Polytope
 from ..settings.values import Settings
 from .form import form_of
-from .normal_capture import capture_of, has_capture
+from .normal_capture import capture_of
 
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
@@ -152,7 +152,7 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
 def _alone(obj, settings, capture):
     form = form_of(settings)
     stretch, orientation = stretch_and_orientation(obj, settings)
-    orientation = _without_turns_that_do_nothing(orientation, form is None and capture is None)
+    orientation = _simplest(orientation, form is None and capture is None)
     turn, _ = _turn_and_stretch(obj)
     return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form, capture)
 
@@ -163,8 +163,8 @@ def _in_world(obj, settings, alone):
     turn, stretch = _turn_and_stretch(obj)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    orientation = _proper(_axes(settings).T @ _into_space(obj, settings, turn) @ turn.T, settings)
-    orientation = _without_turns_that_do_nothing(orientation, alone.is_plain_cube)
+    orientation = _axes(settings).T @ _into_space(obj, settings, turn) @ turn.T
+    orientation = _simplest(orientation, alone.is_plain_cube)
     up = np.array([0.0, 0.0, 1.0])
     return Placement(linear, offset, turn, stretch, orientation, up, alone.form, alone.capture)
 
@@ -182,7 +182,8 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     stretch : (3,3) array
         S, invertible.
     orientation : (3,3) array
-        The rotation Q that maps stretched object coordinates into the form's frame.
+        The rotation Q that maps stretched object coordinates into the form's frame; a reflection
+        for a mirrored object.
 
     Raises
     ------
@@ -190,7 +191,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
     turn, stretch = _turn_and_stretch(obj)
-    return stretch, _proper(_axes(settings).T @ _into_space(obj, settings, turn), settings)
+    return stretch, _axes(settings).T @ _into_space(obj, settings, turn)
 
 
 def world_axes(obj: bpy.types.Object, settings: Settings):
@@ -271,20 +272,16 @@ def _into_space(obj, settings, turn):
     return np.array(frame, dtype=np.float64).T @ turn
 
 
-def _proper(matrix, settings):
-    """Return the rotation that is equivalent for a cube.
-
-    Other forms, and normal captures, are mirrored as they are.
-    """
-    return proper(matrix) if form_of(settings) is None and not has_capture(settings) else matrix
-
-
-def _without_turns_that_do_nothing(orientation, is_plain_cube):
-    """Return the identity if the form looks as if it were not rotated.
+def _simplest(orientation, is_plain_cube):
+    """Return the rotation that is equivalent for a cube, and the identity where it does nothing.
 
     An object that is rotated by a right angle, as is common for imported files, or mirrored then
-    gives the same bits as one that is not.
+    gives the same bits as one that is not. Other forms, and normal captures, are mirrored as they
+    are.
     """
-    same = np.round(orientation) if is_plain_cube else np.eye(3)
+    same = np.eye(3)
+    if is_plain_cube:
+        orientation = proper(orientation)
+        same = np.round(orientation)
     is_like = np.allclose(orientation, same, rtol=0.0, atol=_SMALLEST_TURN)
     return np.eye(3) if is_like else orientation

@@ -6,11 +6,11 @@ else is asked for, the cube's local step has code of its own, which is faster.
 """
 
 import itertools
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
-from .polytope import Polytope, from_directions
+from .polytope import EXACT, Polytope, from_directions
 
 GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
 ROUND = 64
@@ -22,6 +22,8 @@ LEAST_WEIGHT = 0.01
 BEVEL = 0.25
 """width of the bevels of the rounded cube on its six sides, relative to its half size"""
 
+_exactly = partial(from_directions, rounding=EXACT)
+
 
 @cache
 def cube():
@@ -30,7 +32,7 @@ def cube():
     It is made without SciPy, which may be missing where it is only drawn.
     """
     corners = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
-    return Polytope(np.concatenate([np.eye(3), -np.eye(3)]), np.ones(6), corners)
+    return Polytope(np.concatenate([np.eye(3), -np.eye(3)]), np.ones(6), corners, EXACT)
 
 
 def box(weights):
@@ -40,7 +42,7 @@ def box(weights):
     that slabs form; with (0, 0, 1), walls become vertical, but keep their outline.
     """
     sizes = np.maximum(np.asarray(weights, dtype=np.float64), LEAST_WEIGHT)
-    body = from_directions(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
+    body = _exactly(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
     return body.scaled(sizes.min() / body.offsets.min())
 
 
@@ -53,45 +55,45 @@ def rounded_cube():
     directions = np.concatenate([np.eye(3), -np.eye(3), edges, _signs(3)])
     corner = np.array([1.0, 1.0 - BEVEL, 1.0 - BEVEL])
     offsets = -np.sort(-np.abs(directions), axis=1) @ corner
-    return from_directions(directions, offsets / np.linalg.norm(directions, axis=1))
+    return _exactly(directions, offsets / np.linalg.norm(directions, axis=1))
 
 
 def octahedron():
     """Return the form with eight sides."""
-    return from_directions(list(itertools.product((-1, 1), repeat=3)))
+    return _exactly(list(itertools.product((-1, 1), repeat=3)))
 
 
 def tetrahedron():
     """Return the form with four sides."""
     corners = itertools.product((-1, 1), repeat=3)
-    return from_directions([corner for corner in corners if np.prod(corner) > 0])
+    return _exactly([corner for corner in corners if np.prod(corner) > 0])
 
 
 def dodecahedron():
     """Return the form with twelve pentagons."""
-    return from_directions(_cyclic([(0, a, b * GOLDEN) for a, b in _signs(2)]))
+    return _exactly(_cyclic([(0, a, b * GOLDEN) for a, b in _signs(2)]))
 
 
 def icosahedron():
     """Return the form with twenty triangles."""
     rings = _cyclic([(0, a / GOLDEN, b * GOLDEN) for a, b in _signs(2)])
-    return from_directions(_signs(3) + rings)
+    return _exactly(_signs(3) + rings)
 
 
 def rhombic_dodecahedron():
     """Return the form with twelve rhombi."""
-    return from_directions(_cyclic([(a, b, 0) for a, b in _signs(2)]))
+    return _exactly(_cyclic([(a, b, 0) for a, b in _signs(2)]))
 
 
 def prism(sides):
     """Return the form with so many walls around Z, and two caps."""
-    return from_directions([*_ring(sides), (0, 0, 1), (0, 0, -1)])
+    return _exactly([*_ring(sides), (0, 0, 1), (0, 0, -1)])
 
 
 def pyramid(sides):
     """Return the form with so many slopes around Z, and a base."""
     slopes = [(np.cos(SLOPE) * x, np.cos(SLOPE) * y, np.sin(SLOPE)) for x, y, _ in _ring(sides)]
-    return from_directions([*slopes, (0, 0, -1)])
+    return _exactly([*slopes, (0, 0, -1)])
 
 
 def cylinder():

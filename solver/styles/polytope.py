@@ -7,7 +7,7 @@ it makes surfaces flat that face these ways (Wulff, Zeitschrift fuer Krystallogr
 The cube with half size 1 has the cost |x|_1 of Liu and Jacobson's cubic stylization.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,10 +16,10 @@ from ..errors import CubicCraftError
 
 SAME = 1e-7
 """relative; distances below are rounding"""
-MERGED = 1e-5
-"""relative distance of vertices that are one: directions from meshes have 32 bits"""
-ON = 2 * MERGED
-"""relative distance from a facet of the vertices that lie on it"""
+ROUNDED = 1e-5
+"""relative distance of vertices that are one, where directions come from meshes of 32 bits"""
+EXACT = 1e-7
+"""the same where they are known to all bits"""
 NARROWEST = 1e-3
 """of the distances from the origin to the sides, relative to the size of the body"""
 STRONGEST = 4.0
@@ -49,6 +49,8 @@ class Polytope:
     """(f,) distances of the facets from the origin"""
     vertices: np.ndarray
     """(v,3)"""
+    rounding: float = ROUNDED
+    """relative distance below which vertices are one"""
 
     @cached_property
     def key(self):
@@ -59,7 +61,7 @@ class Polytope:
     def incidence(self):
         """(v,f) bool, which vertex lies on which facet."""
         distances = self.vertices @ self.normals.T - self.offsets
-        return np.abs(distances) < ON * self.radius
+        return np.abs(distances) < 2.0 * self.rounding * self.radius
 
     @cached_property
     def edges(self):
@@ -95,21 +97,21 @@ class Polytope:
 
     def scaled(self, factor):
         """Return the body in another size: its costs are as many times those of this one."""
-        return Polytope(self.normals, factor * self.offsets, factor * self.vertices)
+        return replace(self, offsets=factor * self.offsets, vertices=factor * self.vertices)
 
     def turned(self, turn):
         """Return the body whose cost at x is that of this one at ``turn x``, for (3,3) rotations.
 
         Reflections are welcome, too.
         """
-        return Polytope(self.normals @ turn, self.offsets, self.vertices @ turn)
+        return replace(self, normals=self.normals @ turn, vertices=self.vertices @ turn)
 
     def cost(self, x):
         """Return the support function (n,) of vectors x (n,3)."""
         return (x @ self.vertices.T).max(axis=1)
 
 
-def from_directions(directions, offsets=None):
+def from_directions(directions, offsets=None, rounding=ROUNDED):
     """Return the body of all points y with ``d.y <= offset`` for each direction d.
 
     Parameters
@@ -118,6 +120,8 @@ def from_directions(directions, offsets=None):
         Of any length except zero.
     offsets : (k,) array, optional
         Positive; by default all sides are equally far away.
+    rounding : float
+        Relative distance below which vertices are one: corners where more than three sides meet.
 
     Returns
     -------
@@ -148,13 +152,13 @@ def from_directions(directions, offsets=None):
     except spatial.QhullError as error:
         raise CubicCraftError(f"the form has no volume: {str(error).splitlines()[0]}") from error
     size = np.linalg.norm(vertices, axis=1).max()
-    vertices = vertices[_first_of_alike(vertices, MERGED * size)]
-    body = Polytope(d, r, vertices)
+    vertices = vertices[_first_of_alike(vertices, rounding * size)]
+    body = Polytope(d, r, vertices, rounding)
     touching = body.incidence.sum(axis=0) >= 3
     d, r = d[touching], r[touching]
     spread = body.radius / r.min() - 1.0
     strength = min((np.sqrt(3.0) - 1.0) / max(spread, SAME), STRONGEST)
-    return Polytope(d, r, vertices).scaled(strength / r.min())
+    return replace(body, normals=d, offsets=r).scaled(strength / r.min())
 
 
 def from_points(points):
@@ -202,7 +206,7 @@ def minkowski_sum(a, b):
     points = (a.vertices[:, None] + b.vertices).reshape(-1, 3)
     planes = _scipy_spatial().ConvexHull(points).equations
     offsets = -planes[:, 3]
-    body = from_directions(planes[:, :3], offsets)
+    body = from_directions(planes[:, :3], offsets, max(a.rounding, b.rounding))
     return body.scaled(offsets.min() / body.offsets.min())
 
 
