@@ -91,7 +91,7 @@ def in_live():
     yield from check("cancelled", is_shown=True)
 
 
-def not_shown(switch):
+def not_shown():
     """Hide overlays, paint, and click on the switch again."""
     overlay = gui.area().spaces.active.overlay
     overlay.show_overlays = False
@@ -104,7 +104,7 @@ def not_shown(switch):
     with gui.in_region():
         bpy.ops.object.mode_set(mode="OBJECT")
     yield from check("object_mode", is_shown=True)
-    yield from gui.click(switch)
+    yield from gui.click((yield from gui.find_button("cubic_craft_angles")))  # perhaps scrolled
     yield from gui.wait_until(lambda: not bpy.context.window_manager.cubic_craft_angles)
     yield from check("off_again", is_shown=False)
 
@@ -117,7 +117,7 @@ def test():
     switch = yield from gui.find_button("cubic_craft_angles")
     yield from by_click(switch, original)
     yield from in_live()
-    yield from not_shown(switch)
+    yield from not_shown()
 
 
 gui.run(test)
