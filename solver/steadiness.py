@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How steadily the frames of an animation follow each other, and how to make them steadier.
+
+A vertex jumps in frame f by the size of its second difference in time, |x_f+1 - 2 x_f + x_f-1|. A
+stylized surface may jump where the input moves smoothly, when a minimum of the energy vanishes. So
+it is smoothed over time: not the positions, which would blunt the motion, but the offset of each
+vertex from its place in the input, as seen by the surface around it. The motion of the input is
+kept as it is, and so is a limb that turns fast with its offsets.
+
+Arrays are indexed by frame and vertex, (f,k,...). An animation is passed in pieces of all its
+frames and some of its vertices, so that it need not fit into the memory.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.spatial.transform import Rotation
+
+MOST_JUMPS = 3.0
+"""Jumps of the result over those of the input, in the largest and in the 99th percentile"""
+WIDTHS = (0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
+"""standard deviations of the Gaussian in frames; the first that keeps `MOST_JUMPS` is used"""
+_BINS = np.geomspace(1e-12, 1e6, 4001)  # a relative 1 %
+
+
+class Frames(NamedTuple):
+    """Some vertices of an animation, in all frames.
+
+    See Also
+    --------
+    frame_of : Makes those of one frame.
+    least_width : How much they should be smoothed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Frames
+    >>> turns = np.tile([0.0, 0, 0, 1], (5, 1, 1))
+    >>> Frames(np.zeros((5, 1, 3)), turns, np.eye(5, 3)[:, None]).results(1.0).shape
+    (5, 1, 3)
+    """
+
+    inputs: np.ndarray
+    """(f,k,3) positions of the input"""
+    turns: np.ndarray
+    """(f,k,4) rotations of the surroundings since the first frame, as quaternions x, y, z, w"""
+    offsets: np.ndarray
+    """(f,k,3) from there to the result, in the frame of the surroundings"""
+
+    def results(self, width):
+        """Return the positions (f,k,3), smoothed by a Gaussian of a width in frames."""
+        offsets = np.asarray(self.offsets, dtype=np.float64)
+        if width > 0.0:
+            offsets = gaussian_filter1d(offsets, width, axis=0, mode="nearest")
+        shape = offsets.shape
+        turns = Rotation.from_quat(np.asarray(self.turns, dtype=np.float64).reshape(-1, 4))
+        return self.inputs + turns.apply(offsets.reshape(-1, 3)).reshape(shape)
+
+
+def frame_of(inputs, turns, positions):
+    """Return the `Frames` of a single frame.
+
+    Parameters
+    ----------
+    inputs, positions : (k,3) numpy arrays
+        The input and the result.
+    turns : (k,3,3) numpy array
+        See `Sequence.turns`.
+
+    Returns
+    -------
+    Frames
+
+    See Also
+    --------
+    Sequence : Solves the frames.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import frame_of
+    >>> frame = frame_of(np.zeros((1, 3)), np.eye(3)[None], np.ones((1, 3)))
+    >>> frame.results(0.0)
+    array([[[1., 1., 1.]]])
+    """
+    rotations = Rotation.from_matrix(turns)
+    offsets = rotations.apply(positions - inputs, inverse=True)
+    return Frames(inputs[None], rotations.as_quat()[None], offsets[None])
+
+
+class Jumps:
+    """The sizes of all jumps, collected piece by piece.
+
+    Attributes
+    ----------
+    largest : float
+    """
+
+    def __init__(self):
+        self.largest = 0.0
+        self._counts = np.zeros(len(_BINS) + 1, dtype=np.int64)
+
+    def add(self, positions):
+        """Add vertices (f,k,3) in all frames."""
+        second = np.asarray(positions[2:], dtype=np.float64) - positions[1:-1]
+        second += np.asarray(positions[:-2], dtype=np.float64) - positions[1:-1]
+        sizes = np.sqrt((second * second).sum(axis=2)).ravel()
+        if len(sizes):
+            self.largest = max(self.largest, float(sizes.max()))
+            self._counts += np.bincount(np.searchsorted(_BINS, sizes), minlength=len(_BINS) + 1)
+
+    def percentile(self, q):
+        """Return what q % of the jumps do not exceed, within 1 %."""
+        total = self._counts.sum()
+        if not total:
+            return 0.0
+        at = np.searchsorted(np.cumsum(self._counts), q / 100.0 * total)
+        return min(float(_BINS[min(at, len(_BINS) - 1)]), self.largest)
+
+    def over(self, others):
+        """Return the ratios to others: of the largest, and of the 99th percentile."""
+        pairs = (self.largest, others.largest), (self.percentile(99), others.percentile(99))
+        return tuple(mine / theirs if theirs > 0.0 else 0.0 for mine, theirs in pairs)
+
+
+def least_width(pieces, limit=MOST_JUMPS):
+    """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
+
+    Parameters
+    ----------
+    pieces : callable
+        Returns an iterator over `Frames` with all vertices, each time it is called.
+    limit : float
+
+    Returns
+    -------
+    width : float
+        In frames.
+    ratios : (float, float)
+        See `Jumps.over`.
+
+    See Also
+    --------
+    frame_of : Makes the Frames of one frame.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Frames, least_width
+    >>> inputs = np.random.default_rng(1).normal(size=(9, 1, 3))
+    >>> frames = Frames(inputs, np.tile([0.0, 0, 0, 1], (9, 1, 1)), np.zeros((9, 1, 3)))
+    >>> least_width(lambda: [frames])
+    (0.0, (1.0, 1.0))
+    """
+    inputs = Jumps()
+    for piece in pieces():
+        inputs.add(piece.inputs)
+    ratios = 0.0, 0.0
+    for width in WIDTHS:
+        jumps = Jumps()
+        for piece in pieces():
+            jumps.add(piece.results(width))
+        ratios = jumps.over(inputs)
+        if max(ratios) <= limit:
+            return width, ratios
+    return WIDTHS[-1], ratios
