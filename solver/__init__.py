@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .auto_orientation import auto_orient
     from .backends import DEVICES, problem_with_taichi, set_cache_folder
     from .edge_distances import edge_distances, nearest_distances
+    from .energy import Energy
     from .flatten import Flattened, flatten_facets
     from .normal_capture import NormalCapture
     from .progress import Progress
@@ -22,20 +23,24 @@ if TYPE_CHECKING:
     from .rest_measures import triangle_areas_and_normals
     from .rotation_fit import svd_rotations
     from .runner import Result, Run, run, stylize
+    from .sequence import Sequence, SequenceState
     from .setup import Setup
+    from .steadiness import MOST_JUMPS, Frames, frame_of, least_width
     from .stop_rule import StopRule
     from .styles.cube import nearest_to_identity
-    from .stylization import Energy, Stylization
+    from .stylization import Stylization
     from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
 __all__ = [
     "DEVICES",
     "MATCHING",
+    "MOST_JUMPS",
     "NO_PARTNER",
     "PAPER",
     "CubicCraftError",
     "Energy",
     "Flattened",
+    "Frames",
     "Mirror",
     "NormalCapture",
     "Progress",
@@ -43,6 +48,8 @@ __all__ = [
     "RestMesh",
     "Result",
     "Run",
+    "Sequence",
+    "SequenceState",
     "Setup",
     "StopRule",
     "Stylization",
@@ -50,6 +57,8 @@ __all__ = [
     "commuting",
     "edge_distances",
     "flatten_facets",
+    "frame_of",
+    "least_width",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
@@ -64,10 +73,12 @@ __all__ = [
 
 _MODULES = {
     "DEVICES": "backends",
-    "Energy": "stylization",
+    "Energy": "energy",
     "Flattened": "flatten",
+    "Frames": "steadiness",
     "Mirror": "symmetry",
     "MATCHING": "symmetry",
+    "MOST_JUMPS": "steadiness",
     "NO_PARTNER": "symmetry",
     "NormalCapture": "normal_capture",
     "PAPER": "proxy.options",
@@ -76,6 +87,8 @@ _MODULES = {
     "RestMesh": "rest",
     "Result": "runner",
     "Run": "runner",
+    "Sequence": "sequence",
+    "SequenceState": "sequence",
     "Setup": "setup",
     "StopRule": "stop_rule",
     "Stylization": "stylization",
@@ -83,6 +96,8 @@ _MODULES = {
     "commuting": "symmetry",
     "edge_distances": "edge_distances",
     "flatten_facets": "flatten",
+    "frame_of": "steadiness",
+    "least_width": "steadiness",
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",

@@ -15,20 +15,43 @@ are given and returned as their nine entries, row by row.
   for those of whatever precision its program was started with.
 """
 
+import math
+
 import numpy as np
 
+BLOCK = 4096
+"""vertices; what is computed of so many at once stays in the cache of a core"""
 
-def columns(matrices):
-    """Return the entries of matrices (n,3,3), as a view (9,n)."""
-    return matrices.reshape(-1, 9).T
+
+def columns(values):
+    """Return the entries (w,n) of vectors (n,w) or matrices (n,3,3), if possible as a view."""
+    return values.reshape(len(values), math.prod(values.shape[1:])).T
 
 
 def from_columns(entries):
-    """Return the vectors (n,3) or matrices (n,3,3) that have these entries (n,)."""
-    result = np.empty((len(entries[0]), len(entries)))
-    for column, entry in enumerate(entries):
-        result[:, column] = entry
-    return result if len(entries) == 3 else result.reshape(-1, 3, 3)
+    """Return the vectors (n,3) or matrices (n,3,3) that have these entries (n,).
+
+    In memory, all numbers of an entry are side by side, as `columns` wants them back.
+    """
+    entries = np.asarray(entries)
+    return entries.T.reshape(-1, 3, 3) if len(entries) == 9 else entries.T
+
+
+def by_columns(values):
+    """Return a copy of numbers (n,), vectors (n,w) or matrices that lies as `from_columns` says."""
+    return np.array(columns(values), order="C").T.reshape(values.shape)
+
+
+def take(values, rows):
+    """Return some rows, by number (k,), that lie as `from_columns` says."""
+    return columns(values).take(rows, 1).T.reshape(len(rows), *values.shape[1:])
+
+
+def put(values, rows, new):
+    """Set some rows, by number (k,), of an array that lies as `from_columns` says."""
+    into = columns(values)
+    assert np.shares_memory(into, values)
+    into[:, rows] = columns(new)
 
 
 def dot(a, b, c, x, y, z):

@@ -20,7 +20,7 @@ SMOOTHING = 1e-4
 """of the absolute value, in radians; only the refinement needs a derivative"""
 
 
-def auto_orient(normals, areas, form: Polytope | None = None):
+def auto_orient(normals: np.ndarray, areas: np.ndarray, form: Polytope | None = None) -> np.ndarray:
     """Return the orientation whose axes best fit the normals.
 
     It minimises ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples

@@ -35,11 +35,14 @@ _LEAST_DETERMINANT = 0.9  # less was no average of similar rotations
 def coarse_stylization(fine):
     """Return the Stylization of a coarser mesh whose end `prolongate` takes to it, or None.
 
-    None for small meshes, for the plain iteration, and where there is no coarser mesh.
+    None for small meshes, for the plain iteration, for one that has been started from elsewhere
+    than rest, and where there is no coarser mesh.
     """
+    if fine.is_started or not fine.is_accelerated:
+        return None
     count = fine.rest.topology.largest_component  # many small parts are no slower than one of them
     least = COARSEST_VERTICES if fine.is_coarse else LEAST_VERTICES
-    if count < least or not fine.is_accelerated or fine.setup.coarse is None:
+    if count < least or fine.setup.coarse is None:
         return None
     return fine.coarser()
 

@@ -69,6 +69,15 @@ class GlobalStep:
         L, is_held = self._laplacian, self._is_held
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
+    def posed(self, rest):
+        """Return the same step for another pose of the mesh, see `RestMesh.posed`."""
+        other = copy(self)
+        for name in ("no_turning", "no_turning_by_cycles"):
+            other.__dict__.pop(name, None)
+        other._rest = rest
+        other._floating = other._centring_weights()
+        return other
+
     def anchored(self, components):
         """Return the same step, in which components (c,) are not kept where they are at rest."""
         other = copy(self)

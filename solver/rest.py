@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .cotangents import cotangents
 from .decimation import decimate
 from .memory import check_memory
 from .mesh_checks import check_mesh
-from .proxy import PAPER, InputMap, Links, no_links, surface_of
+from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
 from .proxy.boxes import box_frames
 from .proxy.creases import cubic_shares
 from .proxy.flat_sides import stiffness
@@ -62,6 +63,8 @@ class RestMesh:
     """for a solidity of 1; None if they have not been computed"""
     solidity: float
     is_refined: bool
+    cotangents: np.ndarray
+    """(m,3) weight of the edge opposite each corner of the triangles"""
     skin: SpokesAndRims
     """of the triangles only"""
     matrices: SpokesAndRims
@@ -124,6 +127,24 @@ class RestMesh:
         changed = replace(self, to_other_side=to_other_side, solidity=solidity)
         return replace(changed, matrices=changed.skin.with_links(self.V, changed.links))
 
+    def posed(self, input_positions):
+        """Return the same mesh in another pose, with all weights and links of this one.
+
+        Its Laplacian is the same, so what has been factorised can be reused.
+
+        Parameters
+        ----------
+        input_positions : (N,3) numpy array
+        """
+        positions = np.array(input_positions, dtype=np.float64)
+        V = self.input_map.points(self.box.to_unit(positions))
+        areas, normals = areas_and_normals(V, self.F)
+        skin = spokes_and_rims(V, self.F, self.cotangents)
+        posed = replace(
+            self, input_positions=positions, V=V, areas=areas, normals=normals, skin=skin
+        )
+        return replace(posed, matrices=skin.with_links(V, posed.links))
+
     @cached_property
     def edge_sums(self):
         """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component."""
@@ -179,7 +200,7 @@ class Coarsening:
     """(n,) int vertex of the coarser mesh into which each vertex was merged"""
 
 
-def rest_mesh(V, F, proxy=PAPER):
+def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMesh:
     """Build the RestMesh of a mesh.
 
     Parameters
@@ -246,6 +267,7 @@ def rest_mesh(V, F, proxy=PAPER):
         to_other_side,
         proxy.solidity,
         proxy.refine,
+        C,
         skin,
         skin,
     )

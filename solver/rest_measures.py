@@ -6,7 +6,7 @@ import numpy as np
 from .edge_vectors import double_area_vectors, edge_vectors
 
 
-def triangle_areas_and_normals(V, F):
+def triangle_areas_and_normals(V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the areas and unit normals of the triangles.
 
     Parameters

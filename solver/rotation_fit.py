@@ -13,6 +13,7 @@ certify (reflections, rank 1, far-off guesses) gets a singular value decompositi
 import numpy as np
 
 from .algebra import (
+    BLOCK,
     adjugate,
     axial,
     columns,
@@ -29,7 +30,6 @@ ANGLE_TOLERANCE = 1e-6
 """radians; the step that is smaller is still applied and leaves an error of its square or less"""
 MIN_CURVATURE = 1e-4
 """of det H over (tr G)^3, below which the maximum is not certified"""
-_BLOCK = 4096  # matrices; a few times as many stay in the cache of a core
 
 
 def fit_rotations(M, guess):
@@ -108,8 +108,8 @@ def orthonormalize(R, steps=1):
     take NumPy.
     """
     result = np.empty_like(R)
-    for begin in range(0, len(R), _BLOCK):
-        part = slice(begin, begin + _BLOCK)
+    for begin in range(0, len(R), BLOCK):
+        part = slice(begin, begin + BLOCK)
         entries = R[part].T.reshape(9, -1)  # of the transposes, which are turned back below
         for _ in range(steps):
             entries = nearer_to_orthogonal(*entries)

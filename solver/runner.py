@@ -2,13 +2,16 @@
 """A complete run in one call: mesh in, cubic mesh out."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .coarse_start import MAX_ITERATIONS, TOLERANCE, coarse_stylization, preview_on_fine, prolongate
 from .errors import CubicCraftError
-from .proxy import PAPER
+from .proxy import PAPER, ProxyOptions
 from .rest import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
@@ -51,23 +54,23 @@ class Result:
     """time of the iterations"""
 
     @property
-    def converged(self):
+    def converged(self) -> bool:
         """Whether the stop rule ended the run."""
         return self.reason == "converged"
 
 
 def stylize(
-    V,
-    F,
-    cubeness=0.4,
-    pinned=(),
+    V: ArrayLike,
+    F: ArrayLike,
+    cubeness: ArrayLike = 0.4,
+    pinned: ArrayLike = (),
     *,
-    max_iterations=1000,
-    tolerance=1e-3,
-    on_iteration=None,
-    proxy=PAPER,
-    **options,
-):
+    max_iterations: int = 1000,
+    tolerance: float = 1e-3,
+    on_iteration: Callable[[Stylization], Any] | None = None,
+    proxy: ProxyOptions = PAPER,
+    **options: Any,
+) -> Result:
     """Return the cubic version of a mesh.
 
     Parameters
@@ -125,7 +128,12 @@ def stylize(
     return run(stylization, max_iterations, tolerance, on_iteration)
 
 
-def run(stylization, max_iterations=1000, tolerance=1e-3, on_iteration=None):
+def run(
+    stylization: Stylization,
+    max_iterations: int = 1000,
+    tolerance: float = 1e-3,
+    on_iteration: Callable[[Stylization], Any] | None = None,
+) -> Result:
     """Iterate a new Stylization to its end.
 
     Parameters
@@ -207,13 +215,15 @@ class Run:
     'converged'
     """
 
-    def __init__(self, stylization, max_iterations=1000, tolerance=1e-3):
+    def __init__(
+        self, stylization: Stylization, max_iterations: int = 1000, tolerance: float = 1e-3
+    ):
         if not (np.isfinite(tolerance) and tolerance > 0.0):
             raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
         if not max_iterations >= 1:
             raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
         self.stylization = stylization
-        self.reason = None
+        self.reason: str | None = None
         self._max_iterations = max_iterations
         self._rule = StopRule(tolerance, stylization.resolution)
         self._is_local_next = True
@@ -223,17 +233,17 @@ class Run:
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
 
     @property
-    def is_on_coarser_mesh(self):
+    def is_on_coarser_mesh(self) -> bool:
         """Whether the run has not yet reached the mesh itself."""
         return self._coarse is not None
 
     @property
-    def iterations(self):
+    def iterations(self) -> int:
         """Number of iterations done, including those on coarser meshes."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
         return coarse + self.stylization.iteration
 
-    def advance(self):
+    def advance(self) -> None:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
         if self._coarse is not None:
@@ -261,7 +271,7 @@ class Run:
                 self.reason = "max_iterations"
         self._is_local_next = not self._is_local_next
 
-    def complete(self, on_iteration=None):
+    def complete(self, on_iteration: Callable[[Stylization], Any] | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
         while self.reason is None:
             before = self.stylization.iteration
@@ -270,14 +280,14 @@ class Run:
             if is_new and on_iteration is not None and on_iteration(self.stylization):
                 self.reason = "cancelled"
 
-    def positions(self):
+    def positions(self) -> np.ndarray:
         """Return the current positions (n,3), in the units of the input.
 
         While the run is on a coarser mesh, they follow its vertices, with the details at rest.
         """
         return self.stylization.placed_positions(self._current()[1])
 
-    def placed(self):
+    def placed(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the current positions (n,3) and rotations (n,3,3)."""
         return self.stylization.placed(*self._current())
 
@@ -289,7 +299,7 @@ class Run:
         positions, R = self._coarse.placed()
         return preview_on_fine(positions, R, state.rest)
 
-    def result(self):
+    def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
         state = self.stylization

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that is computed once per mesh and set of pins."""
 
+from collections.abc import Sequence
 from copy import copy
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .errors import CubicCraftError
 from .global_step import GlobalStep
 from .holds import HoldFields
+from .rest import RestMesh
 from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 
 NARROW = 0.01
@@ -61,7 +64,13 @@ class Setup:
     (array([0]), array([ True]))
     """
 
-    def __init__(self, rest, pinned=(), still=None, mirrors=()):
+    def __init__(
+        self,
+        rest: RestMesh,
+        pinned: ArrayLike = (),
+        still: ArrayLike | None = None,
+        mirrors: Sequence[Mirror] = (),
+    ):
         pinned = np.asarray(pinned)
         if pinned.size and not np.issubdtype(pinned.dtype, np.integer):
             raise CubicCraftError(f"pinned must list vertices by number, not be {pinned.dtype}")
@@ -92,6 +101,24 @@ class Setup:
         The other components float; they stay in place as a whole.
         """
         return self.global_step.is_anchored
+
+    def posed(self, input_positions) -> "Setup":
+        """Return the same setup in another pose of the mesh.
+
+        The factorisation is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
+        that they have in that pose.
+
+        Parameters
+        ----------
+        input_positions : (N,3) numpy array
+        """
+        other = copy(self)
+        other.__dict__.pop("coarse", None)
+        other.rest = self.rest.posed(input_positions)
+        other.global_step = self.global_step.posed(other.rest)
+        if self.hold_fields is not None:
+            other.hold_fields = HoldFields(other, self.hold_fields.weights)
+        return other
 
     def with_holds(self, weights) -> "Setup":
         """Return the same setup with groups of vertices that keep their place, see `holds.py`.

@@ -1,47 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local-global iteration on one mesh, step by step."""
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .acceleration import Momentum
 from .backends import local_step_class
+from .energy import Energy
 from .errors import CubicCraftError
 from .holds import Holds
 from .mesh_checks import per_vertex
-from .normal_capture import targets_for
+from .normal_capture import NormalCapture, targets_for
+from .setup import Setup
 from .styles.admm import AdmmOptions
+from .styles.polytope import Polytope
 from .styles.polytopes import polytopes
+from .symmetry import Mirror
 
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
-
-
-@dataclass(frozen=True)
-class Energy:
-    """Energies in the unit box (divide lengths by the largest extent of the mesh).
-
-    See Also
-    --------
-    Stylization.energy_of : Returns the energy of a given shape.
-
-    Examples
-    --------
-    >>> from solver import Energy
-    >>> Energy(arap=0.25, cubic=0.5).total
-    0.75
-    """
-
-    arap: float
-    """of the as-rigid-as-possible deformation"""
-    cubic: float
-    """of the normals, which is lowest along the axes of the cube, and along captured ones"""
-
-    @property
-    def total(self):
-        """The energy that is minimised."""
-        return self.arap + self.cubic
 
 
 class Stylization:
@@ -124,25 +102,26 @@ class Stylization:
 
     def __init__(
         self,
-        setup,
-        cubeness,
-        orientation=None,
-        targets=None,
-        form=None,
-        form_of=None,
-        device="auto",
-        precision=None,
-        admm=None,
-        is_accelerated=True,
-        keep_rotation=False,
-        is_coarse=False,
-        hold_matrices=(),
-        capture=None,
-        capture_strength: Any = 0.0,
-        capture_of=None,
+        setup: Setup,
+        cubeness: ArrayLike,
+        orientation: ArrayLike | None = None,
+        targets: ArrayLike | None = None,
+        form: Polytope | Sequence[Polytope] | None = None,
+        form_of: ArrayLike | None = None,
+        device: str = "auto",
+        precision: str | None = None,
+        admm: AdmmOptions | None = None,
+        is_accelerated: bool = True,
+        keep_rotation: bool = False,
+        is_coarse: bool = False,
+        hold_matrices: Sequence[np.ndarray] = (),
+        capture: NormalCapture | Sequence[NormalCapture] | None = None,
+        capture_strength: ArrayLike = 0.0,
+        capture_of: ArrayLike | None = None,
     ):
         self.setup = setup
         self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
+        self.is_started = False
         self._keep_rotation = keep_rotation
         self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
@@ -171,13 +150,13 @@ class Stylization:
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
         self._hold_matrices = hold_matrices
-        constraints = list(setup.mirrors)
+        constraints: list[Mirror | Holds] = list(setup.mirrors)
         if setup.hold_fields is not None:
             constraints.insert(0, Holds(setup.hold_fields, hold_matrices))
         self._motion = self._local.motion(setup, U, constraints)
-        self._acceleration = Momentum(rest.topology.component_count) if is_accelerated else None
+        self._acceleration = self._momentum()
         self.iteration = 0
-        self.energy = None
+        self.energy: Energy | None = None
         self.displacement = self.distance = 0.0
 
     @property
@@ -205,9 +184,10 @@ class Stylization:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         return self._local.R
 
-    def coarser(self):
-        """Return a new Stylization of the coarser mesh of the setup."""
+    def coarser(self) -> "Stylization":
+        """Return a new Stylization of the coarser mesh of the setup, which must have one."""
         setup, coarsening = self.setup.coarse, self.rest.coarse
+        assert setup is not None and coarsening is not None
         areas = self.rest.areas + 1e-300
         count = len(coarsening.rest.V)
         _, first = np.unique(coarsening.cluster, return_index=True)
@@ -248,26 +228,30 @@ class Stylization:
         into[:3, 3] = box.origin
         return [np.linalg.inv(into) @ np.asarray(matrix) @ into for matrix in self._hold_matrices]
 
+    def _momentum(self):
+        return Momentum(self.rest.topology.component_count) if self.is_accelerated else None
+
     def start_from(self, R, near):
-        """Start the iteration from rotations (n,3,3) and positions (n,3) in the unit box."""
+        """Start the iteration anew, from rotations (n,3,3) and positions (n,3) in the unit box."""
+        self.is_started, self._acceleration = True, self._momentum()
         self._local.start_from(R)
         near[self.setup.pinned] = self.positions[self.setup.pinned]
         self._motion.put(near)
         self._motion.relax(_FIRST_SOLVES)
 
-    def step(self):
+    def step(self) -> None:
         """Do one local and one global step."""
         self.local_step()
         self.global_step()
 
-    def local_step(self):
+    def local_step(self) -> None:
         """Fit the rotations to the positions."""
         arap, cubic = self._local.update(self._motion.point)
         if self._acceleration is not None:
             self._acceleration.observe(arap + cubic)
         self.energy = Energy(float(arap.sum()), float(cubic.sum()))
 
-    def global_step(self):
+    def global_step(self) -> None:
         """Move the positions toward the rotations of the previous local step."""
         if self._acceleration is None:
             momentum = overshoot = np.zeros(self.rest.topology.component_count)
@@ -278,10 +262,11 @@ class Stylization:
         )
         self.iteration += 1
 
-    def finish(self):
+    def finish(self) -> Energy:
         """Fit the rotations to the last positions and return the Energy of both."""
         self._motion.look_at_positions()
         self.local_step()
+        assert self.energy is not None  # the local step has set it
         return self.energy
 
     def energy_of(self, positions, steps=20):

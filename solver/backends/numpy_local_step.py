@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ..algebra import by_columns, from_columns
 from ..motion import Motion
 from ..rotation_fit import orthonormalize
 from ..styles.active_set import active_set_rotations
@@ -57,10 +58,11 @@ class NumpyLocalStep:
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         lam = local_cubeness(rest, lam)
-        Q = np.broadcast_to(Q, (n, 3, 3))
         captured = local_captured(rest, captured)
         nothing = np.zeros((n, 3, 3))
-        self._rest_problem = LocalProblem(nothing, rest.normals, Q, lam, form, captured)
+        self._rest_problem = LocalProblem(
+            nothing, by_columns(rest.normals), by_columns(Q), lam, form, captured
+        )
         self._normal_weight = self._rest_problem.weights(rest.areas)
         self._states = self._rest_problem.starting(self.R)
 
@@ -82,8 +84,10 @@ class NumpyLocalStep:
             Energies of the positions with these rotations.
         """
         U = self._near_origin(U)
-        S = np.stack([H @ U for H in self._gather], axis=1)
-        problem = self._rest_problem.with_covariances(S / self._area_scale[:, None, None])
+        S = np.empty((9, len(U)))
+        for row, H in zip(S.reshape(3, 3, -1), self._gather, strict=True):
+            np.divide((H @ U).T, self._area_scale, out=row)
+        problem = self._rest_problem.with_covariances(from_columns(S))
         last = orthonormalize(self.R)
         R, states, is_done = active_set_rotations(problem, last, self._states)
         rows = np.flatnonzero(~is_done)
@@ -91,9 +95,9 @@ class NumpyLocalStep:
             R[rows], states[rows] = admm_rotations(
                 problem.part(rows), last[rows], states[rows], self._options
             )
-        is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
-        self.R = np.where(is_worse[:, None, None], last, R)
-        self._states = np.where(is_worse[:, None], self._states, states)
+        is_worse = np.flatnonzero(problem.is_worse(R, last))
+        R[is_worse], states[is_worse] = last[is_worse], self._states[is_worse]  # or energy rises
+        self.R, self._states = R, states
         fit, cost = problem.energy_terms(self.R)
         trace = self._rest.topology.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace

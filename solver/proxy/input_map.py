@@ -49,6 +49,10 @@ class InputMap:
         number[self.order] = np.arange(len(self.order))
         return used, number[welded]
 
+    def points(self, positions):
+        """Return positions (N,3) of the input as those of the solved vertices (n,3)."""
+        return self._with_midpoints(positions[self.first], lambda one, other: 0.5 * (one + other))
+
     def spread(self, values):
         """Return values (N,...) of the input at the solved vertices (n,...), averaged."""
         if self.is_plain:

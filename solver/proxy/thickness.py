@@ -39,6 +39,7 @@ MOST_FAULTS = 0.05
 """share of edges with inconsistent triangles, or more than two"""
 
 _ROUNDS = 12
+_MANY = 3  # points for each chosen one; of fewer, both ways cost more than the second alone
 _INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball, all are equally near
 _FACING = 0.9  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
@@ -80,7 +81,7 @@ def _opposite(V, normals, part, chosen, points):
     # parts are kept apart by a coordinate of their own
     place = np.column_stack([V, 10.0 * part]) if part.any() else V
     end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
-    if len(points) > len(chosen):  # a tenth of the points is enough to approach the end
+    if len(points) > _MANY * len(chosen):  # a part of the points is enough to approach the end
         _shrink(place, normals, chosen, chosen, end, radius)
     _shrink(place, normals, chosen, points, end, radius)
     has_end = end >= 0

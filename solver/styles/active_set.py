@@ -41,13 +41,24 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..algebra import (
+    BLOCK,
     adjugate,
     axial,
+    by_columns,
     columns,
+    cross,
     determinant,
+    dot,
     from_columns,
+    outer,
+    product,
+    put,
     shifted,
     size_squared,
+    take,
+    times,
+    trace,
+    transposed_times,
     turn,
 )
 from ..rotation_fit import MIN_CURVATURE, curvature, is_definite
@@ -93,82 +104,91 @@ def active_set_rotations(problem, R, states):
     is_done : (n,) bool array
         Which are certified; the others are those given.
     """
-    result_R, result_states = R.copy(), states.copy()
+    form, todo = problem.form, np.arange(len(R))
     is_done = np.zeros(len(R), bool)
-    todo = np.arange(len(R))
-    kept = problem.form.begin(states)
-    G = R @ problem.S
+    new_R, kept = by_columns(R), tuple(map(by_columns, form.begin(states)))
     for _ in range(MAX_STEPS):
         if not len(todo):
             break
-        W, is_last, is_good = _step(problem, R, G, kept)
-        R, G = W @ R, W @ G
-        y = np.einsum("nij,nj->ni", R, problem.normals)
-        x = np.einsum("nij,nj->ni", problem.Q, y)
-        kept, is_kept = problem.form.next_set(kept, _axial(G), x, y, problem, DOUBLE.slack)
-        is_last &= is_kept & is_good
-        done = todo[is_last]
-        is_done[done] = True
-        result_R[done], result_states[done] = R[is_last], problem.form.end(kept)[is_last]
-        more = is_good & ~is_last
-        todo, problem = todo[more], problem.part(more)
-        R, G, kept = R[more], G[more], tuple(values[more] for values in kept)
-    return result_R, result_states, is_done
+        going = []
+        for rows, is_on_facet in _blocks(todo, form.active_count(kept)[todo] == 2):
+            part, part_R = problem.part(rows), take(new_R, rows)
+            part_kept = tuple(take(values, rows) for values in kept)
+            part_R, part_kept, is_last, is_good = _step(part, part_R, part_kept, is_on_facet)
+            for values, new in zip((new_R, *kept), (part_R, *part_kept), strict=True):
+                put(values, rows, new)
+            is_done[rows] = is_last
+            going.append(rows[is_good & ~is_last])
+        todo = np.concatenate(going)
+    new_states, others = form.end(kept), np.flatnonzero(~is_done)
+    new_R[others], new_states[others] = R[others], states[others]
+    return new_R, new_states, is_done
 
 
-def _step(problem, R, G, kept):
-    """Return turns W (n,3,3), which may be the last (n,), and which are sound (n,)."""
-    s, number, direction = problem.form.constraints(kept)
-    is_facet = number == 2
-    q, v = np.ones(len(G)), np.zeros((len(G), 3))
-    is_last, is_good = np.zeros(len(G), bool), np.zeros(len(G), bool)
-    for rows, step in ((is_facet, _turn_about_axis), (~is_facet, _newton_step)):
-        arrays = (values[rows] for values in (R, G, s, number, direction))
-        part = step(problem.part(rows), *arrays)
-        q[rows], v[rows], is_last[rows], is_good[rows] = part
-    q[~is_good], v[~is_good] = 1.0, 0.0
-    return _turn(q, v), is_last, is_good
+def _blocks(rows, is_on_facet):
+    """Yield rows, by number, that take the same kind of step, and whether it is that of a facet."""
+    for kind in (False, True):
+        same = rows[is_on_facet == kind]
+        for begin in range(0, len(same), BLOCK):
+            yield same[begin : begin + BLOCK], kind
 
 
-def _turn_about_axis(problem, R, G, _s, _number, direction):
-    """Put the normal on its axis t; once it is there, turn about it."""
-    y = np.einsum("nij,nj->ni", R, problem.normals)
-    t = _from_form(problem.Q, direction)
-    v = np.cross(y, t)
-    q = 1.0 + _dot(y, t)
+def _step(problem, R, kept, is_on_facet):
+    """Return R and what is kept after a step, and which steps are the last and sound, (n,) each."""
+    form, R, normals, Q = problem.form, columns(R), problem.normals.T, columns(problem.Q)
+    G = product(*R, *columns(problem.S))
+    y = times(*R, *normals)
+    s, number, direction = form.constraints(kept)
+    if is_on_facet:
+        q, v, is_last, is_good = _turn_about_axis(Q, G, y, direction.T)
+    else:
+        q, v, is_last, is_good = _newton_step(Q, problem.lam, G, y, s.T, number, direction.T)
+    q, v = np.where(is_good, q, 1.0), np.where(is_good, v, 0.0)
+    W = turn(2.0 / (q * q + dot(*v, *v)), q, *v)
+    R, G = product(*W, *R), product(*W, *G)
+    y = times(*R, *normals)
+    vectors = map(from_columns, (axial(*G), times(*Q, *y), y))
+    kept, is_kept = form.next_set(kept, *vectors, problem, DOUBLE.slack)
+    return from_columns(R), kept, is_last & is_kept & is_good, is_good
+
+
+def _turn_about_axis(Q, G, y, direction):
+    """Put the normal on its axis t; once it is there, turn about it. Return a quaternion q, v."""
+    t = transposed_times(*Q, *direction)
+    v = cross(*y, *t)
+    q = 1.0 + dot(*y, *t)
     is_good = q > NEAREST_TARGET
-    is_last = is_good & (_dot(v, v) < DOUBLE.aligned**2)
-    along = np.trace(G, axis1=1, axis2=2) - np.einsum("ni,nij,nj->n", t, G, t)
-    across = _dot(_axial(G), t)
+    is_last = is_good & (dot(*v, *v) < DOUBLE.aligned**2)
+    along = trace(*G) - dot(*t, *times(*G, *t))
+    across = dot(*axial(*G), *t)
     best = along + np.sqrt(along * along + across * across)
     q = np.where(is_last, best, q)
-    v = np.where(is_last[:, None], across[:, None] * t, v)
-    is_good &= ~is_last | (best > SMALLEST_TURN * np.abs(across))
-    return q, v, is_last, is_good
+    v = np.where(is_last, across * np.asarray(t), v)
+    return q, v, is_last, is_good & (~is_last | (best > SMALLEST_TURN * np.abs(across)))
 
 
-def _newton_step(problem, R, G, s, number, direction):
-    """Take Newton's step, on the tangent of x.direction = 0 on an edge."""
-    normals, Q, lam = problem.normals, problem.Q, problem.lam
-    y = np.einsum("nij,nj->ni", R, normals)
-    L = G - y[:, :, None] * (lam[:, None] * _from_form(Q, s))[:, None, :]
-    h = np.trace(L, axis1=1, axis2=2)
-    p = np.cross(y, _from_form(Q, direction.astype(float)))
-    kappa = number * (np.abs(h) + lam)
-    K = curvature_on_tangent(kappa, *columns(L), *p.T)
-    is_sound = is_definite(MIN_CURVATURE, *K, *adjugate(*K))
-    K = shifted(np.where(is_sound, 0.0, np.sqrt(size_squared(*K))), *K)
+def _newton_step(Q, lam, G, y, s, number, direction):
+    """Take Newton's step, on the tangent of x.direction = 0 on an edge. Return as the other."""
+    pull = lam * np.asarray(transposed_times(*Q, *s))
+    L = np.subtract(G, outer(*y, *pull))
+    p = cross(*y, *transposed_times(*Q, *direction))
+    kappa = number * (np.abs(trace(*L)) + lam)
+    K = curvature_on_tangent(kappa, *L, *p)
     inverse = adjugate(*K)
+    is_sound = is_definite(MIN_CURVATURE, *K, *inverse)
+    if not is_sound.all():
+        K = shifted(np.where(is_sound, 0.0, np.sqrt(size_squared(*K))), *K)
+        inverse = adjugate(*K)
     divisor = determinant(*K, *inverse)
     is_zero = divisor == 0.0  # without any force
-    inverse = (np.array(inverse) / np.where(is_zero, 1.0, divisor)).reshape(3, 3, -1)
-    w, r = (np.einsum("ijn,nj->ni", inverse, v) for v in (_axial(L), p))
+    inverse = np.divide(inverse, np.where(is_zero, 1.0, divisor))
+    w, r = np.asarray(times(*inverse, *axial(*L))), times(*inverse, *p)
     is_one = ~is_zero & (number == 1)
-    x = np.einsum("nij,nj->ni", Q, y)
-    excess = (_dot(p, w) + _dot(x, direction)) / np.where(is_one, _dot(p, r), 1.0)
-    w -= np.where(is_one, excess, 0.0)[:, None] * r
-    is_small = _dot(w, w) <= DOUBLE.angle**2
-    return np.ones(len(G)), 0.5 * w, is_sound & is_small, is_sound | ~is_small
+    x = times(*Q, *y)
+    excess = (dot(*p, *w) + dot(*x, *direction)) / np.where(is_one, dot(*p, *r), 1.0)
+    w -= np.where(is_one, excess, 0.0) * r
+    is_small = dot(*w, *w) <= DOUBLE.angle**2
+    return 1.0, 0.5 * w, is_sound & is_small, is_sound | ~is_small
 
 
 def curvature_on_tangent(kappa, *entries):
@@ -177,20 +197,3 @@ def curvature_on_tangent(kappa, *entries):
     d, e, f = kappa * x * y, kappa * x * z, kappa * y * z
     squares = (kappa * (x * x), d, e, d, kappa * (y * y), f, e, f, kappa * (z * z))
     return [h + square for h, square in zip(curvature(*entries[:9]), squares, strict=True)]
-
-
-def _turn(q, v):
-    """Return the rotations (n,3,3) of the quaternions (q, v), of any length."""
-    return from_columns(turn(2.0 / (q * q + _dot(v, v)), q, *v.T))
-
-
-def _axial(G):
-    return from_columns(axial(*columns(G)))
-
-
-def _from_form(Q, x):
-    return np.einsum("nji,nj->ni", Q, x)
-
-
-def _dot(a, b):
-    return (a * b).sum(axis=1)

@@ -66,7 +66,7 @@ def admm_rotations(problem, R, states, options):
             problem, R[todo], z, u, rho, options
         )
         u *= (rho / rho_new)[:, None]
-        more = ~is_done
+        more = np.flatnonzero(~is_done)
         todo, problem = todo[more], problem.part(more)
         z, u, rho = z[more], u[more], rho_new[more]
     return R, states

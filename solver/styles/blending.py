@@ -83,10 +83,16 @@ def blended(styles, weights):
     second = np.where(level > 0, second, first)
     cases, case = np.unique(np.stack([first, second, level], axis=1), axis=0, return_inverse=True)
     bodies = [_between(styles, *row) for row in cases.tolist()]
-    distinct = {body and body.key: body for body in bodies}
-    numbers = list(distinct)
-    body_of = np.array([numbers.index(body and body.key) for body in bodies])[case.ravel()]
-    return cubeness, _orientations(styles, first), list(distinct.values()), body_of
+    distinct, numbers = numbered(bodies)
+    return cubeness, _orientations(styles, first), distinct, numbers[case.ravel()]
+
+
+def numbered(bodies):
+    """Return the distinct ones of some bodies, None for the cube, and the number (k,) of each."""
+    keys = [body and body.key for body in bodies]
+    distinct = dict(zip(keys, bodies, strict=True))
+    place = {key: number for number, key in enumerate(distinct)}
+    return list(distinct.values()), np.array([place[key] for key in keys])
 
 
 def _between(styles, first, second, level):

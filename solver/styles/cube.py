@@ -5,6 +5,8 @@ from functools import cache
 
 import numpy as np
 
+from ..algebra import columns, cross, times, transposed_times
+
 
 def cost(x):
     """Return the cost |x|_1 of normals x (...,3) in the frame of the cube, least on its axes."""
@@ -43,13 +45,17 @@ class Cube:
         """Return the states (n,3)."""
         return kept[0]
 
+    def active_count(self, kept):
+        """Return how many axes are active (n,)."""
+        return kept[1].sum(axis=1)
+
     def constraints(self, kept):
         """Return s (n,3), how many axes are active (n,), and the direction that they leave (n,3).
 
         With one active axis that is the axis, with two it is where the normal has to point.
         """
         s, active = kept
-        number = active.sum(axis=1)
+        number = self.active_count(kept)
         return s, number, np.where((number == 2)[:, None], np.where(active, 0.0, s), active)
 
     def next_set(self, kept, moment, x, y, problem, slack):
@@ -65,23 +71,20 @@ class Cube:
         problem : LocalProblem
         slack : float
         """
-        s, active = kept
-        lam, Q = problem.lam, problem.Q
-        has_cost = (lam > 0.0)[:, None]
-        fixed = np.einsum("nji,nj->ni", Q, np.where(active, 0.0, s))
-        force = moment - lam[:, None] * np.cross(y, fixed)
-        size = np.maximum(1.0 - x * x, 1e-6) * np.where(has_cost, lam[:, None], 1.0)
-        multipliers = np.einsum("nij,nj->ni", Q, np.cross(force, y)) / size
-        s = np.where(active, multipliers, s)
+        (s, active), x, lam, Q = (a.T for a in kept), x.T, problem.lam, columns(problem.Q)
+        has_cost = lam > 0.0
+        fixed = transposed_times(*Q, *np.where(active, 0.0, s))
+        force = moment.T - lam * cross(*y.T, *fixed)
+        size = np.maximum(1.0 - x * x, 1e-6) * np.where(has_cost, lam, 1.0)
+        s = np.where(active, times(*Q, *cross(*force, *y.T)) / size, s)
         crossed = has_cost & ~active & (x * s < -slack)
         freed = np.abs(s) > 1.0
-        is_kept = ~(crossed | (np.abs(s) > 1.0 + slack)).any(axis=1)
+        is_kept = ~(crossed | (np.abs(s) > 1.0 + slack)).any(axis=0)
         s, active = np.where(freed, np.sign(s), s), (active & ~freed) | crossed
         size = np.abs(x)
-        is_largest = size == size.max(axis=1, keepdims=True)
-        freed = is_largest & (active.sum(axis=1) == 3)[:, None]
+        freed = (size == size.max(axis=0)) & active.all(axis=0)
         s = np.where(freed, np.where(x > 0.0, 1.0, -1.0), s)
-        return (s, active & ~freed), is_kept
+        return (s.T, (active & ~freed).T), is_kept
 
     def split(self, x, states):
         """Return normals x (n,3) without their part along active axes."""

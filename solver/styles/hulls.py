@@ -52,14 +52,19 @@ def simple_hull(points, most):
     return from_directions(d, (points @ d.T).max(axis=0))
 
 
+def spiral(count):
+    """Return evenly spread unit vectors (count,3), on a spiral."""
+    k = np.arange(count) + 0.5
+    z, angles = 1.0 - 2.0 * k / count, np.pi * (1.0 + np.sqrt(5.0)) * k
+    radii = np.sqrt(1.0 - z * z)
+    return np.column_stack([radii * np.cos(angles), radii * np.sin(angles), z])
+
+
 def _outermost(points):
     """Return the points that lie farthest in one of many directions."""
     if not np.isfinite(points).all():
         raise CubicCraftError("a form needs at least four points that are not flat")
-    k = np.arange(_WAYS) + 0.5
-    z, angles = 1.0 - 2.0 * k / _WAYS, np.pi * (1.0 + np.sqrt(5.0)) * k
-    radii = np.sqrt(1.0 - z * z)
-    ways = np.column_stack([radii * np.cos(angles), radii * np.sin(angles), z])
+    ways = spiral(_WAYS)
     kept = points[:0]
     for begin in range(0, len(points), _BLOCK):
         some = np.concatenate([kept, points[begin : begin + _BLOCK]])

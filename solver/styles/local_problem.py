@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..algebra import columns, from_columns, product, take, times, trace
 from .cube import CUBE
 
 
@@ -22,7 +23,7 @@ class LocalProblem:
     normals: np.ndarray
     """(n,3) unit normals, or zero where `lam` is"""
     Q: np.ndarray
-    """(n,3,3) orientations of the form"""
+    """(n,3,3) or (1,3,3) orientations of the form"""
     lam: np.ndarray
     """(n,) cubeness"""
     form: Any = CUBE
@@ -31,8 +32,9 @@ class LocalProblem:
     """(n,4) t and mu, both zero where nothing is captured; None for nowhere"""
 
     def part(self, rows):
-        """Return the problems of some rows, by number or mask."""
-        S, normals, Q, lam = (a[rows] for a in (self.S, self.normals, self.Q, self.lam))
+        """Return the problems of some rows, by number."""
+        S, normals, lam = (take(a, rows) for a in (self.S, self.normals, self.lam))
+        Q = self.Q if len(self.Q) == 1 else take(self.Q, rows)
         captured = None if self.captured is None else self.captured[rows]
         return LocalProblem(S, normals, Q, lam, self.form.part(rows), captured)
 
@@ -45,8 +47,8 @@ class LocalProblem:
 
     def form_normals(self, R):
         """Return the rotated normals Q R n (n,3) in the frame of the form."""
-        rotated = np.einsum("nij,nj->ni", R, self.normals)
-        return np.einsum("nij,nj->ni", self.Q, rotated)
+        rotated = times(*columns(R), *self.normals.T)
+        return from_columns(times(*columns(self.Q), *rotated))
 
     def starting(self, R):
         """Return the states (n,w) to begin with at rotations R (n,3,3)."""
@@ -54,7 +56,8 @@ class LocalProblem:
 
     def costs(self, R):
         """Return tr(R S) and h(Q R n), both (n,)."""
-        return np.einsum("nij,nji->n", R, self.S), self.form.cost(self.form_normals(R))
+        fit = trace(*product(*columns(R), *columns(self.S)))
+        return fit, self.form.cost(self.form_normals(R))
 
     def is_worse(self, R, last):
         """Return where R (n,3,3) costs more than `last`: taking it would raise the energy."""

@@ -63,13 +63,17 @@ class Polytopes:
 
     def end(self, kept):
         """Return the states (n,4)."""
-        return np.column_stack(kept)
+        return np.vstack([kept[0].T, kept[1]]).T
+
+    def active_count(self, kept):
+        """Return as `Cube.active_count`: two are active on a facet, one on an edge."""
+        face = kept[1]
+        return (face >= self.faces.edge_start).astype(int) + (face >= self.faces.facet_start)
 
     def constraints(self, kept):
-        """Return as `Cube.constraints`: two are active on a facet, one on an edge."""
+        """Return as `Cube.constraints`."""
         s, face = kept
-        number = (face >= self.faces.edge_start).astype(int) + (face >= self.faces.facet_start)
-        return s, number, self.faces.arrays.axes[face]
+        return s, self.active_count(kept), self.faces.arrays.axes[face]
 
     def next_set(self, kept, moment, x, y, problem, slack):
         """Return as `Cube.next_set`."""
@@ -77,7 +81,7 @@ class Polytopes:
         is_kept = np.ones(len(face), bool)
         fixed = np.einsum("nji,nj->ni", problem.Q, self.faces.arrays.points[face])
         force = moment - problem.lam[:, None] * np.cross(y, fixed)
-        kind = (face >= self.faces.edge_start).astype(int) + (face >= self.faces.facet_start)
+        kind = self.active_count(kept)
         for number, step in enumerate((_from_vertex, _from_edge, _from_facet)):
             rows = np.flatnonzero((kind == number) & (problem.lam > 0.0))
             if len(rows):

@@ -75,6 +75,19 @@ def test_columns_are_put_together_as_they_were():
     assert algebra.from_columns(list(algebra.columns(nothing))).shape == nothing.shape
 
 
+@pytest.mark.parametrize("values", [A, a, a[:, 0]], ids=["matrices", "vectors", "numbers"])
+def test_rows_are_taken_and_put_wherever_they_lie(values):
+    rows = np.array([3, 0, 4])
+    kept = algebra.by_columns(values)
+    assert algebra.columns(kept).flags.c_contiguous and not np.shares_memory(kept, values)
+    for source in (values, kept):
+        assert_array_equal(algebra.take(source, rows), values[rows])
+    algebra.put(kept, rows, values[rows[::-1]])
+    expected = values.copy()
+    expected[rows] = values[rows[::-1]]
+    assert_array_equal(kept, expected)
+
+
 def test_products_of_vectors(check):
     check(algebra.dot, [a, b], (a * b).sum(axis=1))
     check(algebra.cross, [a, b], np.cross(a, b))

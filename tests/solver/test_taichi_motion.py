@@ -92,10 +92,14 @@ def test_runs_end_where_those_of_numpy_do(precision):
 
 
 def test_a_run_in_single_precision_is_not_held_up_by_the_rounding_of_its_energy():
+    """It would take about 700 iterations, where it takes 100 to 500, by how processors round."""
     V, F = shapes.blob(2)
     V, F = np.concatenate([V, 0.01 * V + [3.0, 0.0, 0.0]]), np.concatenate([F, F + len(V)])
-    result = stylize(V, F, 0.4, device="cpu", precision="f32", tolerance=1e-5)
-    assert result.converged and result.iterations < 150
+    bumpy = (V + 1e-4 * k * np.sin(5.0 * V) for k in range(5))
+    options = {"device": "cpu", "precision": "f32", "tolerance": 1e-5}
+    results = [stylize(V, F, 0.4, **options) for V in bumpy]
+    assert all(result.converged for result in results)
+    assert np.median([result.iterations for result in results]) < 550
 
 
 def test_rotations_that_the_kernel_does_not_certify_are_found_too(monkeypatch):
