@@ -2,8 +2,10 @@
 """The Blender side that is not an operator."""
 
 from . import handle_gizmos, job, live, presets
+from .animation import properties as animation_properties
 from .handles import properties as handles_properties
-from .run import form_cache
+from .run import object_cache
+from .send import properties as send_properties
 from .settings import form_pictures, group_renames, properties, region_properties
 from .ui import (
     angles,
@@ -21,6 +23,8 @@ _modules = (
     form_pictures,
     region_properties,
     properties,
+    animation_properties,
+    send_properties,
     preferences,
     live,
     job,
@@ -34,7 +38,7 @@ _modules = (
     panel,
     edited,
     group_renames,
-    form_cache,
+    object_cache,
 )
 
 

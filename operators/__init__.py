@@ -5,6 +5,8 @@ import bpy
 
 from .apply import CUBIC_CRAFT_OT_apply
 from .auto_orient import CUBIC_CRAFT_OT_auto_orient
+from .bake_animation import CUBIC_CRAFT_OT_bake_animation, CUBIC_CRAFT_OT_bake_process
+from .bake_normal_map import CUBIC_CRAFT_OT_bake_normal_map
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .cubify_cancel import CUBIC_CRAFT_OT_cubify_cancel
 from .flatten import CUBIC_CRAFT_OT_flatten
@@ -23,11 +25,16 @@ from .region_from_selection import CUBIC_CRAFT_OT_region_from_selection
 from .region_remove import CUBIC_CRAFT_OT_region_remove
 from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
+from .send_to import CUBIC_CRAFT_OT_send_to
 
 register, unregister = bpy.utils.register_classes_factory(
     (
         CUBIC_CRAFT_OT_cubify,
         CUBIC_CRAFT_OT_cubify_cancel,
+        CUBIC_CRAFT_OT_bake_animation,
+        CUBIC_CRAFT_OT_bake_process,
+        CUBIC_CRAFT_OT_bake_normal_map,
+        CUBIC_CRAFT_OT_send_to,
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_flatten,

@@ -5,7 +5,6 @@ All objects are solved before the first is written, so that an error changes not
 interface, a long run leaves Blender usable and can be cancelled; scripts wait.
 """
 
-import contextlib
 import math
 
 import bpy
@@ -17,7 +16,6 @@ from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.mesh_bridge import last_run
 from ..cubic_craft_addon.object_properties import has_properties, object_properties
-from ..cubic_craft_addon.run.failures import UNEXPECTED
 from ..cubic_craft_addon.run.up_to_date import changes_since
 from ..cubic_craft_addon.settings.forms import form_settings
 from ..cubic_craft_addon.settings.overrides import (
@@ -33,13 +31,11 @@ from ..cubic_craft_addon.settings.overrides import (
 from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
 from ..cubic_craft_addon.ui import form_panel
 from ..solver import CubicCraftError
-from ._shared.selection import poll_sources, report_all, selected_meshes, selected_sources
-from ._shared.unexpected_errors import reporting
-
-_PROGRESS_STEPS = 100
+from ._shared.selection import poll_sources, selected_meshes, selected_sources
+from ._shared.watched_operator import WatchedOperator
 
 
-class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
+class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.types.Operator):
     """Turn the selected meshes into cubic sculptures; each starts from its original shape."""
 
     bl_idname = "cubic_craft.cubify"
@@ -84,80 +80,12 @@ class CUBIC_CRAFT_OT_cubify(StartProperty, RunProperties, bpy.types.Operator):
         """There is a mesh that can be cubified."""
         return poll_sources(cls, context)
 
-    @reporting
-    def execute(self, context):
-        """Solve all objects, then write all results, without interruption, for scripts."""
-        work = self._job(context)
-        manager = context.window_manager
-        manager.progress_begin(0, _PROGRESS_STEPS)
-        try:
-            for step in work.steps():
-                manager.progress_update(round(_PROGRESS_STEPS * step.factor))
-            return report_all(self, *work.write(is_alone=True))
-        finally:
-            # Written meshes need their undo step, even if the cleanup fails.
-            with contextlib.suppress(*UNEXPECTED):
-                work.discard()
-            manager.progress_end()
-
-    def invoke(self, context, event):
-        """Do the same, in the background if it takes longer than a moment."""
-        if bpy.app.background or context.window is None:  # nobody to watch it
-            return self.execute(context)
-        return self._start(context)
-
-    def modal(self, context, event):
-        """Continue or end; pass all other events to Blender, so that the view can be orbited."""
-        if self._watched.reason is None and _is_to_cancel(event):
-            self._watched.cancel()
-        if self._watched.reason is not None:
-            return self._report_cancel()
-        return self._tick(context) if event.type == "TIMER" else {"PASS_THROUGH"}
-
-    def cancel(self, context):
-        """Handle cancellation by Blender: another file, or the window was closed."""
-        self._watched.cancel("the window was closed")
-
-    @reporting
-    def _start(self, context):
-        self._watched = job.WatchedJob(self._job(context))
-        try:
-            self._watched.advance(job.FIRST_SLICE)
-            if self._watched.is_solved:
-                return report_all(self, *self._watched.write())
-            self._watched.watch(context.window)
-            # With its area: without it, Adjust Last Operation is not shown.
-            context.window_manager.modal_handler_add(self)
-        except BaseException:
-            self._watched.close()
-            raise
-        return {"RUNNING_MODAL"}
-
-    @reporting
-    def _tick(self, context):
-        watched = self._watched
-        try:
-            watched.tick()
-            if watched.is_solved:
-                return report_all(self, *watched.write())
-        except BaseException:
-            watched.close()
-            raise
-        return self._report_cancel() if watched.reason is not None else {"RUNNING_MODAL"}
-
-    def _job(self, context):
+    def make_job(self, context):
+        """Return the Job of the selected objects."""
         is_seen = _asks_for_what_is_seen(self, context)
         objects = selected_sources(context) if is_seen else selected_meshes(context)
         _adopt_settings(self, objects)
         return job.Job(_overrides(self, objects[0]), objects)
-
-    def _report_cancel(self):
-        reason = self._watched.reason
-        if reason:
-            self.report({"WARNING"}, f"Cubify was cancelled, nothing has changed: {reason}")
-        else:
-            self.report({"INFO"}, "Cubify was cancelled, nothing has changed")
-        return {"CANCELLED"}
 
     def draw(self, context):
         """Draw Adjust Last Operation."""
@@ -266,11 +194,3 @@ def _affine(item):
             " (Blender takes a plain list by its columns)"
         )
     return matrix
-
-
-def _is_to_cancel(event):
-    """Return whether it is Esc, or Ctrl-Z, which undoes the last click."""
-    if event.value != "PRESS":
-        return False
-    is_undo = event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt)
-    return is_undo or event.type == "ESC"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel Cubify with a button."""
+"""Cancel Cubify, or stop Cubify Animation, with a button."""
 
 import bpy
 
@@ -7,21 +7,24 @@ from ..cubic_craft_addon import job
 
 
 class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
-    """Cancel the running Cubify, like Esc."""
+    """Cancel what is running, like Esc."""
 
     bl_idname = "cubic_craft.cubify_cancel"
-    bl_label = "Cancel Cubify"
-    bl_description = "Cancel Cubify, which has not changed anything yet (Esc)"
+    bl_label = "Cancel"
+    bl_description = (
+        "Cancel Cubify, which has not changed anything yet (Esc). Cubify Animation keeps the frames"
+        " that are done"
+    )
     bl_options = {"INTERNAL"}
 
     @classmethod
     def poll(cls, context):
-        """Cubify runs."""
+        """Something runs."""
         return job.current() is not None
 
     def execute(self, context):
         """End it."""
         running = job.current()
         if running is not None:
-            running.cancel()
+            running.stop()
         return {"FINISHED"}

@@ -5,10 +5,10 @@ import bpy
 from bpy.props import StringProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.mesh_bridge import vertex_group
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver.errors import CubicCraftError
-from ._shared.active_handle import add_handle, poll_mesh
+from ._shared.active_handle import add_handle
+from ._shared.group_to_add import group_to_add, poll_groups
 from ._shared.selection import report_all
 
 
@@ -31,27 +31,15 @@ class CUBIC_CRAFT_OT_handle_add(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """There is a mesh with a vertex group."""
-        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
-            return False
-        if not panel_object(context).vertex_groups:
-            cls.poll_message_set("The mesh has no vertex group; add one, or use Pin Selection")
-            return False
-        return True
+        return poll_groups(cls, context, "Pin Selection")
 
     def execute(self, context):
         """Add the handle, pinned."""
         obj = panel_object(context)
         held = {handle.group for handle in object_properties(obj).handles}
-        if not self.group:
-            candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
-            self.group = next((name for name in candidates if name not in held), "")
-            if not self.group:
-                return report_all(self, "", ["Every vertex group already has a handle"])
         try:
-            vertex_group(obj, self.group)
+            self.group = group_to_add(obj, self.group, held, "has a handle")
         except CubicCraftError as error:
             return report_all(self, "", [str(error)])
-        if self.group in held:
-            return report_all(self, "", [f'"{self.group}" already has a handle'])
         add_handle(obj, self.group)
         return report_all(self, f'Added a handle for "{self.group}"', [])

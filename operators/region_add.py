@@ -6,11 +6,10 @@ from bpy.props import StringProperty
 
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.mesh_bridge import vertex_group
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver.errors import CubicCraftError
-from ._shared.active_handle import poll_mesh
 from ._shared.active_region import add_region
+from ._shared.group_to_add import group_to_add, poll_groups
 from ._shared.selection import report_all
 
 
@@ -34,28 +33,14 @@ class CUBIC_CRAFT_OT_region_add(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """There is a mesh with a vertex group."""
-        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
-            return False
-        if not panel_object(context).vertex_groups:
-            cls.poll_message_set(
-                "The mesh has no vertex group; add one, or use Region from Selection"
-            )
-            return False
-        return True
+        return poll_groups(cls, context, "Region from Selection")
 
     def execute(self, context):
         """Add the region with the settings of the object."""
         obj = panel_object(context)
         taken = {region.group for region in object_properties(obj).regions}
-        if not self.group:
-            candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
-            self.group = next((name for name in candidates if name not in taken), "")
-            if not self.group:
-                return report_all(self, "", ["Every vertex group already is a region"])
         try:
-            vertex_group(obj, self.group)
-            if self.group in taken:
-                raise CubicCraftError(f'"{self.group}" already is a region')
+            self.group = group_to_add(obj, self.group, taken, "is a region")
             add_region(obj, self.group, live.settings_now(obj))
         except CubicCraftError as error:
             return report_all(self, "", [str(error)])

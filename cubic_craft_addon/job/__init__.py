@@ -6,9 +6,18 @@
 """
 
 from .job import Job, Step
-from .watched import FIRST_SLICE, WatchedJob, current
+from .watched import FIRST_SLICE, AnyJob, WatchedJob, current
 
-__all__ = ("FIRST_SLICE", "Job", "Step", "WatchedJob", "current", "register", "unregister")
+__all__ = (
+    "FIRST_SLICE",
+    "AnyJob",
+    "Job",
+    "Step",
+    "WatchedJob",
+    "current",
+    "register",
+    "unregister",
+)
 
 
 def register():

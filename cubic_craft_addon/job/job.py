@@ -48,6 +48,8 @@ class Job:
         The active one first.
     """
 
+    cancel_text = "Cancel Cubify"
+
     def __init__(self, overrides: SettingsOverrides, objects: list[bpy.types.Object]):
         self._overrides = overrides
         self._problems: list[str] = []
@@ -80,6 +82,10 @@ class Job:
         for task in self._tasks:
             task.source = sources.get(task.uid)
             task.is_seen = task.source is not None
+
+    def stop(self) -> bool:
+        """Return False: nothing is done before all is."""
+        return False
 
     def discard(self) -> None:
         """Remove objects that were made but not written."""

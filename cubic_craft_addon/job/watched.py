@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import contextlib
 import time
+from collections.abc import Generator
+from typing import Protocol
 
 import bpy
 from bpy.app.handlers import persistent
 
+from ..environment import handlers
 from ..run.failures import UNEXPECTED
 from ..screen import status_text
 from ..screen.redraw import redraw_panels
-from .job import Job, Step
+from .job import Step
 
 FIRST_SLICE = 0.7
 """seconds to work without a pause: most meshes are done by then, and nothing flickers"""
@@ -23,6 +26,35 @@ _SLICE = 0.05  # seconds per tick, plus the last phase of the solver
 _TIMER_STEP = 0.01  # seconds between two ticks
 _REDRAW_STEP = 0.1  # seconds between two redraws of the progress bar
 _BAR_WIDTH = 12  # in units of the interface, wide enough for iteration and energy
+
+
+class AnyJob(Protocol):
+    """Work in steps, such as `Job`, that changes nothing before it is written."""
+
+    cancel_text: str
+    """what Esc does"""
+
+    @property
+    def obstacle(self) -> str:
+        """Why it cannot continue after other code has run; or empty."""
+        ...
+
+    def steps(self) -> Generator[Step]:
+        """Do the work."""
+        ...
+
+    def stop(self) -> bool:
+        """End soon, so that what is done is written; return False if that is not possible."""
+        ...
+
+    def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
+        """Write the results, as `Job.write`."""
+        ...
+
+    def discard(self) -> None:
+        """Remove what was made but not written."""
+        ...
+
 
 _current: WatchedJob | None = None
 
@@ -45,8 +77,9 @@ class WatchedJob:
         Why it was cancelled, empty if the artist cancelled it; None if it was not cancelled.
     """
 
-    def __init__(self, job: Job):
-        self._job: Job | None = job
+    def __init__(self, job: AnyJob):
+        self._job: AnyJob | None = job
+        self.cancel_text = job.cancel_text
         self._steps = job.steps()
         self._timer = None
         self._next_redraw = 0.0
@@ -67,8 +100,7 @@ class WatchedJob:
         """Show the progress, and make the window send the events for `tick`."""
         global _current
         _current = self
-        for name, handler in _HANDLERS:
-            getattr(bpy.app.handlers, name).append(handler)
+        handlers.install(_HANDLERS)
         self._timer = bpy.context.window_manager.event_timer_add(_TIMER_STEP, window=window)
         self._redraw()
 
@@ -91,6 +123,11 @@ class WatchedJob:
         finally:
             self.close()
 
+    def stop(self) -> None:
+        """Do what Esc does: cancel, or end soon with what is done."""
+        if self._job is None or not self._job.stop():
+            self.cancel()
+
     def cancel(self, reason: str = "") -> None:
         """Cancel; nothing has changed."""
         self.reason = reason
@@ -107,10 +144,7 @@ class WatchedJob:
         if _current is not self:
             return
         _current = None
-        for name, handler in _HANDLERS:
-            installed = getattr(bpy.app.handlers, name)
-            if handler in installed:
-                installed.remove(handler)
+        handlers.remove(_HANDLERS)
         if self._timer is not None:
             bpy.context.window_manager.event_timer_remove(self._timer)
         status_text.hide()
@@ -126,7 +160,7 @@ def _draw_status(header, _context):
     if _current is None:
         return
     layout = header.layout
-    layout.label(text="Cancel Cubify", icon="EVENT_ESC")
+    layout.label(text=_current.cancel_text, icon="EVENT_ESC")
     row = layout.row()
     row.ui_units_x = _BAR_WIDTH
     row.progress(text=_current.step.texts[0], factor=_current.step.factor)

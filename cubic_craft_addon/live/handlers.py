@@ -4,6 +4,7 @@
 import bpy
 from bpy.app.handlers import persistent
 
+from ..environment import handlers
 from .machine import Event
 
 _session = None
@@ -71,17 +72,13 @@ def install(session):
     """Notify the session of what happens."""
     global _session
     _session = session
-    for name, handler in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    handlers.install(_HANDLERS)
 
 
 def remove():
     """Undo `install`."""
     global _session
-    for name, handler in _HANDLERS:
-        installed = getattr(bpy.app.handlers, name)
-        if handler in installed:
-            installed.remove(handler)
+    handlers.remove(_HANDLERS)
     _session = None
 
 

@@ -5,6 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import mesh_bridge
+from ..environment.handlers import install, remove
 from . import handlers
 
 
@@ -14,20 +15,18 @@ def _heal(*_):
         mesh_bridge.end_all_previews()
 
 
-_NAMES = ("undo_post", "redo_post", "load_post")
+_HANDLERS = [(name, _heal) for name in ("undo_post", "redo_post", "load_post")]
 
 
 def register():
     """Watch for them."""
-    for name in _NAMES:
-        getattr(bpy.app.handlers, name).append(_heal)
+    install(_HANDLERS)
     # The file that is open now; at startup it cannot be read while extensions are registered.
     bpy.app.timers.register(_heal, first_interval=0.0)
 
 
 def unregister():
     """Stop watching."""
-    for name in _NAMES:
-        getattr(bpy.app.handlers, name).remove(_heal)
+    remove(_HANDLERS)
     if bpy.app.timers.is_registered(_heal):
         bpy.app.timers.unregister(_heal)

@@ -6,8 +6,9 @@ them, the bridge keeps its own attributes and one custom property on the mesh (s
 Restore and Apply remove without a trace.
 """
 
+from .access.carried import carried_attributes
 from .access.checks import check_editable, check_usable, mesh_of
-from .access.evaluated import read_evaluated
+from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import read_selected_faces
 from .access.triangulation import triangles
@@ -23,18 +24,20 @@ from .memory.original import (
 )
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
-from .result.new_object import write_new_object
+from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
+from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
-from .result.seen import KINDS, make_seen, remove_seen, write_seen
+from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
 
 __all__ = (
     "KINDS",
     "LastRun",
     "Preview",
     "Start",
+    "carried_attributes",
     "check_editable",
     "check_usable",
     "discard_original",
@@ -46,16 +49,23 @@ __all__ = (
     "has_traces",
     "is_edited",
     "last_run",
+    "link_beside",
     "make_seen",
     "mesh_of",
+    "move_seen",
     "original_positions",
+    "plain_copy",
     "read_evaluated",
+    "read_evaluated_points",
     "read_positions",
     "read_selected_faces",
+    "remove_copy",
     "remove_seen",
     "restore",
     "result_positions",
+    "select_instead",
     "set_groups_aside",
+    "show_seen",
     "starts_here",
     "triangles",
     "vertex_group",

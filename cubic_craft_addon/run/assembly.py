@@ -73,6 +73,32 @@ class Prepared:
         )
         return replace(self, members=members)
 
+    def posed(self, members: Sequence[Member]) -> Prepared:
+        """Return the same objects in another pose and with other settings, without a factorisation.
+
+        Parameters
+        ----------
+        members : sequence of Member
+            With the shape and the placements of that pose; the rest is as in the first.
+        """
+        begin = time.perf_counter()
+        placements = _placements(members)
+        setup = self.without_holds.posed(_placed(members, placements))
+        holds = holds_of(members, placements, setup.rest)
+        without_holds = setup
+        if holds:
+            setup = setup.with_holds([hold.weights for hold in holds])
+        seconds = time.perf_counter() - begin
+        return replace(
+            self,
+            members=tuple(members),
+            placements=placements,
+            setup=setup,
+            without_holds=without_holds,
+            holds=holds,
+            seconds=seconds,
+        )
+
     def parts(self) -> Iterator[tuple[Member, Placement, slice]]:
         """Yield each member with its placement and its part of the arrays, see `parts_of`."""
         return parts_of(self.members, self.placements)
@@ -170,12 +196,21 @@ def _rest(members, placements, earlier):
             return rest
         if replace(before, solidity=proxy.solidity) == proxy:
             return rest.with_solidity(proxy.solidity)
-    positions, triangles = [], []
+    triangles = []
     for member, placement, part in parts_of(members, placements):
         F = member.whole.triangles
-        positions.append(placement.place(member.whole.images(member.shape.original)))
         triangles.append(part.start + (F[:, ::-1] if placement.is_mirrored else F))
-    return solver.rest_mesh(np.concatenate(positions), np.concatenate(triangles), proxy)
+    return solver.rest_mesh(_placed(members, placements), np.concatenate(triangles), proxy)
+
+
+def _placed(members, placements):
+    """Return the shapes of all members (N,3) where they are solved."""
+    return np.concatenate(
+        [
+            placement.place(member.whole.images(member.shape.original))
+            for member, placement in zip(members, placements, strict=True)
+        ]
+    )
 
 
 def _has_shapes(prepared, members, placements):

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...solver.styles.blending import Style, blended
+from ...solver.styles.blending import Style, blended, numbered
 from ...solver.styles.cube import proper
 from ...solver.styles.forms import cube
 from ...solver.styles.polytope import Polytope
@@ -38,17 +38,15 @@ def styles(prepared: Prepared) -> Styles:
     found = [_of_member(member, placement) for member, placement, _ in prepared.parts()]
     counts = [len(member.whole.source) for member in prepared.members]
     cubeness, orientation = _joined_cubeness(found, counts), _joined(found, counts)
-    if not any(body for style in found for body in style.bodies):
+    distinct, number = numbered([body for style in found for body in style.bodies])
+    if not any(distinct):
         if not any(placement.capture for placement in prepared.placements):
             orientation = proper(orientation)
         return Styles(cubeness, orientation, None, None)
-    distinct = list({body and body.key: body for style in found for body in style.bodies}.values())
-    numbers = {body and body.key: number for number, body in enumerate(distinct)}
+    ends = np.cumsum([len(style.bodies) for style in found])[:-1]
     form_of = [
-        np.broadcast_to(
-            np.array([numbers[body and body.key] for body in style.bodies])[style.body_of], count
-        )
-        for style, count in zip(found, counts, strict=True)
+        np.broadcast_to(own[style.body_of], count)
+        for style, own, count in zip(found, np.split(number, ends), counts, strict=True)
     ]
     bodies = [body or cube() for body in distinct]
     return Styles(cubeness, orientation, bodies, np.concatenate(form_of))

@@ -4,7 +4,6 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 from functools import lru_cache
-from hashlib import blake2b
 
 import bpy
 import numpy as np
@@ -20,12 +19,10 @@ from ..environment.requirements import check_requirements
 from ..settings.direction_text import read_directions
 from ..settings.forms import OF_OBJECT
 from ..settings.values import Settings
-from .form_cache import form_kept
+from .object_cache import kept, once
 
 MOST_DIRECTIONS = 64
 """of a form from another object, or from selected faces"""
-_MOST_MADE = 16  # forms of objects that are remembered
-_made: dict[tuple, Polytope] = {}
 _NAMED = {
     "ROUNDED": forms.rounded_cube,
     "OCTAHEDRON": forms.octahedron,
@@ -91,7 +88,7 @@ def _of_object(settings):
     bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
     linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
     what = (settings.form, linear.tobytes())
-    return form_kept(obj, what, lambda: _made_of(obj, settings.form, linear))
+    return kept(obj, what, lambda: _made_of(obj, settings.form, linear))
 
 
 def _made_of(obj, form, linear):
@@ -99,22 +96,12 @@ def _made_of(obj, form, linear):
     points = points @ linear.T  # in the axes of the world, about the object's origin
     try:
         if form == "OBJECT":
-            return _once(_hull, points)
+            return once(_hull, points)
         areas, normals = solver.triangle_areas_and_normals(points, triangles)
         normals *= np.sign(np.linalg.det(linear))
-        return _once(_facing, normals, areas)
+        return once(_facing, normals, areas)
     except CubicCraftError as error:
         raise CubicCraftError(f'"{obj.name}" gives no form: {error}') from error
-
-
-def _once(make, *arrays):
-    """Return the same form for the same arrays, which are not kept: they may be large."""
-    key = make, *(blake2b(array.tobytes()).digest() for array in arrays)
-    if key not in _made:
-        if len(_made) >= _MOST_MADE:
-            del _made[next(iter(_made))]
-        _made[key] = make(*arrays)
-    return _made[key]
 
 
 def _hull(points):

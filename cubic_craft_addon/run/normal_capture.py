@@ -4,7 +4,6 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import hashlib
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -16,6 +15,7 @@ from ...solver.rest_measures import areas_and_normals
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
 from ..settings.values import Settings
+from .object_cache import kept, once
 
 if TYPE_CHECKING:
     from .assembly import Prepared
@@ -46,18 +46,10 @@ def capture_of(obj: bpy.types.Object, settings: Settings) -> solver.NormalCaptur
     if ball == obj:
         raise CubicCraftError(f'"{obj.name}" cannot be its own normal capture; pick another ball')
     check_requirements()
-    points, triangles, before = _read(ball)
+    bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
     linear = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)
-    side = np.sign(np.linalg.det(linear))
-    points = points @ linear.T  # in the axes of the world, about the object's origin
-    normals = side * areas_and_normals(points, triangles)[1]
-    directions = points
-    if before is not None:
-        directions = side * areas_and_normals(before @ linear.T, triangles)[1]
-    try:
-        return _made(directions.tobytes(), normals.tobytes())
-    except CubicCraftError as error:
-        raise CubicCraftError(f'"{ball.name}" is no normal capture: {error}') from error
+    what = ("capture", _has_original(ball), linear.tobytes())
+    return kept(ball, what, lambda: _made_of(ball, linear))
 
 
 def note_of(settings: Settings) -> Any:
@@ -66,14 +58,11 @@ def note_of(settings: Settings) -> Any:
     if ball is None or not has_capture(settings):
         return None
     try:
-        content = _read(ball)
+        digest = kept(ball, ("note", _has_original(ball)), lambda: _digest(ball))
     except CubicCraftError:
         return None
-    found = hashlib.sha256()
-    for values in content:
-        found.update(b"" if values is None else values.tobytes())
     turn = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)
-    return [found.hexdigest(), {"matrix": turn.ravel().tolist()}]
+    return [digest, {"matrix": turn.ravel().tolist()}]
 
 
 def captures(prepared: Prepared) -> dict[str, Any]:
@@ -106,15 +95,33 @@ def _read(ball):
     points, triangles = mesh_bridge.read_evaluated(ball)
     if not len(triangles):
         raise CubicCraftError(f'"{ball.name}" has no surface; pick another object')
-    mesh = ball.data
-    if isinstance(mesh, bpy.types.Mesh) and mesh_bridge.has_original(mesh):
-        before = mesh_bridge.original_positions(mesh, "ORIGINAL")
+    if _has_original(ball):
+        before = mesh_bridge.original_positions(ball.data, "ORIGINAL")
         if len(before) == len(points):
             return points, triangles, before.astype(np.float64)
     return points, triangles, None
 
 
-@lru_cache(maxsize=8)
-def _made(directions, normals):
-    d, n = (np.frombuffer(values).reshape(-1, 3) for values in (directions, normals))
-    return solver.NormalCapture(d, n)
+def _has_original(ball):
+    return isinstance(ball.data, bpy.types.Mesh) and mesh_bridge.has_original(ball.data)
+
+
+def _made_of(ball, linear):
+    points, triangles, before = _read(ball)
+    side = np.sign(np.linalg.det(linear))
+    points = points @ linear.T  # in the axes of the world, about the object's origin
+    normals = side * areas_and_normals(points, triangles)[1]
+    directions = points
+    if before is not None:
+        directions = side * areas_and_normals(before @ linear.T, triangles)[1]
+    try:
+        return once(solver.NormalCapture, directions, normals)
+    except CubicCraftError as error:
+        raise CubicCraftError(f'"{ball.name}" is no normal capture: {error}') from error
+
+
+def _digest(ball):
+    found = hashlib.sha256()
+    for values in _read(ball):
+        found.update(b"" if values is None else values.tobytes())
+    return found.hexdigest()

@@ -67,25 +67,38 @@ def start(prepared: Prepared) -> solver.Run:
     CubicCraftError
         A setting is invalid, or the device is not available.
     """
-    use_extension_folder()
     settings = prepared.settings
-    style = styles(prepared)
     try:
-        stylization = solver.Stylization(
-            prepared.setup,
-            style.cubeness,
-            style.orientation,
-            targets(prepared),
-            style.form,
-            style.form_of,
-            device=settings.device.lower(),
-            keep_rotation=settings.rotation == "KEEP",
-            hold_matrices=[hold.matrix for hold in prepared.holds],
-            **captures(prepared),
-        )
+        stylization = stylization_of(prepared)
         return solver.Run(stylization, settings.max_iterations, settings.tolerance)
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
+
+
+def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver.Stylization:
+    """Return a new Stylization with the settings of the members.
+
+    Raises
+    ------
+    CubicCraftError
+        As `start`, without the name.
+    """
+    use_extension_folder()
+    settings = prepared.settings
+    style = styles(prepared)
+    return solver.Stylization(
+        prepared.setup,
+        style.cubeness,
+        style.orientation,
+        targets(prepared),
+        style.form,
+        style.form_of,
+        device=settings.device.lower(),
+        keep_rotation=settings.rotation == "KEEP",
+        hold_matrices=[hold.matrix for hold in prepared.holds],
+        is_accelerated=is_accelerated,
+        **captures(prepared),
+    )
 
 
 def solve(
@@ -114,14 +127,14 @@ def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: boo
     One pair per member. The rotations take time, and are None unless requested.
     """
     if with_rotations:
-        return _read_back(prepared, *run.placed())
-    return _read_back(prepared, run.positions(), None)
+        return read_back(prepared, *run.placed())
+    return read_back(prepared, run.positions(), None)
 
 
 def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
     """Return a Solution for each member; the run cannot be continued afterwards."""
     result = run.result()
-    found = _read_back(prepared, result.positions, result.rotations)
+    found = read_back(prepared, result.positions, result.rotations)
     return tuple(
         Solution(
             positions,
@@ -174,7 +187,7 @@ def write(
     return obj
 
 
-def _read_back(prepared, positions, rotations):
+def read_back(prepared, positions, rotations):
     """Return the results of the solver, for each member in its object's coordinates."""
     at_rest = prepared.setup.rest.input_positions
     if prepared.settings.floor:

@@ -16,6 +16,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import mesh_bridge
+from ..environment import handlers
 from ..object_properties import has_properties, object_properties
 
 _names: dict[str, tuple[str, ...]] = {}
@@ -85,15 +86,16 @@ def _name_now(old, names, renames):
     return new if new in names else old
 
 
+_HANDLERS = (("depsgraph_update_post", _follow_updates), ("load_post", _start_anew))
+
+
 def register():
     """Add the handlers."""
-    bpy.app.handlers.depsgraph_update_post.append(_follow_updates)
-    bpy.app.handlers.load_post.append(_start_anew)
+    handlers.install(_HANDLERS)
 
 
 def unregister():
     """Remove the handlers."""
-    bpy.app.handlers.load_post.remove(_start_anew)
-    bpy.app.handlers.depsgraph_update_post.remove(_follow_updates)
+    handlers.remove(_HANDLERS)
     _names.clear()
     _renames.clear()

@@ -11,6 +11,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import live
+from ..environment import handlers
 from ..environment.requirements import check_requirements
 from ..run.angles import Angles, remaining_angles
 from ..run.object_frame import placement_alone
@@ -72,12 +73,10 @@ _HANDLERS = (
 
 def register():
     """Begin to listen to Blender."""
-    for name, handler in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    handlers.install(_HANDLERS)
 
 
 def unregister():
     """Listen no longer."""
-    for name, handler in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(handler)
+    handlers.remove(_HANDLERS)
     forget()

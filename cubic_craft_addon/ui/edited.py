@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
+from ..environment import handlers
 from ..object_properties import object_properties
 
 _known: dict[int, bool] = {}
@@ -67,12 +68,10 @@ _HANDLERS = (
 
 def register():
     """Begin to listen to Blender."""
-    for name, handler in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    handlers.install(_HANDLERS)
 
 
 def unregister():
     """Listen no longer."""
-    for name, handler in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(handler)
+    handlers.remove(_HANDLERS)
     _known.clear()

@@ -15,7 +15,16 @@ from ..run.up_to_date import changes_since
 from ..screen.text_fit import room_for_text, wrapped
 from ..settings.forms import OF_OBJECT
 from ..settings.region import object_regions
-from . import angles_overlay, edited, form_panel, overlay, seen, status_panel
+from . import (
+    angles_overlay,
+    animation_panel,
+    edited,
+    form_panel,
+    overlay,
+    seen,
+    send_panel,
+    status_panel,
+)
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
 from . import regions_panel as regions_panel
@@ -158,6 +167,8 @@ _SECTIONS = (
     (regions_panel.SECTION, "Regions", regions_panel.draw, True),
     ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
     ("CUBIC_PT_result", "Result", _draw_result, False),
+    (animation_panel.SECTION, "Animation", animation_panel.draw, True),
+    (send_panel.SECTION, "Send To", send_panel.draw, True),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),
 )
 _SWITCHES = {

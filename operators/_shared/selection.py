@@ -96,6 +96,14 @@ def poll_work(operator_class, context):
     return True
 
 
+def poll_object_mode(operator_class, context):
+    """Return whether it is Object Mode, not one of those in which Cubify works too."""
+    if context.mode == "OBJECT":
+        return True
+    operator_class.poll_message_set(MESSAGE)
+    return False
+
+
 def poll_usable(operator_class, context):
     """Return whether a mesh can be cubified, and set the message of the first one if not."""
     return poll_meshes(operator_class, context) and poll_any_usable(

@@ -11,7 +11,7 @@ SCRIPTING = (ROOT / "docs" / "scripting.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
-    ("page", "title"), examples(in_blender=True), ids=lambda value: getattr(value, "name", value)
+    ("page", "title"), examples("bpy"), ids=lambda value: getattr(value, "name", value)
 )
 def test_example_runs(page, title):
     assert run_example(page, title)

@@ -40,6 +40,13 @@ def run_flatten(**options):
     return lambda: bpy.ops.cubic_craft.flatten(angle=0.7, tolerance=0.1, **options)
 
 
+def bake_normal_map():
+    """Bake to a file of the same name each time."""
+    for path in Path(bpy.data.filepath).parent.glob("*.png"):
+        path.unlink()
+    return bpy.ops.cubic_craft.bake_normal_map(flatten=False, triangles=300, resolution=64)
+
+
 # What was done before, what fails, and what is there once it does not.
 SCENARIOS = {
     "mesh": (None, run_cubify("MESH")),
@@ -54,6 +61,7 @@ SCENARIOS = {
     "flatten a mesh": ("MESH", run_flatten()),
     "flatten a key to n-gons": ("SHAPE_KEY", run_flatten(dissolve=True)),
     "flatten what was edited to n-gons": ("edited", run_flatten(dissolve=True)),
+    "bake a normal map": ("MESH", bake_normal_map),
 }
 
 

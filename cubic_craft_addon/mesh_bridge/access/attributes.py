@@ -75,7 +75,7 @@ def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
     """
     with active_kept(mesh):
         data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"
-        free = _free_name()
+        free = free_name()
         mesh.attributes.new(free, data_type, "POINT")
         mesh.attributes[free].name = name
         attribute = mesh.attributes[name]
@@ -88,7 +88,7 @@ def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
 def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
     """Remove an attribute by name."""
     with active_kept(mesh):
-        free = _free_name()
+        free = free_name()
         mesh.attributes[name].name = free
         mesh.attributes.remove(mesh.attributes[free])
 
@@ -130,6 +130,6 @@ def _is_ours(attribute: bpy.types.Attribute) -> bool:
     return attribute.domain == "POINT" and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
 
 
-def _free_name() -> str:
+def free_name() -> str:
     """Return a name that no attribute or vertex group has."""
     return uuid.uuid4().hex

@@ -1,11 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of an object as it is seen, with its modifiers; nothing is changed."""
 
+import contextlib
+
 import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
 from .arrays import corner_vertices
+
+
+def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
+    """Read only the positions.
+
+    Returns
+    -------
+    points : (n,3) numpy float32 array, object space
+    corners : int
+        Number of corners of all faces.
+
+    Raises
+    ------
+    CubicCraftError
+        It has no surface.
+    """
+    with _evaluated_mesh(obj) as mesh:
+        return _points(mesh), len(mesh.loops)
 
 
 def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
@@ -21,6 +41,18 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     CubicCraftError
         It has no surface.
     """
+    with _evaluated_mesh(obj) as mesh:
+        points = _points(mesh)
+        if len(mesh.loops) == 3 * len(mesh.polygons):
+            return points, corner_vertices(mesh).reshape(-1, 3)  # much faster
+        mesh.calc_loop_triangles()
+        triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    return points, triangles
+
+
+@contextlib.contextmanager
+def _evaluated_mesh(obj):
     try:
         evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
         mesh = evaluated.to_mesh()
@@ -28,13 +60,12 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
         raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
     assert mesh is not None
     try:
-        points = np.empty((len(mesh.vertices), 3), np.float32)
-        mesh.vertices.foreach_get("co", points.ravel())
-        if len(mesh.loops) == 3 * len(mesh.polygons):
-            return points, corner_vertices(mesh).reshape(-1, 3)  # much faster
-        mesh.calc_loop_triangles()
-        triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
-        mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+        yield mesh
     finally:
         evaluated.to_mesh_clear()
-    return points, triangles
+
+
+def _points(mesh):
+    points = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", points.ravel())
+    return points

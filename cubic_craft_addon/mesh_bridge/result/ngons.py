@@ -7,10 +7,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..access.arrays import mark_moved, write_position
 from ..access.checks import mesh_of
 from .new_object import link_beside, select_instead
-from .restore import discard_original
+from .plain_copy import plain_copy, remove_copy
 
 _ANGLE = 1e-3  # radians; small triangles of a facet are off by the rounding of their corners
 
@@ -47,39 +46,21 @@ def write_ngons(
     """
     mesh = mesh_of(obj)
     active, is_selected = bpy.context.view_layer.objects.active, obj.select_get()
-    new_mesh, new = mesh.copy(), obj.copy()
-    assert new_mesh is not None and new is not None
+    new = plain_copy(obj, positions)
     try:
-        new.data = new_mesh  # first, so that shape keys are removed from the copy alone
-        _strip(new, new_mesh)
-        write_position(new_mesh, positions)
-        mark_moved(new_mesh)
+        new_mesh = mesh_of(new)
         _dissolve(new_mesh, _facet_of_faces(new_mesh, facet_of))
         new_mesh.name, new.name = f"{mesh.name} Facets", f"{obj.name} Facets"
         link_beside(obj, new)
         select_instead(obj, new)
         finish()
     except BaseException:
-        bpy.data.objects.remove(new)
-        bpy.data.meshes.remove(new_mesh)
+        remove_copy(new)
         if is_selected:
             obj.select_set(True)
         bpy.context.view_layer.objects.active = active
         raise
     return new
-
-
-def _strip(new: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
-    """Remove what does not fit fewer vertices: the shape keys and all data of ours."""
-    if mesh.shape_keys is not None:
-        name = mesh.shape_keys.name
-        new.shape_key_clear()
-        left = bpy.data.shape_keys.get((name, None))
-        if left is not None:  # Blender counts a user too many for copied shape keys
-            bpy.data.batch_remove((left,))
-    new.active_shape_key_index = 0
-    new.show_only_shape_key = False
-    discard_original(mesh)
 
 
 def _facet_of_faces(mesh: bpy.types.Mesh, facet_of: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
+from ..access.arrays import mark_moved, write_position
 from ..access.attributes import our_attributes, remove_attribute
 from ..access.checks import mesh_of
 from ..access.note import NOTE, read_note
@@ -95,6 +96,19 @@ def write_seen(
         remove_seen(new)
         raise
     return new
+
+
+def move_seen(new: bpy.types.Object, positions: np.ndarray) -> None:
+    """Move the vertices of an object made by `make_seen` to positions (n,3), for good."""
+    mesh = mesh_of(new)
+    write_position(mesh, positions)
+    mark_moved(mesh)
+
+
+def show_seen(new: bpy.types.Object, source: bpy.types.Object) -> None:
+    """Show an object made by `make_seen` beside the source."""
+    link_beside(source, new)
+    select_instead(source, new)
 
 
 def _forget_ours(mesh: bpy.types.Mesh) -> None:

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Forms of other objects are kept while nothing changes, and never longer."""
+"""What is made from other objects is kept while nothing changes, and never longer."""
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import add_monkey
+from scene import add_monkey, cubify, select
 from test_form_settings import add_solid
 
 
 @pytest.fixture
 def cache(part):
-    module = part("run.form_cache")
-    module._forms.clear()
+    module = part("run.object_cache")
+    module._kept.clear()
     yield module
-    module._forms.clear()
+    module._kept.clear()
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def check_is_new(cache, body, before):
     """Check that the form is another one: the one that is made without what was kept."""
     found = body()
     assert found.shape != before.shape or np.abs(found - before).max() > 1e-3
-    cache._forms.clear()
+    cache._kept.clear()
     np.testing.assert_array_equal(found, body())
 
 
@@ -184,7 +184,7 @@ def test_another_file_is_another_form(cache, body, reopen):
     prepare()
     before = body()
     reopen("Suzanne")
-    assert not cache._forms
+    assert not cache._kept
     edit_vertices(bpy.data.objects["Gem"])
     check_is_new(cache, body, before)
 
@@ -196,7 +196,7 @@ def test_an_object_in_no_scene_is_read_each_time(cache, counted, body):
     gem.data.transform(Matrix.Diagonal((1, 1, 3, 1)))
     before = len(counted)
     body()
-    assert len(counted) == before + 1 and not cache._forms
+    assert len(counted) == before + 1 and not cache._kept
 
 
 def test_a_hidden_object_is_read_each_time(cache, counted, body):
@@ -205,7 +205,7 @@ def test_a_hidden_object_is_read_each_time(cache, counted, body):
     before = len(counted)
     body()
     body()
-    assert len(counted) == before + 2 and not cache._forms
+    assert len(counted) == before + 2 and not cache._kept
 
 
 def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch):
@@ -214,7 +214,7 @@ def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch)
     try:
         body()
         body()
-        assert len(counted) == 2 and not cache._forms
+        assert len(counted) == 2 and not cache._kept
     finally:
         bpy.app.handlers.depsgraph_update_post.append(cache._on_update)
 
@@ -225,4 +225,48 @@ def test_few_forms_are_kept(cache, body):
         gem.scale.z = 1.0 + k / 10
         bpy.context.view_layer.update()
         body()
-    assert 0 < len(cache._forms) <= cache._MOST
+    assert 0 < len(cache._kept) <= cache._MOST
+
+
+def add_capture():
+    """Add the monkey and a stretched ball that is its normal capture."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, location=(9, 0, 0))
+    ball = bpy.context.object
+    ball.data.transform(Matrix.Diagonal((1, 1, 2, 1)))
+    monkey = add_monkey()
+    monkey.cubic_craft.capture_object = ball
+    return monkey, ball
+
+
+def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache, counted, part):
+    settings_of = part("settings.properties").settings_of
+    capture_of, note_of = part("run.normal_capture").capture_of, part("run.normal_capture").note_of
+    monkey, ball = add_capture()
+
+    def look():
+        settings = settings_of(monkey)
+        return capture_of(monkey, settings), note_of(settings)
+
+    first = look()
+    assert look() == first and look() == first
+    assert len(counted) == 2
+    stretch(ball.data)
+    ball.data.update()
+    again = look()
+    assert again[0] is not first[0] and again[1] != first[1]
+    assert len(counted) == 4
+    ball.rotation_euler.x = 0.5
+    assert look()[0] is not again[0]
+
+
+def test_a_capture_is_another_one_once_its_ball_is_cubified_and_when_it_is_applied(cache, part):
+    settings_of = part("settings.properties").settings_of
+    capture_of = part("run.normal_capture").capture_of
+    monkey, ball = add_capture()
+    before = capture_of(monkey, settings_of(monkey))
+    select(ball)
+    cubify(max_iterations=20, refine="OFF")
+    cubic = capture_of(monkey, settings_of(monkey))
+    assert cubic is not before
+    bpy.ops.cubic_craft.apply()
+    assert capture_of(monkey, settings_of(monkey)).key != cubic.key

@@ -1,0 +1,391 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The work of one Cubify Animation, step by step.
+
+Nothing is changed before the end but the current frame, which comes back, and the files in the
+folder. When it is stopped, the frames that are done are kept, and the next bake continues there.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import time
+from collections.abc import Generator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from ... import solver
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..job.job import Step
+from ..run.assembly import assemblies
+from ..run.object_frame import Placement, placements
+from ..settings.overrides import SettingsOverrides
+from ..settings.values import Settings
+from .animated import Animated, AnimatedGroup
+from .even_speed import even_places, largest_steps, resampled
+from .exchange import SUFFIXES, check_format
+from .options import BakeOptions, BakeResult
+from .parts import lead_in
+from .playback import play, shown
+from .point_cache import new_point_cache
+from .recording import Recording
+
+_SAVED_EVERY = 10.0  # seconds
+_MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
+_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
+
+
+@dataclass
+class _Work:
+    """A group, and what is there of its frames."""
+
+    group: AnimatedGroup
+    recording: Recording
+
+
+@dataclass(frozen=True)
+class _Item:
+    """An object, for `assemblies`."""
+
+    one: Animated
+    settings: Settings
+    in_world: Placement | None
+
+
+class Bake:
+    """Objects whose frames are to be cubified, as a job of `WatchedJob`.
+
+    Parameters
+    ----------
+    overrides : SettingsOverrides
+    sources : list of bpy.types.Object
+        The active one first.
+    options : BakeOptions
+
+    Raises
+    ------
+    CubicCraftError
+        There are no frames, or the format or the folder cannot be used.
+
+    Attributes
+    ----------
+    baked, results : list of bpy.types.Object and BakeResult
+        What was written.
+    """
+
+    cancel_text = "Stop, and Keep the Frames"
+
+    def __init__(
+        self,
+        overrides: SettingsOverrides,
+        sources: Sequence[bpy.types.Object],
+        options: BakeOptions,
+    ):
+        if not options.frames:
+            raise CubicCraftError("the last frame comes before the first; change the range")
+        check_format(SUFFIXES.get(options.file_format, ""))
+        _make_folder(options.folder)
+        self._overrides, self._sources, self._options = overrides, sources, options
+        self._problems: list[str] = []
+        self._made: list[Animated] = []
+        self._works: list[_Work] = []
+        self._is_stopped = False
+        self.baked: list[bpy.types.Object] = []
+        self.results: list[BakeResult] = []
+        self._next_save = 0.0
+        self._begin = time.perf_counter()
+        self._scene = bpy.context.scene
+        self._frame = self._scene.frame_current, self._scene.frame_subframe
+        self._hidden = [source for source in sources if not source.visible_get()]
+        for source in self._hidden:  # or it would not be evaluated
+            source.hide_set(False)
+
+    # -- solving -----------------------------------------------------------------------------------
+
+    def steps(self) -> Generator[Step]:
+        """Solve all frames; each turn does a phase of the solver."""
+        yield Step(("Preparing",), 0.0, is_long=True)
+        self._prepare()
+        if self._options.is_process:
+            yield from self._process_steps()
+            return
+        indices = self._options.indices
+        known = min((work.recording.count for work in self._works), default=0)
+        numbers = list(indices[known:])
+        if numbers and not known and indices.start:
+            numbers = [0, *(yield from self._lead_in(indices.start)), *numbers]
+        begin = time.perf_counter()
+        for done, number in enumerate(numbers):
+            if self._is_stopped or not self._works:
+                break
+            frame = self._options.frames[number]
+            self._scene.frame_set(frame)
+            texts = self._texts(frame, done, len(numbers), begin)
+            if done and number > numbers[done - 1] + 1:  # between the first frame and a part
+                for work in self._works:
+                    work.group.forget()
+            try:
+                for work in self._works:
+                    if indices.start + work.recording.count <= number or number < indices.start:
+                        is_kept = number >= indices.start
+                        yield from self._solve(work, work.group.solve(), texts, is_kept=is_kept)
+            except CubicCraftError as error:
+                self._problems.append(f"Frame {frame}: {error}")
+                break
+            if time.perf_counter() > self._next_save:
+                self._save()
+
+    def _lead_in(self, count):
+        """Read the frames before a part; return the indices of those to solve for it."""
+        moments = [[] for _ in self._works]
+        for number in range(count):
+            self._scene.frame_set(self._options.frames[number])
+            try:
+                for its, work in zip(moments, self._works, strict=True):
+                    its.append(work.group.read_moment())
+            except CubicCraftError:
+                break  # which the bake says when it gets there
+            yield Step((f"Reading frame {self._options.frames[number]}",), 0.0)
+        begin = min(map(lead_in, moments), default=0)
+        return range(max(begin, 1), count)  # the first of all is solved anyway
+
+    def _process_steps(self):
+        """Raise the cubeness evenly, then go on until nothing moves any more."""
+        last = len(self._options.frames) - 1
+        for work in self._works:
+            group, recording = work.group, work.recording
+            try:
+                yield from self._begin_process(work)
+            except CubicCraftError as error:
+                self._problems.append(str(error))
+                continue
+            while not self._is_stopped and not (recording.count > last and group.is_settled):
+                number = recording.count
+                if number > last + _MOST_SETTLING:
+                    break
+                share = min(number / max(last, 1), 1.0)
+                text = f"{group.name}: {share:.0%}" if number <= last else f"{group.name} settles"
+                try:
+                    yield from self._solve(
+                        work, group.solve(share, is_again=number > last), (text,)
+                    )
+                except CubicCraftError as error:
+                    self._problems.append(str(error))
+                    break
+
+    def _begin_process(self, work):
+        """Solve the first frame of a process that does not begin with the original."""
+        overrides = self._options.process_from
+        if overrides is None or work.recording.count:
+            return
+        first = AnimatedGroup(work.group.objects, overrides, is_process=True)
+        frame = yield from self._solved(first.solve(), (f"{first.name}: where it begins",))
+        work.group.begin_as(first)
+        work.recording.append(frame, first.state, "")
+
+    def _prepare(self):
+        if not self._options.is_process:
+            self._scene.frame_set(self._options.start)
+        for source in self._sources:
+            try:
+                self._made.append(Animated(source, mesh_bridge.make_seen(source)))
+            except CubicCraftError as error:
+                self._problems.append(str(error))
+        items = []
+        for one in self._made:
+            settings = one.settings(self._overrides)
+            items.append(_Item(one, settings, placements(one.source, settings)[1]))
+        for group in assemblies(items):
+            try:
+                self._works.append(self._work([item.one for item in group]))
+            except CubicCraftError as error:
+                self._problems.append(str(error))
+
+    def _work(self, objects):
+        is_process = self._options.is_process
+        start = self._options.process_from
+        group = AnimatedGroup(objects, self._overrides, start, is_process=is_process)
+        path = self._path(objects[0], _UNFINISHED)
+        options = self._options
+        about = {**group.about, "start": options.start}
+        if options.is_process:
+            about["process"] = len(options.frames)
+        recording = Recording(path, about, group.vertices, options.part)
+        if recording.state is not None:
+            group.continue_from(recording.state, recording.moment, recording.last())
+        return _Work(group, recording)
+
+    def _solve(self, work, solving, texts, *, is_kept=True):
+        frame = yield from self._solved(solving, texts)
+        if is_kept:
+            work.recording.append(frame, work.group.state, work.group.moment)
+        yield Step(texts, self._factor)
+
+    def _solved(self, solving, texts) -> Generator[Step, None, solver.Frames]:
+        while True:
+            try:
+                next(solving)
+            except StopIteration as end:
+                return end.value
+            yield Step(texts, self._factor)
+
+    @property
+    def _factor(self):
+        count = min(work.recording.count for work in self._works)
+        return min(count / max(len(self._options.indices), 1), 1.0)
+
+    def _texts(self, frame, done, count, begin):
+        short = f"Frame {frame} of {self._options.frames[self._options.indices[-1]]}"
+        if not done:
+            return (short,)
+        left = (time.perf_counter() - begin) / done * (count - done)
+        return f"{short}, {_duration(left)} left", short
+
+    def stop(self) -> bool:
+        """End after the frame that is being solved, and return True."""
+        self._is_stopped = True
+        return True
+
+    # -- writing -----------------------------------------------------------------------------------
+
+    def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
+        """Write the files of what is solved, and make objects that play them back; not of a part.
+
+        Returns
+        -------
+        summary : str
+        problems : list of str
+
+        Raises
+        ------
+        CubicCraftError
+            No frame was solved, or not all of a part; the message lists all problems.
+        """
+        self._restore_scene()
+        self._save()
+        if self._options.part is not None:
+            if self._problems:
+                raise CubicCraftError("; ".join(self._problems))
+            return f"Solved {len(self._options.part)} of {len(self._options.frames)} frames", []
+        works = [work for work in self._works if work.recording.count]
+        if not works:
+            raise CubicCraftError("; ".join(self._problems) or "no frame was baked")
+        names = [self._write(work) for work in works]
+        return self._summary(works, [name for more in names for name in more]), self._problems
+
+    def _write(self, work):
+        recording, names = work.recording, []
+        width, ratios = self._smoothing(work)
+        frames, places = recording.count, None
+        if self._options.is_process:
+            frames = len(self._options.frames)
+            everything = recording.pieces(slice(0, work.group.vertices))
+            places = even_places(
+                largest_steps(piece.results(width) for _, piece in everything), frames
+            )
+        for one, vertices in work.group.parts():
+            path = self._path(one, ".pc2")
+            with new_point_cache(path, frames, one.vertices) as positions:
+                for columns, piece in recording.pieces(vertices):
+                    results = piece.results(width)
+                    if places is not None:
+                        results = resampled(results, places)
+                    positions[:, columns] = results
+            self._made.remove(one)
+            with shown(one.source, one.new, path) as baked:
+                names.append(play(baked, path, self._options.file_format, self._options.start))
+            self.baked.append(baked)
+            self.results.append(
+                BakeResult(one.source.name, frames, width, *(round(x, 4) for x in ratios))
+            )
+        if self._options.is_process or frames == len(self._options.frames):
+            recording.remove()
+        return names
+
+    def _smoothing(self, work):
+        """Return over how many frames to smooth, and how far vertices jump then."""
+        if self._options.is_process:
+            return 0.0, (0.0, 0.0)  # the original lies still; the speed is made even instead
+
+        def everything():
+            return (piece for _, piece in work.recording.pieces(slice(0, work.group.vertices)))
+
+        width, ratios = solver.least_width(everything)
+        if max(ratios) > solver.MOST_JUMPS:
+            self._problems.append(
+                f"{work.group.name} jumps up to {max(ratios):.1f} times as far as the original,"
+                " even smoothed; a lower cubeness is steadier"
+            )
+        return width, ratios
+
+    def _summary(self, works, names):
+        count = min(result.frames for result in self.results)
+        frames = self._options.frames
+        what = names[0] if len(names) == 1 else f"{len(names)} objects"
+        seconds = time.perf_counter() - self._begin
+        if count == len(frames):
+            return f"Cubified {count} frames to {what} in {_duration(seconds)}"
+        last = frames[count - 1]
+        return f"Frames {frames[0]} to {last} of {frames[-1]} are in {what}; bake again to continue"
+
+    def _path(self, one, suffix):
+        name = bpy.path.clean_name(one.source.name)
+        what = "_process" if self._options.is_process else ""
+        return self._options.folder / f"{name}{what}{suffix}"
+
+    def _save(self):
+        self._next_save = time.perf_counter() + _SAVED_EVERY
+        for work in self._works:
+            work.recording.save_state()
+
+    # -- ending ------------------------------------------------------------------------------------
+
+    @property
+    def obstacle(self) -> str:
+        """Why it cannot continue after other code has run; or empty."""
+        try:
+            if not all(source.users_scene for source in self._sources):
+                return "an object was deleted"
+            for one in self._made:
+                one.new.name  # noqa: B018 - raises where Blender has removed it
+        except ReferenceError:
+            return "an object was deleted"
+        return ""
+
+    def discard(self) -> None:
+        """Keep what is needed to continue, and remove all else."""
+        self._save()
+        for one in self._made:
+            try:
+                mesh_bridge.remove_seen(one.new)
+            except ReferenceError:
+                continue
+        self._made.clear()
+        self._restore_scene()
+
+    def _restore_scene(self):
+        """Go back to the frame that was shown, and hide what was hidden; once."""
+        if self._frame is None:
+            return
+        try:
+            self._scene.frame_set(self._frame[0], subframe=self._frame[1])
+            for source in self._hidden:
+                source.hide_set(True)
+        except ReferenceError:
+            pass
+        self._frame = None
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CubicCraftError(f'the folder "{folder}" cannot be made: {error.strerror}') from error
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60.0)
+    return f"{minutes} min" if minutes < 90 else f"{minutes / 60:.1f} h"

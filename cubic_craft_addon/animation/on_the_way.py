@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings on the way from others."""
+
+from dataclasses import replace
+
+from mathutils import Euler
+
+from ..settings.values import Settings
+
+
+def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
+    """Return settings between two, which are those of the end at a share of 1.
+
+    Parameters
+    ----------
+    start : Settings or None
+        None is the original.
+    end : Settings
+        Whatever is not a strength or an angle is always as in these.
+    share : float
+        From 0 to 1.
+    """
+    if share >= 1.0:
+        return end
+
+    def mixed(before, after):
+        return (1.0 - share) * before + share * after
+
+    before = {region.group: region.cubeness for region in start.regions} if start else {}
+    base = start.cubeness if start else 0.0
+    strength = start.capture_strength if start and start.capture_object else 0.0
+    regions = tuple(
+        replace(region, cubeness=mixed(before.get(region.group, base), region.cubeness))
+        for region in end.regions
+    )
+    turned = end.orientation
+    if start is not None and start.space == end.space:
+        way = Euler(start.orientation).to_quaternion()
+        found = way.slerp(Euler(end.orientation).to_quaternion(), share).to_euler()
+        turned = (found.x, found.y, found.z)
+    return replace(
+        end,
+        cubeness=mixed(base, end.cubeness),
+        capture_strength=mixed(strength, end.capture_strength),
+        regions=regions,
+        orientation=turned,
+    )

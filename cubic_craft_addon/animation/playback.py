@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Baked objects, which play back their frames."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..environment.new_file import replacing
+from .exchange import SUFFIXES, export_frames
+from .point_cache import read_point_cache
+from .properties import SOURCE
+
+MODIFIER = "Cubic Animation"
+_KEY_STEP = 10.0  # Blender's distance between absolute shape keys
+
+
+@contextlib.contextmanager
+def shown(
+    source: bpy.types.Object, new: bpy.types.Object, cache: Path
+) -> Iterator[bpy.types.Object]:
+    """Show a new object instead of its source, or give its mesh to the one baked before.
+
+    Its mesh has the first frame of the cache. In the block, it is made to play; after an
+    exception, all is as it was, and there is no new object.
+    """
+    mesh = mesh_bridge.mesh_of(new)
+    baked = _baked_before(source)
+    view_layer = bpy.context.view_layer
+    selected, active = list(bpy.context.selected_objects), view_layer.objects.active
+    try:
+        mesh_bridge.move_seen(new, read_point_cache(cache)[0])
+        if baked is None:
+            mesh_bridge.show_seen(new, source)
+            setattr(new, SOURCE, source)
+            yield new
+        else:
+            with _mesh_exchanged(baked, mesh):
+                yield baked
+    except BaseException:
+        mesh_bridge.remove_seen(new)
+        for obj in selected:
+            obj.select_set(True)
+        view_layer.objects.active = active
+        raise
+    if baked is not None:
+        bpy.data.objects.remove(new)
+    source.hide_render = True
+    with contextlib.suppress(RuntimeError):  # it is in no collection of this view layer
+        source.hide_set(True)
+
+
+@contextlib.contextmanager
+def _mesh_exchanged(baked, mesh):
+    """Give a baked object another mesh, and another playback in the block."""
+    before, modifiers = mesh_bridge.mesh_of(baked), list(baked.modifiers)
+    earlier = [modifier for modifier in modifiers if modifier.name.startswith(MODIFIER)]
+    baked.data = mesh
+    for modifier in earlier:
+        modifier.show_viewport = False  # it would play instead
+    try:
+        yield
+    except BaseException:
+        baked.data = before
+        for modifier in list(baked.modifiers):
+            if modifier not in modifiers:
+                baked.modifiers.remove(modifier)
+        for modifier in earlier:
+            modifier.show_viewport = True
+        raise
+    for modifier in earlier:
+        baked.modifiers.remove(modifier)
+    for modifier in baked.modifiers:
+        if modifier.name.startswith(MODIFIER):
+            modifier.name = MODIFIER
+    if not before.users:
+        bpy.data.meshes.remove(before)
+
+
+def play(baked: bpy.types.Object, cache: Path, file_format: str, start: int) -> str:
+    """Make a baked object play back the frames of a point cache from a frame on.
+
+    Returns the name of the file, or of the shape keys.
+
+    Raises
+    ------
+    CubicCraftError
+        This Blender cannot write or read the format.
+    """
+    if file_format == "SHAPE_KEYS":
+        _play_keys(baked, read_point_cache(cache), start)
+        cache.unlink()
+        return f"shape keys of {baked.name}"
+    modifier = _play_cache(baked, cache, start)
+    if file_format == "CACHE":
+        return cache.name
+    frames = len(read_point_cache(cache))
+    path = cache.with_suffix(SUFFIXES[file_format])
+    with replacing(path) as partial:
+        export_frames([baked], partial, start, start + frames - 1)
+    baked.modifiers.remove(modifier)
+    _play_file(baked, path)
+    cache.unlink()
+    return path.name
+
+
+def _baked_before(source):
+    """Return the object that was baked from a source before and is still in the scene."""
+    scene = bpy.context.scene
+    for obj in scene.objects:
+        if getattr(obj, SOURCE) == source and isinstance(obj.data, bpy.types.Mesh):
+            return obj
+    return None
+
+
+def _play_cache(baked, cache, start):
+    modifier = baked.modifiers.new(MODIFIER, "MESH_CACHE")
+    assert isinstance(modifier, bpy.types.MeshCacheModifier)
+    modifier.cache_format = "PC2"
+    modifier.filepath = _relative(cache)
+    modifier.frame_start = start
+    baked.modifiers.move(len(baked.modifiers) - 1, 0)
+    return modifier
+
+
+def _play_file(baked, path):
+    known = set(bpy.data.cache_files)
+    bpy.ops.cachefile.open(filepath=_relative(path))
+    file = next(file for file in bpy.data.cache_files if file not in known)
+    modifier = baked.modifiers.new(MODIFIER, "MESH_SEQUENCE_CACHE")
+    modifier.cache_file = file
+    modifier.read_data = {"VERT"}
+    baked.modifiers.move(len(baked.modifiers) - 1, 0)
+    bpy.context.evaluated_depsgraph_get()
+    paths = [found.path for found in file.object_paths]
+    if not paths:
+        raise CubicCraftError(f'"{path.name}" has no object to play back')
+    modifier.object_path = max(paths, key=len)  # the mesh, below its transform
+
+
+def _play_keys(baked, frames, start):
+    baked.shape_key_clear()
+    mesh = mesh_bridge.mesh_of(baked)
+    for number, positions in enumerate(frames):
+        key = baked.shape_key_add(name=f"Frame {start + number}", from_mix=False)
+        key.interpolation = "KEY_LINEAR"
+        key.points.foreach_set("co", np.ascontiguousarray(positions).ravel())
+    keys = mesh.shape_keys
+    keys.use_relative = False
+    blocks = keys.key_blocks
+    for frame, key in ((start, blocks[0]), (start + len(frames) - 1, blocks[-1])):
+        keys.eval_time = key.frame
+        keys.keyframe_insert("eval_time", frame=frame)
+    _make_linear(keys.animation_data.action)
+
+
+def _make_linear(action):
+    curves = getattr(action, "fcurves", None)
+    if curves is None:  # Blender 5 has them in layers
+        strips = (strip for layer in action.layers for strip in layer.strips)
+        curves = [c for strip in strips for bag in strip.channelbags for c in bag.fcurves]
+    for curve in curves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def _relative(path):
+    """Return a path relative to the .blend file, if that is saved on the same drive."""
+    if not bpy.data.filepath:
+        return str(path)
+    try:
+        return bpy.path.relpath(str(path))
+    except ValueError:
+        return str(path)

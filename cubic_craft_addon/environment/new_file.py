@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of the artist are written beside their place, and moved there when they are complete."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Give another path in the same folder, with the same suffix, whose file becomes this one.
+
+    After an exception, an earlier file is left as it was, and nothing else.
+    """
+    partial = path.with_name(f".part-{path.name}")
+    try:
+        yield partial
+        partial.replace(path)
+    finally:
+        with contextlib.suppress(OSError):
+            partial.unlink(missing_ok=True)

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cycles bakes the normals of one surface to the UV map of another near it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from ...solver import CubicCraftError
+from .studio import Studio
+
+_SLACK = 1.05  # rays start this much farther out than the surfaces are apart
+_LEAST = 1e-4  # of the largest extent
+_SAMPLES = 50_000  # points on each surface at most that are measured
+
+
+def check_cycles() -> None:
+    """Raise a CubicCraftError if there is no Cycles."""
+    if not hasattr(bpy.types.Scene, "cycles") or not bpy.app.build_options.cycles:
+        raise CubicCraftError(
+            "normal maps are baked by Cycles: enable the add-on Cycles Render Engine first"
+        )
+
+
+def bake_normals(
+    studio: Studio,
+    high: bpy.types.Object,
+    low: bpy.types.Object,
+    image: bpy.types.Image,
+) -> float:
+    """Bake the normals of an object to the tangent space of another.
+
+    Parameters
+    ----------
+    studio : Studio
+    high, low : objects in the studio, the second with a single UV map
+    image : the active image of all materials of `low`
+
+    Returns
+    -------
+    float
+        How far apart the surfaces are.
+
+    Raises
+    ------
+    CubicCraftError
+        Cycles has failed.
+    """
+    apart = distance(high, low)
+    texels: Any = image.size
+    scene: Any = studio.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"  # no time is spent on kernels for rays that Blender casts itself
+    scene.cycles.samples = 1
+    size = max(*high.dimensions)
+    extrusion = apart * _SLACK + _LEAST * size
+    with studio.context(low, high):
+        try:
+            done = bpy.ops.object.bake(
+                type="NORMAL",
+                normal_space="TANGENT",
+                target="IMAGE_TEXTURES",
+                use_selected_to_active=True,
+                use_cage=True,  # of smooth normals: no gaps at hard edges
+                cage_extrusion=extrusion,
+                max_ray_distance=2 * extrusion,
+                margin=max(4, texels[0] // 64),
+                use_clear=True,
+            )
+        except RuntimeError as error:
+            reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
+            raise CubicCraftError(f"Cycles cannot bake the normal map: {reason}") from error
+    if "FINISHED" not in done:
+        raise CubicCraftError("Cycles has not baked the normal map")
+    return apart
+
+
+def distance(high: bpy.types.Object, low: bpy.types.Object) -> float:
+    """Return the largest distance of a point of one surface from the other, in the world.
+
+    Vertices, centers of faces of the low-poly one, and at most some thousands of each are measured.
+    """
+    surfaces = [_surface(obj) for obj in (high, low)]
+    trees = [BVHTree.FromPolygons(V.tolist(), F.tolist()) for V, F in surfaces]
+    (V_high, _), (V_low, F_low) = surfaces
+    points = np.concatenate([V_low, V_low[F_low].mean(axis=1)])
+    return max(_farthest(points, trees[0]), _farthest(V_high, trees[1]))
+
+
+def _surface(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    mesh: Any = obj.data
+    V = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", V)
+    mesh.calc_loop_triangles()
+    F = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", F)
+    matrix = np.array(obj.matrix_world)
+    F = F.reshape(-1, 3)
+    used = np.unique(F)  # loose vertices have no surface
+    place = np.zeros(len(V) // 3, np.int32)
+    place[used] = np.arange(len(used))
+    return V.reshape(-1, 3)[used] @ matrix[:3, :3].T + matrix[:3, 3], place[F]
+
+
+def _farthest(points: np.ndarray, tree: BVHTree) -> float:
+    step = -(-len(points) // _SAMPLES)
+    found = (tree.find_nearest(point)[3] for point in points[::step].tolist())
+    return max((one for one in found if one is not None), default=0.0)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write meshes to a file of another program; nothing of the scene changes."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..environment.new_file import replacing
+from ..environment.scene_state import frame_kept, only_selected
+from .closed import find_faults
+from .marks import marks_of
+from .targets import Options, exporter, settings
+
+
+@dataclass
+class Sent:
+    """A file that was written."""
+
+    done: str
+    """one line about it"""
+    problems: list[str] = field(default_factory=list)
+    """what the artist should know, one line each"""
+
+
+def send(target: str, objects: list[bpy.types.Object], path: Path, options: Options) -> Sent:
+    """Write mesh objects, and the armatures that pose them, to one file.
+
+    The file is complete, or as it was before. Selection, meshes and frame are kept.
+
+    Parameters
+    ----------
+    target : one of `targets.ITEMS`
+    objects : meshes in Object Mode
+    path : pathlib.Path
+        With the suffix of the target.
+    options : Options
+
+    Raises
+    ------
+    CubicCraftError
+        There is nothing to write, or no way to write it there.
+    """
+    run = exporter(target)
+    _check_path(path)
+    for obj in objects:
+        mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
+        if not mesh_bridge.mesh_of(obj).polygons:
+            raise CubicCraftError(f'"{obj.name}" has no faces to write')
+    sent = Sent("")
+    is_modified = target == "STL" or _can_apply(objects, options, sent.problems)
+    facts = [f"{len(objects)} object{'s' * (len(objects) > 1)}"]
+    if target == "STL":
+        facts.append(_check_printable(objects, options.scale, sent.problems))
+    chosen = settings(target, objects, options, is_modified=is_modified)
+    armatures = {arm for obj in objects for arm in _armatures(obj)} if target != "STL" else set()
+    with contextlib.ExitStack() as stack:
+        for obj in {obj.data: obj for obj in objects}.values():
+            values, problems = marks_of(target, obj, with_groups=options.with_groups)
+            sent.problems += problems
+            mesh = mesh_bridge.mesh_of(obj)
+            stack.enter_context(
+                mesh_bridge.carried_attributes(mesh, values, are_colors=target == "FBX")
+            )
+        stack.enter_context(frame_kept())
+        missing = stack.enter_context(only_selected([*objects, *armatures]))
+        sent.problems += [f'"{name}" cannot be selected: it was not written' for name in missing]
+        size = _write(run, path, chosen)
+    sent.done = f'Wrote "{path.name}": {", ".join(facts)}, {size / 1e6:,.2f} MB'
+    return sent
+
+
+def _check_path(path: Path) -> None:
+    if path.is_dir():
+        raise CubicCraftError(f'"{path.name}" is a folder; type the name of a file')
+    if not path.parent.is_dir():
+        raise CubicCraftError(f'there is no folder "{path.parent}"; create it or choose another')
+
+
+def _can_apply(objects: list[bpy.types.Object], options: Options, problems: list[str]) -> bool:
+    """Return whether modifiers are applied: they are not where shape keys would be lost."""
+    if not options.with_modifiers:
+        return False
+    if not any(mesh_bridge.mesh_of(obj).shape_keys for obj in objects):
+        return True
+    names = [
+        f'"{obj.name}"'
+        for obj in objects
+        if any(mod.show_viewport and mod.type != "ARMATURE" for mod in obj.modifiers)
+    ]
+    if names:
+        problems.append(
+            f"shape keys were written, so the modifiers of {', '.join(names)} were not: write"
+            " meshes with shape keys to a file of their own"
+        )
+    return False
+
+
+def extent(objects: list[bpy.types.Object]) -> float:
+    """Return the longest side of the box around objects, as they are seen in the world."""
+    points = [_placed(obj, mesh_bridge.read_evaluated(obj)[0]) for obj in objects]
+    return float(np.ptp(np.concatenate(points), axis=0).max())
+
+
+def _placed(obj: bpy.types.Object, points: np.ndarray) -> np.ndarray:
+    """Return points of an object in the world."""
+    matrix = np.array(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world)
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def _check_printable(objects: list[bpy.types.Object], scale: float, problems: list[str]) -> str:
+    """Note which meshes are not closed, and return the size of all in words."""
+    corners = []
+    for obj in objects:
+        points, triangles = mesh_bridge.read_evaluated(obj)
+        placed = _placed(obj, points)
+        corners += [placed.min(axis=0), placed.max(axis=0)]
+        fault = find_faults(points, triangles).in_words()
+        if fault:
+            problems.append(f'"{obj.name}" {fault}; it may not print as it looks')
+    size = np.ptp(np.array(corners), axis=0) * scale
+    return " x ".join(f"{side:,.4g}" for side in size) + " mm"
+
+
+def _armatures(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Give what poses an object with bones."""
+    for modifier in obj.modifiers:
+        if isinstance(modifier, bpy.types.ArmatureModifier) and modifier.object is not None:
+            yield modifier.object
+    if obj.parent is not None and obj.parent.type == "ARMATURE":
+        yield obj.parent
+
+
+def _write(run: Any, path: Path, chosen: dict[str, Any]) -> int:
+    """Write under another name first, and return the size of the file."""
+    try:
+        with replacing(path) as partial:
+            try:
+                run(filepath=str(partial), **chosen)
+            except RuntimeError as error:
+                reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
+                raise CubicCraftError(f'"{path.name}" cannot be written: {reason}') from error
+            if not partial.is_file() or not partial.stat().st_size:
+                raise CubicCraftError(f'"{path.name}" cannot be written: choose another folder')
+        return path.stat().st_size
+    except OSError as error:
+        raise CubicCraftError(
+            f'"{path.name}" cannot be written ({error.strerror or error}); choose another folder'
+        ) from error

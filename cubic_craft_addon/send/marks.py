@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is written beside a mesh: the order of its vertices, and its vertex groups.
+
+A glTF file splits vertices at seams and hard edges, so it gets the index of each as the attribute
+``_VERTEX``. Formats know vertex groups only as weights of bones; others are written as attributes
+``_GROUP_NAME`` of glTF, or as colors of FBX. An FBX file keeps the order of vertices itself.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from .. import mesh_bridge
+
+VERTEX = "_VERTEX"
+GROUP = "_GROUP_"
+
+_LONGEST = 40  # characters of the name of a group; attributes have 63 bytes at most
+
+
+def marks_of(
+    target: str, obj: bpy.types.Object, *, with_groups: bool
+) -> tuple[dict[str, np.ndarray], list[str]]:
+    """Return the attributes to add while an object is written.
+
+    Parameters
+    ----------
+    target : one of `targets.ITEMS`
+    obj : an object with a mesh
+    with_groups : bool
+        Whether vertex groups that belong to no bone are written.
+
+    Returns
+    -------
+    values : (n,) numpy float32 array for each name
+    problems : list of str
+    """
+    mesh = mesh_bridge.mesh_of(obj)
+    if target == "STL":
+        return {}, []
+    names = [group.name for group in obj.vertex_groups if group.name not in _bones(obj)]
+    values = {}
+    if target == "GLTF":
+        values[VERTEX] = np.arange(len(mesh.vertices), dtype=np.float32)
+    if mesh.library is not None or not mesh.is_editable:
+        lost = [VERTEX] if target == "GLTF" else []
+        lost += names if with_groups else []
+        return {}, [f'"{obj.name}" is linked: {", ".join(lost)} were not written'] if lost else []
+    taken = {attribute.name.upper() for attribute in mesh.attributes}
+    if VERTEX in taken:
+        values.pop(VERTEX, None)
+    for name in names if with_groups else []:
+        values[_free(GROUP + name[:_LONGEST], taken | {key.upper() for key in values})] = (
+            mesh_bridge.group_weights(obj, name).astype(np.float32)
+        )
+    return values, [f'"{obj.name}" keeps its own attribute {VERTEX}'] * (VERTEX in taken)
+
+
+def _bones(obj: bpy.types.Object) -> set[str]:
+    """Return the names of the bones that pose an object."""
+    armatures = [mod.object for mod in obj.modifiers if isinstance(mod, bpy.types.ArmatureModifier)]
+    armatures += [obj.parent] if obj.parent is not None and obj.parent.type == "ARMATURE" else []
+    datas = [armature.data for armature in armatures if armature is not None]
+    return {
+        bone.name for data in datas if isinstance(data, bpy.types.Armature) for bone in data.bones
+    }
+
+
+def _free(name: str, taken: set[str]) -> str:
+    """Return a name that is free in capitals too, which glTF turns all names into."""
+    free, number = name, 1
+    while free.upper() in taken:
+        number += 1
+        free = f"{name}_{number}"
+    return free

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A low-poly version of a cubic mesh, with a normal map that has the details of the cubic one."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..run.facets import flat_facets
+from . import low_poly
+from .bake import bake_normals, check_cycles
+from .map_material import MapMaterials
+from .properties import IMAGE
+from .studio import Studio, studio
+
+_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
+
+
+@dataclass(frozen=True)
+class MapOptions:
+    """How a normal map is baked: see `NormalMapProperties`."""
+
+    triangles: int = 1000
+    resolution: int = 1024
+    flatten: bool = True
+    uv: str = "AUTO"
+
+
+@dataclass(frozen=True)
+class NormalMap:
+    """A low-poly object and its normal map."""
+
+    object: bpy.types.Object
+    image: bpy.types.Image
+    apart: float
+    """largest distance between the surfaces, in the world"""
+    problems: list[str]
+    """what the artist should know"""
+
+
+def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
+    """Make a low-poly version of a result beside it, and bake what it lacks to an image.
+
+    The result is not changed, but hidden: the new object lies at the same place.
+
+    Parameters
+    ----------
+    obj : an object with a result, in Object Mode
+    options : MapOptions
+
+    Raises
+    ------
+    CubicCraftError
+        There is no result or no Cycles, or something else is missing. After any exception, nothing
+        is left.
+    """
+    check_cycles()
+    mesh_bridge.check_usable(obj)
+    if mesh_bridge.last_run(obj) is None:
+        raise CubicCraftError(f'"{obj.name}" has no result to bake: cubify it first')
+    mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
+    present = mesh_bridge.result_positions(obj)
+    flat = flat_facets(obj, _ANGLE, _TOLERANCE).positions if options.flatten else present
+    with contextlib.ExitStack() as undo:
+        made = _make(undo, obj, present, flat, options)
+        _show_instead(undo, obj, made.object)
+        undo.pop_all()
+    return made
+
+
+def _make(
+    undo: contextlib.ExitStack,
+    obj: bpy.types.Object,
+    present: np.ndarray,
+    flat: np.ndarray,
+    options: MapOptions,
+) -> NormalMap:
+    """Make all that stays; `undo` removes it again."""
+    with studio() as stage, contextlib.ExitStack() as passing:
+        high = passing.enter_context(_stand_in(stage, obj, _mesh_of_result(stage, obj, present)))
+        low_mesh = _low_mesh(stage, obj, flat, options.triangles)
+        undo.callback(bpy.data.meshes.remove, low_mesh)
+        low = passing.enter_context(_stand_in(stage, obj, low_mesh, is_kept=True))
+        rendered = _rendered_uv(low_mesh)
+        uv_map = low_poly.choose_uv(stage, low, options.uv, options.resolution, obj.name)
+        low_poly.set_hard_edges(low_mesh, uv_map)
+        image = bpy.data.images.new(
+            f"{obj.name} Normal", options.resolution, options.resolution, is_data=True
+        )
+        undo.callback(bpy.data.images.remove, image)
+        materials = MapMaterials(low_mesh, image)
+        undo.callback(materials.remove)
+        materials.add(f"{obj.name} Low")
+        baked = passing.enter_context(_stand_in(stage, obj, _with_only(low_mesh, uv_map)))
+        apart = bake_normals(stage, high, baked, image)
+        plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
+        problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
+    new = obj.copy()
+    assert new is not None
+    undo.callback(bpy.data.objects.remove, new)
+    _pose(new, low_mesh, f"{obj.name} Low")
+    setattr(new, IMAGE, image)
+    problems += _keep(image)
+    return NormalMap(new, image, apart, problems)
+
+
+def _mesh_of_result(stage: Studio, obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Mesh:
+    """Return a new mesh: the result with its modifiers, but not posed."""
+    copy = stage.take(mesh_bridge.plain_copy(obj, positions))
+    try:
+        _remove_modifiers(copy, are_armatures=True)
+        return stage.evaluated_mesh(copy)
+    finally:
+        mesh_bridge.remove_copy(copy)
+
+
+def _low_mesh(
+    stage: Studio, obj: bpy.types.Object, positions: np.ndarray, triangles: int
+) -> bpy.types.Mesh:
+    """Return a new mesh: the flattened result with its modifiers, not posed, and decimated."""
+    copy = stage.take(mesh_bridge.plain_copy(obj, positions))
+    try:
+        _remove_modifiers(copy, are_armatures=True)
+        low_poly.forget_normals(stage, copy)
+        mesh = low_poly.decimated(stage, copy, triangles)
+    finally:
+        mesh_bridge.remove_copy(copy)
+    mesh.name = f"{obj.name} Low"
+    return mesh
+
+
+@contextlib.contextmanager
+def _stand_in(
+    stage: Studio, obj: bpy.types.Object, mesh: bpy.types.Mesh, *, is_kept: bool = False
+) -> Iterator[bpy.types.Object]:
+    """Show a mesh in the studio where an object is in the scene, and remove it unless kept."""
+    new = bpy.data.objects.new(obj.name, mesh)
+    try:
+        stage.take(new)
+        new.matrix_world = obj.matrix_world
+        stage.view_layer.update()
+        yield new
+    finally:
+        bpy.data.objects.remove(new)
+        if not is_kept:
+            bpy.data.meshes.remove(mesh)
+
+
+def _pose(new: bpy.types.Object, mesh: bpy.types.Mesh, name: str) -> None:
+    """Give a copy of an object another mesh, which has all its modifiers but armatures."""
+    new.data = mesh
+    new.name = name
+    for slot in new.material_slots:
+        slot.link = "DATA"
+    _remove_modifiers(new, are_armatures=False)
+
+
+def _remove_modifiers(obj: bpy.types.Object, *, are_armatures: bool) -> None:
+    for modifier in list(obj.modifiers):
+        if (modifier.type == "ARMATURE") == are_armatures:
+            obj.modifiers.remove(modifier)
+
+
+def _with_only(mesh: bpy.types.Mesh, uv_map: str) -> bpy.types.Mesh:
+    """Return a copy of a mesh with one UV map, so that there is no question which is baked to."""
+    copy = mesh.copy()
+    assert copy is not None
+    for name in [layer.name for layer in copy.uv_layers if layer.name != uv_map]:
+        copy.uv_layers.remove(copy.uv_layers[name])
+    return copy
+
+
+def _rendered_uv(mesh: bpy.types.Mesh) -> str:
+    return next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+
+
+def _keep(image: bpy.types.Image) -> list[str]:
+    """Save an image beside the .blend file, or in it; return what went wrong.
+
+    No file is ever replaced: it may be one of the artist's.
+    """
+    if not bpy.data.filepath:
+        image.pack()
+        return []
+    stem = bpy.path.clean_name(image.name)
+    folder = Path(bpy.path.abspath("//"))
+    names = itertools.chain([f"{stem}.png"], (f"{stem}_{n}.png" for n in itertools.count(2)))
+    path = next(folder / name for name in names if not (folder / name).exists())
+    image.file_format = "PNG"
+    image.filepath_raw = str(path)
+    try:
+        image.save()
+    except RuntimeError:
+        image.filepath_raw = ""
+        path.unlink(missing_ok=True)
+        image.pack()
+        return [f'"{path.name}" could not be written, so the image is packed into the .blend file']
+    image.filepath_raw = f"//{path.name}"
+    image.source = "FILE"
+    return []
+
+
+def _show_instead(undo: contextlib.ExitStack, obj: bpy.types.Object, new: bpy.types.Object) -> None:
+    """Show the new object, selected and active, in place of the old one."""
+    view_layer = bpy.context.view_layer
+    undo.callback(setattr, view_layer.objects, "active", view_layer.objects.active)
+    undo.callback(obj.select_set, obj.select_get())
+    undo.callback(obj.hide_set, obj.hide_get())
+    mesh_bridge.link_beside(obj, new)
+    mesh_bridge.select_instead(obj, new)
+    if new.name in view_layer.objects:
+        obj.hide_set(True)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether faces overlap in a UV map. This knows nothing of Blender."""
+
+import numpy as np
+
+_TEXELS = 256  # along a side
+_INSIDE = 1e-4  # how far a UV map may reach out of the unit square
+
+
+def fits_unit_square(uv: np.ndarray) -> bool:
+    """Return whether UVs (..., 2) lie in the image."""
+    return bool((uv > -_INSIDE).all() and (uv < 1 + _INSIDE).all())
+
+
+def overlap(uv: np.ndarray, texels: int = _TEXELS) -> float:
+    """Return how much of a UV map is covered more than once.
+
+    Parameters
+    ----------
+    uv : (m,3,2) numpy array of triangles in the unit square
+    texels : int
+        Places along each side at which this is tested.
+
+    Returns
+    -------
+    float
+        What is covered again, relative to what is covered; 1 if nothing is covered.
+    """
+    counts = np.zeros((texels, texels), np.int32)
+    places = uv.astype(np.float64) * texels - 0.5  # centers of texels are whole numbers
+    lower = np.ceil(places.min(axis=1)).astype(int).clip(0, texels)
+    upper = np.floor(places.max(axis=1)).astype(int).clip(-1, texels - 1) + 1
+    for corners, (left, bottom), (right, top) in zip(places, lower, upper, strict=True):
+        if left < right and bottom < top:
+            counts[bottom:top, left:right] += _is_inside(corners, left, right, bottom, top)
+    covered = int((counts > 0).sum())
+    return (int(counts.sum()) - covered) / covered if covered else 1.0
+
+
+def _is_inside(corners: np.ndarray, left: int, right: int, bottom: int, top: int) -> np.ndarray:
+    """Return which texels (top - bottom, right - left) lie in a triangle, edges excluded."""
+    x, y = np.meshgrid(np.arange(left, right), np.arange(bottom, top))
+    sides = [
+        (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+        for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    ]
+    return np.logical_and.reduce([side > 0 for side in sides]) | np.logical_and.reduce(
+        [side < 0 for side in sides]
+    )

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bake Normal Map: a low-poly version of a cubic mesh, which shows the details of the cubic one."""
+
+import bpy
+
+from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.send.normal_map import MapOptions, make_normal_map
+from ..cubic_craft_addon.send.properties import NormalMapProperties, normal_map_properties
+from ..solver import CubicCraftError
+from ._shared.given_or_shared import given_or_shared
+from ._shared.selection import poll_any_usable, poll_object_mode, poll_work, report_all
+from ._shared.unexpected_errors import reporting
+
+
+class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
+    """Make a low-poly version of the active cubic mesh, with a normal map."""
+
+    bl_idname = "cubic_craft.bake_normal_map"
+    bl_label = "Bake Normal Map"
+    bl_description = (
+        "Make a low-poly version of the active cubic mesh with flat facets, and bake the details"
+        " that it lacks to a normal map. The cubic mesh is hidden, not changed"
+    )
+    bl_options = {"UNDO"}  # no redo panel: each change would write another image
+
+    @classmethod
+    def poll(cls, context):
+        """There is an active mesh with a result, in Object Mode."""
+        if not (poll_work(cls, context) and poll_object_mode(cls, context)):
+            return False
+        obj = panel_object(context)
+        if obj is None or mesh_bridge.last_run(obj) is None:
+            cls.poll_message_set("The mesh has no result to bake; cubify it first")
+            return False
+        return poll_any_usable(cls, [obj])
+
+    @reporting
+    def execute(self, context):
+        """Bake one map."""
+        obj = panel_object(context)
+        if obj is None:
+            raise CubicCraftError("Select a mesh object first")
+        values = given_or_shared(self, normal_map_properties(context.scene), NormalMapProperties)
+        if context.window is not None:
+            context.window.cursor_set("WAIT")
+        try:
+            made = make_normal_map(obj, MapOptions(**values))
+        finally:
+            if context.window is not None:
+                context.window.cursor_set("DEFAULT")
+        where = "packed" if made.image.packed_file else made.image.filepath
+        count = len(mesh_bridge.mesh_of(made.object).polygons)
+        done = (
+            f'"{made.object.name}" has {count:,} triangles, no farther'
+            f' than {made.apart:.2g} from "{obj.name}", which is hidden; "{made.image.name}"'
+            f" ({where}) is shown in Material Preview"
+        )
+        return report_all(self, done, made.problems)

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Send To: write the selected meshes to a file for a game engine, another program or a printer."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+
+from ..cubic_craft_addon.send.file import extent, send
+from ..cubic_craft_addon.send.targets import ITEMS, SUFFIXES, Options, exporter
+from ..solver import CubicCraftError
+from ._shared.selection import poll_meshes, poll_object_mode, report_all, selected_meshes
+from ._shared.unexpected_errors import reporting
+
+_MILLIMETERS = 1000.0  # in a meter
+_SCALES = (
+    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
+    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
+    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
+)
+
+
+class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
+    """Write the selected meshes to a file for another program."""
+
+    bl_idname = "cubic_craft.send_to"
+    bl_label = "Send To"
+    bl_description = (
+        "Write the selected meshes to a file for game engines (glTF), other programs (FBX) or 3D"
+        " printers (STL). The order of vertices and the vertex groups can be found in it again;"
+        " nothing of the scene changes"
+    )
+    bl_options = {"REGISTER"}
+
+    target: EnumProperty(name="Target", description="What kind of file is written", items=ITEMS)
+    filepath: StringProperty(
+        name="File Path", description="Where the file is written", subtype="FILE_PATH"
+    )
+    check_existing: BoolProperty(
+        name="Check Existing",
+        description="Warn before a file is replaced",
+        default=True,
+        options={"HIDDEN"},
+    )
+    filter_glob: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+    modifiers: BoolProperty(
+        name="Apply Modifiers",
+        description="Write the mesh as its modifiers show it, with the armature as bones. Not for"
+        " meshes with shape keys, which would be lost",
+        default=True,
+    )
+    animation: BoolProperty(
+        name="Animation", description="Also write the animation of armatures", default=True
+    )
+    groups: BoolProperty(
+        name="Vertex Groups",
+        description="Also write the vertex groups that belong to no bone: as attributes named"
+        " _GROUP_... (glTF), or as colors (FBX)",
+        default=True,
+    )
+    scale: EnumProperty(
+        name="Scale", description="How large the print becomes", items=_SCALES, default="SCENE"
+    )
+    size: FloatProperty(
+        name="Size",
+        description="Length of the longest side, in millimeters",
+        default=100.0,
+        min=0.1,
+        soft_max=1000.0,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """There is a mesh in Object Mode."""
+        return poll_meshes(cls, context) and poll_object_mode(cls, context)
+
+    def invoke(self, context, event):
+        """Ask for the file, with a name that suits."""
+        try:
+            exporter(self.target)
+        except CubicCraftError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        name = bpy.path.clean_name(selected_meshes(context)[0].name)
+        before = Path(self.filepath or bpy.data.filepath)
+        folder = before.parent if before.is_absolute() else Path.home()
+        self.filepath = str(folder / f"{name}{SUFFIXES[self.target]}")
+        self.filter_glob = f"*{SUFFIXES[self.target]}"
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def check(self, context):
+        """Keep the suffix that belongs to the kind of file."""
+        path = _with_suffix(self.filepath, self.target)
+        is_changed = path != self.filepath
+        self.filepath = path
+        return is_changed
+
+    def draw(self, context):
+        """Draw the options that the kind of file has."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        if self.target == "STL":
+            layout.prop(self, "scale")
+            if self.scale == "SIZE":
+                layout.prop(self, "size")
+            return
+        layout.prop(self, "modifiers")
+        layout.prop(self, "animation")
+        layout.prop(self, "groups")
+
+    @reporting
+    def execute(self, context):
+        """Write the file."""
+        if not self.filepath:
+            raise CubicCraftError("Type the name of the file to write")
+        path = Path(bpy.path.abspath(_with_suffix(self.filepath, self.target)))
+        objects = selected_meshes(context)
+        options = Options(
+            with_modifiers=self.modifiers,
+            with_animation=self.animation,
+            with_groups=self.groups,
+            scale=self._scale(context.scene, objects) if self.target == "STL" else 1.0,
+        )
+        sent = send(self.target, objects, path, options)
+        return report_all(self, sent.done, sent.problems)
+
+    def _scale(self, scene, objects):
+        """Return how many millimeters a unit of Blender becomes."""
+        if self.scale == "SIZE":
+            return self.size / max(extent(objects), 1e-12)
+        if self.scale == "MILLIMETERS":
+            return 1.0
+        units = scene.unit_settings
+        return _MILLIMETERS * (units.scale_length if units.system != "NONE" else 1.0)
+
+
+def _with_suffix(path, target):
+    """Return a path that ends as the kind of file does."""
+    for suffix in SUFFIXES.values():
+        if path.lower().endswith(suffix) and suffix != SUFFIXES[target]:
+            path = path[: -len(suffix)]
+    return bpy.path.ensure_ext(path, SUFFIXES[target]) if Path(path).name else path

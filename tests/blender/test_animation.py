@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cubify Animation: each frame is cubic, steady, played back, and kept when it is stopped."""
+
+import importlib
+import math
+import os
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import bpy  # isort: skip
+from mathutils import Matrix  # isort: skip
+from rig import FRAMES, bending_ball, flatness, read_pc2, shown  # isort: skip
+from scene import select  # isort: skip
+
+SUFFIXES = (".pc2", ".abc", ".usdc")
+
+
+@pytest.fixture
+def bending(empty_file):
+    return bending_ball()
+
+
+def bake(folder, **options):
+    return bpy.ops.cubic_craft.bake_animation(folder=str(folder), **options)
+
+
+def film(obj):
+    """Return the visible positions in all frames."""
+    return np.array([shown(obj, frame) for frame in range(1, FRAMES + 1)])
+
+
+def jumps(frames):
+    return np.linalg.norm(frames[2:] - 2.0 * frames[1:-1] + frames[:-2], axis=2)
+
+
+@pytest.fixture
+def bakes(part):
+    """Return a function that makes a Bake of objects, for tests that stop it."""
+
+    def make(folder, *sources):
+        module = part("animation.bake")
+        options = module.BakeOptions(1, FRAMES, folder)
+        return module.Bake(part("settings.overrides").SettingsOverrides({}), sources, options)
+
+    return make
+
+
+def advance(work, frame):
+    """Continue a Bake until it begins a frame."""
+    for step in work.steps():
+        if step.texts[-1].startswith(f"Frame {frame} "):
+            return
+    raise AssertionError("it has ended before")
+
+
+@pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "USD", "SHAPE_KEYS"])
+def test_every_frame_is_cubic_and_played_back(extension, bending, tmp_path, file_format):
+    before, mesh = film(bending), bending.data
+    stored = [tuple(vertex.co) for vertex in mesh.vertices]
+    bpy.context.scene.frame_set(3)
+    assert bake(tmp_path) == {"FINISHED"}
+    assert bpy.context.scene.frame_current == 3
+    assert [tuple(vertex.co) for vertex in mesh.vertices] == stored
+    cached = read_pc2(tmp_path / "Ball.pc2")
+    cubic = bpy.context.object
+    assert cubic.name == "Ball Cubic" and cubic.select_get() and bending.hide_get()
+    if file_format != "CACHE":
+        bending.cubic_craft.cubeness = 0.2
+        assert bake(tmp_path) == {"FINISHED"}
+        bending.cubic_craft.cubeness = 0.4
+        assert bake(tmp_path, format=file_format) == {"FINISHED"}  # of the object it was baked from
+        assert bpy.context.object == cubic
+        assert [o.name for o in bpy.data.objects if o.type == "MESH"] == ["Ball", "Ball Cubic"]
+    after = film(cubic)
+    np.testing.assert_allclose(after, cached, atol=1e-6)
+    for old, new in zip(before, after, strict=True):
+        assert flatness(new, mesh) > flatness(old, mesh) + 0.3
+        np.testing.assert_allclose(new.mean(axis=0), old.mean(axis=0), atol=0.05)
+    assert not [path for path in tmp_path.iterdir() if path.suffix not in SUFFIXES]
+
+
+def test_the_baked_object_keeps_uvs_materials_and_groups(extension, bending, tmp_path):
+    bending.data.materials.append(bpy.data.materials.new("Clay"))
+    bake(tmp_path)
+    cubic = bpy.context.object
+    assert [layer.name for layer in cubic.data.uv_layers] == ["UVMap"]
+    assert [slot.name for slot in cubic.material_slots] == ["Clay"]
+    assert [group.name for group in cubic.vertex_groups] == ["Low", "High"]
+    assert [modifier.type for modifier in cubic.modifiers] == ["MESH_CACHE"]
+
+
+def test_no_vertex_jumps_more_than_three_times_as_far_as_in_the_input(extension, bending, tmp_path):
+    before = film(bending)
+    bake(tmp_path)
+    mine, theirs = jumps(read_pc2(tmp_path / "Ball.pc2")), jumps(before)
+    assert mine.max() <= 3.0 * theirs.max()
+    assert np.percentile(mine, 99) <= 3.05 * np.percentile(theirs, 99)
+
+
+def test_what_is_at_rest_is_the_same_in_all_frames_bit_for_bit(extension, bending, tmp_path):
+    bending.modifiers.clear()
+    bake(tmp_path)
+    cached = read_pc2(tmp_path / "Ball.pc2")
+    assert (cached == cached[0]).all()
+    assert np.abs(cached[0] - shown(bending, 1)).max() > 0.1
+
+
+def test_settings_may_be_animated(extension, bending, tmp_path):
+    bending.modifiers.clear()
+    for frame, cubeness in ((1, 0.0), (FRAMES, 0.4)):
+        bending.cubic_craft.cubeness = cubeness
+        bending.cubic_craft.keyframe_insert("cubeness", frame=frame)
+    bake(tmp_path)
+    moved = np.abs(read_pc2(tmp_path / "Ball.pc2") - shown(bending, 1)).max(axis=(1, 2))
+    assert moved[0] < 0.05 and moved[-1] > 0.15
+    assert (np.diff(moved) > 0.0).all()
+
+
+def test_what_is_pinned_stays_with_the_animation(extension, bending, tmp_path):
+    low = [v.index for v in bending.data.vertices if v.co.z < -0.7]
+    group = bending.vertex_groups.new(name="Pinned")
+    group.add(low, 1.0, "REPLACE")
+    bpy.ops.cubic_craft.handle_add(group="Pinned")
+    bending.cubic_craft.handles[0].is_cubic = False
+    before = film(bending)
+    bake(tmp_path)
+    np.testing.assert_allclose(read_pc2(tmp_path / "Ball.pc2")[:, low], before[:, low], atol=1e-5)
+
+
+def test_objects_that_are_kept_together(extension, bending, tmp_path):
+    hat = bending.copy()
+    hat.data = bending.data.copy()
+    hat.name = "Hat"
+    hat.data.transform(Matrix.Translation((0.0, 0.0, 1.0)) @ Matrix.Scale(0.4, 4))
+    bpy.context.scene.collection.objects.link(hat)
+    bpy.context.scene.frame_end = 4
+    select(bending, hat)
+    assert bake(tmp_path) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["Ball.pc2", "Hat.pc2"]
+    assert {obj.name for obj in bpy.context.selected_objects} == {"Ball Cubic", "Hat Cubic"}
+    for name in ("Ball", "Hat"):
+        played = shown(bpy.data.objects[f"{name} Cubic"], 4)
+        np.testing.assert_allclose(played, read_pc2(tmp_path / f"{name}.pc2")[3], atol=1e-6)
+
+
+def test_a_text_that_grows_is_baked(extension, empty_file, tmp_path):
+    bpy.ops.object.text_add()
+    text = bpy.context.object
+    for frame, depth in ((1, 0.05), (4, 0.3)):
+        text.data.extrude = depth
+        text.data.keyframe_insert("extrude", frame=frame)
+    bpy.context.scene.frame_end = 4
+    assert bake(tmp_path) == {"FINISHED"}
+    cached = read_pc2(tmp_path / "Text.pc2")
+    depths = np.ptp(cached[:, :, 2], axis=1)
+    np.testing.assert_allclose(depths, [0.1, 0.2666, 0.4333, 0.6], atol=0.06)
+
+
+def test_a_stopped_bake_keeps_its_frames_and_continues_bit_for_bit(
+    extension, bending, bakes, tmp_path
+):
+    whole, parts = tmp_path / "whole", tmp_path / "parts"
+    bake(whole)
+    work = bakes(parts, bending)
+    advance(work, 6)
+    work.stop()
+    summary, problems = work.write(is_alone=True)
+    work.discard()
+    assert "Frames 1 to 5 of 12" in summary and not problems
+    assert len(read_pc2(parts / "Ball.pc2")) == 5
+    assert bake(parts) == {"FINISHED"}
+    assert [path.name for path in parts.iterdir()] == ["Ball.pc2"]
+    np.testing.assert_array_equal(read_pc2(parts / "Ball.pc2"), read_pc2(whole / "Ball.pc2"))
+
+
+def test_a_bake_that_lies_still_continues_bit_for_bit(extension, bending, bakes, tmp_path):
+    bending.modifiers.clear()
+    work = bakes(tmp_path, bending)
+    advance(work, 6)
+    work.discard()  # as when another file is opened
+    bake(tmp_path)
+    cached = read_pc2(tmp_path / "Ball.pc2")
+    assert len(cached) == FRAMES and (cached == cached[0]).all()
+
+
+def test_after_other_settings_it_begins_anew(extension, bending, bakes, tmp_path):
+    work = bakes(tmp_path, bending)
+    advance(work, 4)
+    work.discard()
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.unfinished"]
+    bending.cubic_craft.cubeness = 1.0
+    other = bakes(tmp_path, bending)
+    advance(other, 1)
+    other.discard()
+
+
+def test_a_mesh_that_changes_its_vertices_is_baked_until_then(extension, bending, tmp_path):
+    modifier = bending.modifiers.new("Mask", "MASK")
+    modifier.vertex_group = "High"
+    for frame, is_on in ((1, False), (5, True)):
+        modifier.show_viewport = is_on
+        modifier.keyframe_insert("show_viewport", frame=frame)
+    assert bake(tmp_path) == {"FINISHED"}
+    assert len(read_pc2(tmp_path / "Ball.pc2")) == 4
+
+
+def test_nothing_is_left_of_a_bake_that_cannot_begin(extension, bending, tmp_path):
+    objects, hidden = list(bpy.data.objects), bending.hide_get()
+    with pytest.raises(RuntimeError, match=r"the last frame comes before the first"):
+        bake(tmp_path, frame_start=5, frame_end=4)
+    with pytest.raises(RuntimeError, match=r"Save the \.blend file first"):
+        bake("//here")
+    (tmp_path / "file").touch()
+    with pytest.raises(RuntimeError, match="cannot be made"):
+        bake(tmp_path / "file" / "folder")
+    bending.data.vertices[0].co.x = math.nan
+    with pytest.raises(RuntimeError, match="finite"):
+        bake(tmp_path)
+    assert list(bpy.data.objects) == objects and bending.hide_get() == hidden
+    assert bpy.context.scene.frame_current == 1
+
+
+def test_it_is_there_after_the_file_was_saved_and_opened(extension, bending, reopen, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    assert bake("//baked") == {"FINISHED"}
+    before = film(bpy.context.object)
+    cubic = reopen("Ball Cubic")
+    assert cubic.modifiers[0].filepath == f"//baked{os.sep}Ball.pc2"
+    np.testing.assert_array_equal(film(cubic), before)
+
+
+@pytest.mark.parametrize("name", ["read_point_cache", "_play_cache", "_play_file", "_play_keys"])
+@pytest.mark.parametrize("is_again", [False, True])
+def test_what_fails_in_the_end_changes_nothing(
+    extension, bending, part, tmp_path, monkeypatch, name, is_again
+):
+    bpy.context.scene.frame_end = 2
+    if is_again:
+        bake(tmp_path)
+    before = everything_in(bpy.context.scene)
+    playback = part("animation.playback")
+
+    def fail(*_, **__):
+        raise OSError("the disk is gone")
+
+    monkeypatch.setattr(playback, name, fail)
+    formats = {"_play_file": "ALEMBIC", "_play_keys": "SHAPE_KEYS"}
+    with pytest.raises(RuntimeError, match="the disk is gone"):
+        bake(tmp_path, format=formats.get(name, "CACHE"))
+    assert everything_in(bpy.context.scene) == before
+    monkeypatch.undo()
+    assert bake(tmp_path) == {"FINISHED"}, "what was solved is lost"
+
+
+def everything_in(scene):
+    """Return all that a bake might change."""
+    objects = [
+        (obj.name, obj.hide_get(), obj.hide_render, obj.select_get(), obj.data.name)
+        + tuple((modifier.name, modifier.type) for modifier in obj.modifiers)
+        for obj in scene.objects
+    ]
+    meshes = sorted(mesh.name for mesh in bpy.data.meshes)
+    return objects, meshes, scene.frame_current, bpy.context.object.name
+
+
+def test_the_memory_is_the_same_for_any_number_of_frames(extension, part, tmp_path, monkeypatch):
+    module = part("animation.recording")
+    monkeypatch.setattr(module, "_PIECE", 400_000)
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+    vertices, peaks = 100, []
+    turns = np.tile(np.eye(3), (vertices, 1, 1))
+
+    def recorded(count):
+        recording = module.Recording(tmp_path / str(count), {}, vertices)
+        for number in range(count):
+            positions = np.full((vertices, 3), float(number))
+            recording.append(solver.frame_of(positions, turns, positions), None, "")
+        return lambda: (piece for _, piece in recording.pieces(slice(0, vertices)))
+
+    for pieces in map(recorded, (100, 1000)):
+        tracemalloc.start()
+        solver.least_width(pieces)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.5 * peaks[0]

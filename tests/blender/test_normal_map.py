@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bake Normal Map: what the map says of the surface is what the cubic mesh has there."""
+
+import bpy
+import numpy as np
+import pytest
+from flat_balls import add_ball
+from glb import Glb
+from mathutils.bvhtree import BVHTree
+from scene import add_monkey, cubify, edit_mode, reports_of, select
+from snapshot import differences, snapshot_mesh, snapshot_object
+
+LOST = 4.0  # times: how much closer the map brings the normals at the median
+NEAR = 10.0  # degrees
+
+
+def add_detailed(name="Suzanne", **where):
+    """Add a smooth monkey of 7,958 vertices, cubified."""
+    obj = add_monkey(name, **where)
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    bpy.ops.object.modifier_apply(modifier="Subdivision")
+    bpy.ops.object.shade_smooth()
+    cubify()
+    return obj
+
+
+def bake(**options):
+    return bpy.ops.cubic_craft.bake_normal_map(**{"resolution": 512, **options})
+
+
+def pixels(image):
+    width, height = image.size
+    values = np.empty((height, width, 4), np.float32)
+    image.pixels.foreach_get(values.ravel())
+    return values[..., :3]
+
+
+def corner_values(items, name, size):
+    values = np.empty(size * len(items), np.float32)
+    items.foreach_get(name, values)
+    return values.reshape(-1, size)
+
+
+def triangles_of(mesh):
+    mesh.calc_loop_triangles()
+    vertices = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    corners = vertices.copy()
+    mesh.loop_triangles.foreach_get("vertices", vertices)
+    mesh.loop_triangles.foreach_get("loops", corners)
+    return vertices.reshape(-1, 3), corners.reshape(-1, 3)
+
+
+def unit(vectors):
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def angles(low, image, high, count=600):
+    """Return the angles in degrees between the normals of the high-poly mesh and those of the map.
+
+    And those without the map: both at points on the low-poly mesh. All in object space.
+    """
+    rng = np.random.default_rng(3)
+    mesh = low.data
+    name = mesh.uv_layers.active.name
+    mesh.calc_tangents(uvmap=name)
+    loops = mesh.loops
+    N, T = corner_values(loops, "normal", 3), corner_values(loops, "tangent", 3)
+    sign = corner_values(loops, "bitangent_sign", 1)
+    uv = corner_values(mesh.uv_layers[name].uv, "vector", 2)
+    V = corner_values(mesh.vertices, "co", 3)
+    F, corners = triangles_of(mesh)
+    areas = np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1)
+    chosen = rng.choice(len(F), count, p=areas / areas.sum())
+    shares = rng.dirichlet((1, 1, 1), count)[..., None]
+    points, places = ((shares * values).sum(1) for values in (V[F[chosen]], uv[corners[chosen]]))
+    normal, tangent = ((shares * a[corners[chosen]]).sum(1) for a in (N, T))
+    bitangent = sign[corners[chosen][:, 0]] * np.cross(normal, tangent)
+    map_ = pixels(image)
+    x, y = (places * map_.shape[0]).astype(int).clip(0, map_.shape[0] - 1).T
+    x_, y_, z_ = np.moveaxis(map_[y, x] * 2 - 1, -1, 0)[..., None]
+    mapped = unit(x_ * tangent + y_ * bitangent + z_ * normal)
+    truth = nearest_normals(high, points)
+    return [
+        np.degrees(np.arccos(np.clip((unit(a) * truth).sum(1), -1, 1))) for a in (mapped, normal)
+    ]
+
+
+def nearest_normals(mesh, points):
+    """Return the smooth normals of a mesh where it is nearest to points."""
+    V, N = corner_values(mesh.vertices, "co", 3), corner_values(mesh.corner_normals, "vector", 3)
+    F, corners = triangles_of(mesh)
+    tree = BVHTree.FromPolygons(V.tolist(), F.tolist())
+    found = [tree.find_nearest(point) for point in points.tolist()]
+    faces = np.array([face for _, _, face, _ in found])
+    a, b, c = np.moveaxis(V[F[faces]].astype(float), 1, 0)
+    p = np.array([place for place, *_ in found])
+    whole = np.cross(b - a, c - a)
+    size = (whole * whole).sum(1)
+    u, v = ((np.cross(*e) * whole).sum(1) / size for e in ((c - b, p - b), (a - c, p - c)))
+    shares = np.stack([u, v, 1 - u - v], axis=1)[..., None]
+    return unit((shares * N[corners[faces]]).sum(1))
+
+
+@pytest.mark.parametrize("uv", ["AUTO", "NEW"])
+def test_the_map_has_the_normals_of_the_cubic_mesh(uv):
+    obj = add_detailed(location=(3, 2, 1), rotation=(0.3, 0.2, 1.0))
+    before = snapshot_mesh(obj.data)
+    printed = reports_of(lambda: bake(uv=uv, triangles=800))
+    assert differences(before, snapshot_mesh(obj.data)) == []
+    low, image = bpy.context.object, bpy.data.images["Suzanne Normal"]
+    assert low.name == "Suzanne Low" and low.matrix_world == obj.matrix_world
+    assert obj.hide_get() and not low.hide_get() and low.select_get()
+    assert 700 <= len(low.data.polygons) <= 800 and "triangles" in printed
+    assert all(len(face.vertices) == 3 for face in low.data.polygons)
+    assert low.data.uv_layers.active.name == ("UVMap" if uv == "AUTO" else "Normal Map")
+    assert image.colorspace_settings.name == "Non-Color" and tuple(image.size) == (512, 512)
+    values = pixels(image)
+    assert abs(values[..., :2].mean() - 0.5) < 0.02
+    assert values[..., 2].mean() > 0.9 and values[..., 0].std() > 0.02
+    with_map, without = angles(low, image, obj.data)
+    assert np.median(with_map) < NEAR
+    assert np.median(with_map) < np.median(without) / LOST
+
+
+def test_the_material_shows_the_map():
+    obj = add_detailed()
+    skin = bpy.data.materials.new("Skin")
+    if bpy.app.version < (5, 0):
+        skin.use_nodes = True
+    obj.data.materials.append(skin)
+    bake(uv="NEW")
+    low = bpy.context.object
+    material = low.material_slots[0].material
+    assert material.name == "Skin Low" and obj.material_slots[0].material == skin
+    assert "Normal Map" not in skin.node_tree.nodes
+    (shader,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"]
+    normal = shader.inputs["Normal"].links[0].from_node
+    texture = normal.inputs["Color"].links[0].from_node
+    assert normal.uv_map == "Normal Map" and normal.space == "TANGENT"
+    assert texture.image.name == "Suzanne Normal"
+    assert texture.inputs["Vector"].links[0].from_node.uv_map == "Normal Map"
+    rendered = [layer.name for layer in low.data.uv_layers if layer.active_render]
+    assert rendered == ["UVMap"], "the textures of the artist stay where they are"
+
+
+def test_a_mesh_without_uv_and_material_gets_both():
+    obj = add_detailed()
+    obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    bake()
+    low = bpy.context.object
+    uv = corner_values(low.data.uv_layers["UVMap"].uv, "vector", 2)
+    assert uv.min() >= 0 and uv.max() <= 1
+    assert low.material_slots[0].material.name == "Suzanne Low"
+    assert obj.mode == "OBJECT" and not obj.data.uv_layers
+
+
+def test_overlapping_uvs_are_not_baked_to():
+    obj = add_detailed()
+    layer = obj.data.uv_layers.active
+    values = corner_values(layer.uv, "vector", 2)
+    values[:, 0] = np.abs(values[:, 0] - 0.5)  # one half over the other
+    layer.uv.foreach_set("vector", values.ravel())
+    bake()
+    assert bpy.context.object.data.uv_layers.active.name == "Normal Map"
+    obj.hide_set(False)
+    select(obj)
+    bake(uv="KEEP")
+    assert bpy.context.object.data.uv_layers.active.name == "UVMap"
+
+
+def test_scene_and_settings_are_kept():
+    obj = add_detailed()
+    scene = bpy.context.scene
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.render.bake.cage_extrusion = 0.25
+    scene.frame_set(12)
+    before = {name: len(getattr(bpy.data, name)) for name in ("scenes", "objects", "meshes")}
+    bake()
+    assert scene.render.engine == "BLENDER_WORKBENCH"
+    assert scene.render.bake.cage_extrusion == 0.25 and scene.frame_current == 12
+    after = {name: len(getattr(bpy.data, name)) for name in before}
+    assert after == {
+        "scenes": before["scenes"],
+        "objects": before["objects"] + 1,
+        "meshes": before["meshes"] + 1,
+    }
+    assert obj.mode == "OBJECT" and bpy.context.scene == scene
+
+
+def test_a_modifier_and_an_armature():
+    """The first is a part of the low-poly mesh, the second poses it."""
+    obj = add_detailed()
+    with edit_mode(obj) as edited:
+        for vertex in [vertex for vertex in edited.verts if vertex.co.x < -1e-4]:
+            edited.verts.remove(vertex)
+    group = obj.vertex_groups.new(name="Bone")
+    group.add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    bpy.ops.object.armature_add()
+    armature = bpy.context.object
+    armature.pose.bones[0].location.z = 5
+    obj.modifiers.new("Mirror", "MIRROR")
+    obj.modifiers.new("Armature", "ARMATURE").object = armature
+    select(obj)
+    cubify()
+    bake()
+    low = bpy.context.object
+    assert [modifier.type for modifier in low.modifiers] == ["ARMATURE"]
+    x, _, z = corner_values(low.data.vertices, "co", 3).T
+    assert x.min() == pytest.approx(-x.max(), rel=0.02), "mirrored"
+    assert abs(z).max() < 3, "not posed twice"
+    assert all(vertex.groups for vertex in low.data.vertices)
+
+
+def test_a_shape_key(tmp_path):
+    add_detailed()
+    obj = bpy.context.object
+    bpy.ops.cubic_craft.restore()
+    cubify(result="SHAPE_KEY")
+    bake()
+    low = bpy.context.object
+    assert low.data.shape_keys is None and obj.data.shape_keys is not None
+    assert len(bpy.data.shape_keys) == 1
+    keyed = np.array([point.co for point in obj.data.shape_keys.key_blocks["Cubic"].points])
+    points = corner_values(low.data.vertices, "co", 3)
+    size = np.ptp(keyed, axis=0)
+    np.testing.assert_allclose(points.min(0), keyed.min(0), atol=0.05 * size.max())
+    np.testing.assert_allclose(points.max(0), keyed.max(0), atol=0.05 * size.max())
+
+
+def test_the_file_lies_beside_the_blend_file(tmp_path, reopen):
+    add_detailed()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    taken = tmp_path / "Suzanne_Normal.png"
+    taken.write_bytes(b"of the artist")
+    bake()
+    assert taken.read_bytes() == b"of the artist"
+    image = bpy.data.images["Suzanne Normal"]
+    assert image.filepath == "//Suzanne_Normal_2.png" and image.packed_file is None
+    values = pixels(image)
+    image = reopen("Suzanne Low").cubic_craft_normal_image
+    assert image.name == "Suzanne Normal" and image.colorspace_settings.name == "Non-Color"
+    np.testing.assert_allclose(pixels(image), values, atol=1e-3)
+
+
+def test_without_a_file_it_is_packed(reopen):
+    add_detailed()
+    bake()
+    image = bpy.data.images["Suzanne Normal"]
+    assert image.packed_file is not None
+    values = pixels(image)
+    image = reopen("Suzanne Low").cubic_craft_normal_image
+    np.testing.assert_allclose(pixels(image), values, atol=1e-3)
+
+
+def test_the_low_poly_mesh_can_be_sent(tmp_path):
+    add_detailed()
+    bake()
+    bpy.ops.cubic_craft.send_to(target="GLTF", filepath=str(tmp_path / "low.glb"))
+    glb = Glb(tmp_path / "low.glb")
+    (primitive,) = glb.mesh("Suzanne Low")
+    assert "TANGENT" in primitive
+    (material,) = glb.json["materials"]
+    assert material["normalTexture"]["index"] == 0
+    assert glb.json["images"][0]["mimeType"] == "image/png"
+
+
+def test_a_coarse_mesh_is_not_decimated():
+    obj = add_ball()
+    cubify()
+    bake(triangles=100_000)
+    assert len(bpy.context.object.data.polygons) == 2 * len(obj.data.polygons)
+
+
+def test_refusals():
+    obj = add_monkey()
+    with pytest.raises(RuntimeError, match="cubify it first"):
+        bake()
+    cubify()
+    with edit_mode(obj), pytest.raises(RuntimeError, match="Switch to Object Mode"):
+        bake()
+    obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    with pytest.raises(RuntimeError, match='"Suzanne" has no UV map to keep'):
+        bake(uv="KEEP")
+    with edit_mode(obj) as edited:
+        for vertex in list(edited.verts):
+            edited.verts.remove(vertex)
+    with pytest.raises(RuntimeError, match="has fewer than 3 vertices"):
+        bake()
+
+
+def test_without_cycles(part, monkeypatch):
+    add_ball()
+    cubify()
+    bpy.ops.preferences.addon_disable(module="cycles")
+    try:
+        with pytest.raises(RuntimeError, match="enable the add-on Cycles"):
+            bake()
+    finally:
+        bpy.ops.preferences.addon_enable(module="cycles")
+
+
+@pytest.mark.parametrize(
+    "place", ["low_poly.choose_uv", "normal_map.bake_normals", "normal_map._keep"]
+)
+def test_a_failure_leaves_nothing(part, monkeypatch, place):
+    def fail(*_):
+        raise ValueError("no luck")
+
+    obj = add_detailed()
+    module, name = place.split(".")
+    monkeypatch.setattr(part(f"send.{module}"), name, fail)
+    kinds = ("scenes", "objects", "meshes", "images", "materials")
+    before = snapshot_object(obj), [len(getattr(bpy.data, kind)) for kind in kinds]
+    with pytest.raises(RuntimeError, match="Nothing has changed: no luck"):
+        bake()
+    assert differences(before[0], snapshot_object(obj)) == []
+    assert [len(getattr(bpy.data, kind)) for kind in kinds] == before[1]
+    assert bpy.context.object == obj and obj.select_get() and not obj.hide_get()
