@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the command; they mean what they do in ``scripts/headless_render.py``."""
+
+import argparse
+from collections.abc import Callable
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, NoReturn
+
+from .errors import InputError
+from .formats import FORMATS
+
+__all__ = ("FORMS", "parse")
+
+FORMS = (
+    *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
+    *("rhombic", "prism", "pyramid", "cylinder", "cone"),
+)
+DEFAULTS = {
+    "solidity": (0.1, 0.0),
+    "together": ("parts", "off"),
+    "refine": ("auto", "off"),
+    "rotation": ("keep", "free"),
+}
+"""name: by default, with ``--paper``"""
+
+HELP = {
+    "input": f"a surface: {', '.join(FORMATS)}",
+    "output": f"the result: {', '.join(FORMATS)}",
+    "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
+    "--form": "what a ball would become (default: cube)",
+    "--form-sides": "of a prism or pyramid (default: 6)",
+    "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
+    "--orientation": "Euler angles of the form in degrees: about X, then Y, then Z",
+    "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
+    "(default: 0.1)",
+    "--together": "parts: parts that touch stay on each other, and seams stay closed "
+    "(default: parts)",
+    "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
+    "--rotation": "whether each part is held in its orientation, or may turn as a whole "
+    "(default: keep)",
+    "--paper": "as in the paper: solidity 0, together off, refine off, rotation free; each of them "
+    "can be given beside it and counts then",
+    "--max-iterations": "(default: 1000)",
+    "--tolerance": "(default: 0.001)",
+    "--device": "(default: auto)",
+}
+
+EPILOG = """\
+The output has the vertices and faces of the input, in its order; only positions change.
+Angles and the poles of forms are relative to the axes of the file, with the poles along its Z.
+Exit codes: 0 the output is written, 2 it is not, with one line that says why, 130 interrupted.
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """An ArgumentParser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(message.removeprefix("argument "))
+
+
+def parse(arguments: list[str]) -> argparse.Namespace:
+    """Read the command line.
+
+    Returns
+    -------
+    argparse.Namespace
+        One attribute per option; what ``--paper`` stands for is set.
+
+    Raises
+    ------
+    InputError
+        An option cannot be used.
+    """
+    options = _parser().parse_args(arguments)
+    for name, values in DEFAULTS.items():
+        if getattr(options, name) is None:
+            setattr(options, name, values[options.paper])
+    return options
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="cubic-craft",
+        description="Turn a mesh into a cubic sculpture.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+
+    def add(name: str, **how: Any) -> None:
+        parser.add_argument(name, help=HELP[name], **how)
+
+    add("input", type=Path, metavar="INPUT")
+    add("output", type=Path, metavar="OUTPUT")
+    add("--cubeness", type=_number(0, 10), default=0.4, metavar="L")
+    add("--form", choices=FORMS, default="cube")
+    add("--form-sides", type=_number(3, 64, int), default=6, metavar="N")
+    weights, degrees = _number(0, 10), _number(-36000, 36000)
+    add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
+    add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--solidity", type=_number(0, 10), metavar="S")
+    add("--together", choices=("off", "parts"))
+    add("--refine", choices=("auto", "off"))
+    add("--rotation", choices=("keep", "free"))
+    add("--paper", action="store_true")
+    add("--max-iterations", type=_number(1, 1_000_000, int), default=1000, metavar="N")
+    add("--tolerance", type=_number(1e-12, 1), default=1e-3, metavar="T")
+    add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+    parser.add_argument("--version", action="version", version=_version())
+    return parser
+
+
+def _number(low: float, high: float, kind: type = float) -> Callable[[str], float]:
+    def number(text: str) -> float:
+        try:
+            value = kind(text)
+        except ValueError:
+            what = "a number" if kind is float else "a whole number"
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}") from None
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")
+        return value
+
+    return number
+
+
+def _version() -> str:
+    try:
+        return f"cubic-craft {version('cubic-craft')}"
+    except PackageNotFoundError:  # in the checkout
+        return "cubic-craft, not installed"

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The file formats, and what meshio's writers leave out of each.
+
+Of meshio's formats, these are the ones that are used for surfaces, consist of a single file and
+are tested here.
+"""
+
+from typing import NamedTuple
+
+__all__ = ("FORMATS", "Format")
+
+
+class Format(NamedTuple):
+    """What a format can hold."""
+
+    name: str
+    """as meshio calls it"""
+    has_polygons: bool
+    """or triangles only"""
+    has_point_data: bool = False
+    has_cell_data: bool = False
+    is_float32: bool = False
+    options: dict[str, bool] = {}
+    """of the writer"""
+
+
+FORMATS = {
+    ".obj": Format("obj", has_polygons=True),
+    ".ply": Format("ply", has_polygons=True, has_point_data=True),
+    ".stl": Format("stl", has_polygons=False, is_float32=True, options={"binary": True}),
+    ".off": Format("off", has_polygons=False),
+    ".vtk": Format("vtk", has_polygons=True, has_point_data=True, has_cell_data=True),
+    ".vtu": Format("vtu", has_polygons=True, has_point_data=True, has_cell_data=True),
+}

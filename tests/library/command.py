@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run the installed command ``cubic-craft``, as a user does."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from cubic_craft import ProxyOptions, stylize
+
+COMMAND = Path(sys.executable).with_name("cubic-craft")
+QUICK = ("--device", "numpy", "--refine", "off", "--tolerance", "0.01")
+"""as the arguments that `quick` gives to the library"""
+
+
+def quick(V, F, cubeness=0.4, **options):
+    """Return the Result that the command writes with the options `QUICK`."""
+    solidity, together = options.pop("solidity", 0.1), options.pop("together", True)
+    refine = options.pop("refine", False)
+    proxy = ProxyOptions(solidity=solidity, together=together, refine=refine)
+    options = {"keep_rotation": True, "tolerance": 0.01, **options}
+    return stylize(V, F, cubeness, device="numpy", proxy=proxy, **options)
+
+
+def cubic_craft(*arguments, folder):
+    """Run the command in a folder; it must succeed and say nothing on standard output.
+
+    Returns
+    -------
+    list of str
+        The lines on standard error.
+    """
+    done = _run(arguments, folder)
+    assert done.returncode == 0, done.stderr
+    assert not done.stdout
+    return done.stderr.splitlines()
+
+
+def refused(*arguments, folder):
+    """Run the command, which must refuse with one line, and return the line."""
+    before = sorted(folder.rglob("*"))
+    done = _run(arguments, folder)
+    lines = done.stderr.splitlines()
+    assert (done.returncode, len(lines), done.stdout) == (2, 1, ""), done.stderr
+    assert lines[0].startswith("cubic-craft: error: ")
+    assert sorted(folder.rglob("*")) == before, "a file was left behind"
+    return lines[0]
+
+
+def _run(arguments, folder):
+    words = [COMMAND, *map(str, arguments)]
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The notebook of the examples runs as it is stored, and draws what it promises."""
+
+import json
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+NOTEBOOK = Path(__file__).parents[2] / "examples" / "cubic_forms.ipynb"
+
+
+@pytest.fixture(scope="module")
+def executed(tmp_path_factory):
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    folder = tmp_path_factory.mktemp("notebook")
+    NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
+    assert not list(folder.iterdir())
+    return notebook
+
+
+def code(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def printed(cell):
+    return "".join(each.text for each in cell.outputs if each.output_type == "stream")
+
+
+def test_it_is_stored_without_outputs():
+    cells = code(nbformat.read(NOTEBOOK, as_version=4))
+    assert all(not cell.outputs and cell.execution_count is None for cell in cells)
+    assert NOTEBOOK.read_text(encoding="utf-8").count("\n") > 20, "one line is no readable diff"
+    assert json.loads(NOTEBOOK.read_text(encoding="utf-8"))["metadata"]["kernelspec"]["name"] == (
+        "python3"
+    )
+
+
+def test_it_warns_of_nothing(executed):
+    for cell in code(executed):
+        for output in cell.outputs:
+            assert output.get("name") != "stderr", output.text
+
+
+def test_each_figure_is_drawn(executed):
+    for cell in code(executed):
+        pictures = [each for each in cell.outputs if "image/png" in each.get("data", {})]
+        assert len(pictures) == cell.source.count("plt.subplots(")
+        assert all(len(each.data["image/png"]) > 10_000 for each in pictures)
+    assert sum(cell.source.count("plt.subplots(") for cell in code(executed)) == 4
+
+
+def test_the_numbers_say_what_the_text_says(executed):
+    energy, shares = (printed(cell) for cell in code(executed) if "print(" in cell.source)
+    counts = {line.partition(":")[0]: int(line.split()[-2]) for line in energy.splitlines()}
+    assert energy.count("converged") == 2 and counts["accelerated"] < counts["plain"]
+    values = [float(word) for word in shares.split()[1::2]]
+    assert values == sorted(values) and values[0] < 0.53 and values[-1] > 0.8

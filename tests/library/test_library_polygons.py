@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons of any shape become triangles that cover them, and use all corners."""
+
+import numpy as np
+import pytest
+
+from cubic_craft.command_line.polygons import triangulate
+
+TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+
+
+def star(size, seed):
+    """Return a star-shaped, in general concave polygon (size,2), counter-clockwise."""
+    random = np.random.default_rng(seed)
+    angles = np.sort(random.uniform(0, 2 * np.pi, size))
+    angles = 2 * np.pi * (np.arange(size) + 0.8 * (angles - angles.min()) / 7) / size
+    return random.uniform(0.1, 1.0, size)[:, None] * np.stack([np.cos(angles), np.sin(angles)], 1)
+
+
+def comb(teeth):
+    """Return a polygon that no corner sees all of."""
+    x = np.arange(teeth)
+    top = [point for i in x for point in ((i + 0.1, 1.0), (i + 0.2, 0.1), (i + 1.0, 0.1))]
+    return np.array([(0.0, 0.0), (float(teeth), 0.0), *top[::-1]])
+
+
+SHAPES = {
+    **{f"star {size}, {seed}": star(size, seed) for size in (4, 5, 7, 20) for seed in range(5)},
+    "regular": np.stack([np.cos(np.arange(9) * 0.698), np.sin(np.arange(9) * 0.698)], 1),
+    "arrow": np.array([(0, 0), (2, 1), (0, 2), (0.7, 1)], float),
+    "arrow from its notch": np.array([(0.7, 1), (0, 0), (2, 1), (0, 2)], float),
+    "corners on straight edges": np.array(
+        [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)], float
+    ),
+    "a slit to a hole": np.array(
+        [(0, 0), (3, 0), (3, 3), (0, 3), (0, 0), (1, 1), (1, 2), (2, 2), (2, 1), (1, 1)], float
+    ),
+    "comb": comb(6),
+}
+
+
+def area(points):
+    """Return the signed area of a polygon (s,2)."""
+    (x, y), (after_x, after_y) = points.T, np.roll(points, -1, axis=0).T
+    return 0.5 * (x * after_y - y * after_x).sum()
+
+
+@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_triangles_cover_the_polygon(name, is_reversed):
+    flat = SHAPES[name][::-1] if is_reversed else SHAPES[name]
+    size = len(flat)
+    V = np.concatenate([flat, np.zeros((size, 1))], axis=1) @ TURN.T + [3.0, -2.0, 5.0]
+    corners = np.random.default_rng(size).permutation(size)
+    shuffled = np.empty_like(V)
+    shuffled[corners] = V  # so that corners and vertices have different numbers
+    triangles = triangulate(shuffled, corners[None])
+    assert triangles.shape == (size - 2, 3)
+    assert set(triangles.ravel()) == set(range(size))
+    position = np.empty(size, int)
+    position[corners] = np.arange(size)
+    areas = np.array([area(flat[position[triangle]]) for triangle in triangles])
+    sign = np.sign(area(flat))
+    assert (sign * areas > -1e-9).all()  # none is turned over
+    assert sign * areas.sum() == pytest.approx(sign * area(flat))
+
+
+def test_blocks_keep_their_order():
+    V = np.random.default_rng(1).normal(size=(8, 3))
+    faces = np.array([[0, 1, 2, 3, 4], [3, 4, 5, 6, 7]])
+    triangles = triangulate(V, faces).reshape(2, 3, 3)
+    for face, own in zip(faces, triangles, strict=True):
+        assert set(own.ravel()) == set(face)
+
+
+def test_triangles_stay_and_what_is_less_is_none():
+    V = np.zeros((4, 3))
+    assert np.array_equal(triangulate(V, np.array([[2, 0, 1]])), [[2, 0, 1]])
+    assert triangulate(V, np.array([[0, 1]])).shape == (0, 3)
+
+
+@pytest.mark.parametrize(
+    "points", [np.zeros((6, 3)), np.arange(18.0).reshape(6, 3), np.eye(6)[:, :3]]
+)
+def test_degenerate_polygons_use_all_corners(points):
+    triangles = triangulate(points, np.arange(6)[None])
+    assert triangles.shape == (4, 3) and set(triangles.ravel()) == set(range(6))
+
+
+def test_a_polygon_that_crosses_itself_uses_all_corners():
+    angles = 4 * np.pi * np.arange(5) / 5
+    V = np.stack([np.cos(angles), np.sin(angles), np.zeros(5)], axis=1)
+    assert set(triangulate(V, np.arange(5)[None]).ravel()) == set(range(5))

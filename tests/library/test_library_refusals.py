@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input of the installed command: one line, exit code 2, and nothing is written."""
+
+import signal
+import subprocess
+import time
+
+import meshio
+import numpy as np
+import pytest
+from command import COMMAND, QUICK, refused
+
+from scripts.benchmark.shapes import blob
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+PLY = """ply
+format binary_little_endian 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+property uchar red
+end_header
+"""
+
+ARGUMENTS = {
+    "no output": (["ok.obj"], "OUTPUT"),
+    "cubeness": (["ok.obj", "a.obj", "--cubeness", "-0.1"], "--cubeness: -0.1 is not between 0"),
+    "not a number": (["ok.obj", "a.obj", "--cubeness", "x"], "--cubeness: 'x' is not a number"),
+    "nan": (["ok.obj", "a.obj", "--solidity", "nan"], "--solidity: nan"),
+    "iterations": (["ok.obj", "a.obj", "--max-iterations", "1.5"], "not a whole number"),
+    "form": (["ok.obj", "a.obj", "--form", "ball"], "--form: invalid choice: 'ball'"),
+    "unknown option": (["ok.obj", "a.obj", "--cubenes", "1"], "--cubenes"),
+    "missing": (["none.obj", "a.obj"], "none.obj: there is no such file"),
+    "folder as input": (["folder.obj", "a.obj"], "folder.obj: cannot be read"),
+    "unknown format": (["ok.fbx", "a.obj"], "ok.fbx: '.fbx' files are not supported; give .obj"),
+    "unknown output": (["ok.obj", "a.fbx"], "a.fbx: '.fbx' files"),
+    "no suffix": (["ok.obj", "a"], "a: files without a suffix"),
+    "same file": (["ok.obj", "./ok.obj"], "ok.obj: this is the input"),
+    "no folder": (["ok.obj", "none/a.obj"], "the folder none does not exist; create it"),
+    "folder": (["ok.obj", "folder.obj"], "folder.obj: this is a folder"),
+    "not writable": (["ok.obj", "/proc/a.obj"], "cannot write to /proc"),
+    "gpu": (["ok.obj", "a.obj", "--device", "tpu"], "--device: invalid choice: 'tpu'"),
+}
+
+FILES = {
+    "empty.obj": ("", "the file is empty"),
+    "no_faces.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no faces"),
+    "nan.obj": (TRIANGLE.replace("1 0 0", "nan 0 0"), "not finite"),
+    "words.obj": (TRIANGLE.replace("1 0 0", "a b c"), "three coordinates ('v a b c')"),
+    "short.obj": (TRIANGLE.replace("v 1 0 0", "v 1 0"), "three coordinates"),
+    "out_of_range.obj": (TRIANGLE.replace("3\n", "4\n"), "vertex 4, but there are only 3"),
+    "index_0.obj": (TRIANGLE.replace("f 1", "f 0"), "there is no vertex 0"),
+    "index_back.obj": (TRIANGLE.replace("f 1", "f -4"), "there is no vertex -4"),
+    "two_corners.obj": (TRIANGLE.replace("f 1 2 3", "f 1 2"), "at least 3 corners"),
+    "corner.obj": (TRIANGLE.replace("f 1", "f x"), "'x' is no corner"),
+    "huge.obj": (TRIANGLE.replace("f 1 2 3", "v 1e999 1 0\nf 1 2 4 3"), "not finite"),
+    "binary.obj": ("\x00\x01\x02", "no faces"),
+    "empty.ply": ("", "the file is empty"),
+    "other.ply": ("hello", "no .ply file"),
+    "cut.ply": (PLY.replace("property uchar red\n", ""), "is the file cut off?"),
+    "cut.stl": ("x" * 100, "has no vertices; is the file cut off?"),
+    "other.stl": ("hello", "cannot be read as .stl"),
+    "face_colors.ply": (PLY, "property red"),
+    "other.off": ("hello", "cannot be read as .off (Expected the first line to be `OFF`.)"),
+    "quads.off": ("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "cannot be read as .off"),
+    "other.vtk": ("hello", "cannot be read as .vtk"),
+    "other.vtu": ("hello", "cannot be read as .vtu"),
+}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "ok.obj").write_text(TRIANGLE)
+    (tmp_path / "folder.obj").mkdir()
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", ARGUMENTS)
+def test_arguments(name, folder):
+    arguments, words = ARGUMENTS[name]
+    assert words in refused(*arguments, folder=folder)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_files(name, tmp_path):
+    content, words = FILES[name]
+    (tmp_path / name).write_text(content)
+    line = refused(name, "out.obj", folder=tmp_path)
+    assert words in line and line.startswith(f"cubic-craft: error: {name}: ")
+
+
+def test_a_gpu_that_is_not_there_is_named(folder, monkeypatch):
+    for variable in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):  # older loaders know the latter
+        monkeypatch.setenv(variable, str(folder / "no_driver.json"))
+    monkeypatch.setenv("TI_ENABLE_CUDA", "0")
+    line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder)
+    assert "gpu" in line.lower()
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2.5, 3])
+def test_ply_files_that_were_cut_off_are_refused(rows, tmp_path):
+    V, F = blob(1)
+    meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(tmp_path / "whole.ply")
+    content = (tmp_path / "whole.ply").read_bytes()
+    (tmp_path / "cut.ply").write_bytes(content[: len(content) - int((len(F) - rows) * 13)])
+    assert "cut.ply: " in refused("cut.ply", "out.ply", folder=tmp_path)
+
+
+def test_volumes_and_higher_orders_are_refused(tmp_path):
+    points = np.random.default_rng(0).normal(size=(6, 3))
+    for kind, corners in (("tetra", 4), ("triangle6", 6)):
+        meshio.Mesh(points, [(kind, np.arange(corners)[None])]).write(tmp_path / f"{kind}.vtu")
+        assert f"type {kind}" in refused(f"{kind}.vtu", "out.vtu", folder=tmp_path)
+
+
+def test_an_output_survives_a_refusal(folder):
+    (folder / "old.obj").write_text("precious")
+    (folder / "bad.obj").write_text("v 0 0 0\n")
+    refused("bad.obj", "old.obj", folder=folder)
+    assert (folder / "old.obj").read_text() == "precious"
+
+
+def test_a_format_that_cannot_hold_lines_is_named(tmp_path):
+    points = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    cells = [("triangle", [[0, 1, 2]]), ("line", [[0, 3]])]
+    meshio.Mesh(points, cells).write(tmp_path / "a.vtu")
+    line = refused("a.vtu", "out.obj", folder=tmp_path)
+    assert "out.obj: cannot be written as .obj" in line
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_run_that_is_stopped_leaves_nothing(number, code, tmp_path):
+    V, F = blob(6)
+    meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(tmp_path / "large.ply")
+    words = [COMMAND, "large.ply", "out.ply", "--tolerance", "1e-9", *QUICK]
+    process = subprocess.Popen(
+        words,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A test run in the background may have SIGINT ignored, which children would inherit.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    time.sleep(3.0)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == code and "Traceback" not in said
+    assert [path.name for path in tmp_path.iterdir()] == ["large.ply"]
