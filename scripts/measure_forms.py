@@ -14,22 +14,24 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from benchmark.shapes import ball
+from figures.forms import HALF_LENGTH, HOUSE
+
 from solver import Setup, Stylization, rest_mesh, stylize
 from solver.rest_measures import triangle_areas_and_normals
 from solver.styles import forms
-from solver.styles.hulls import simple_hull
+from solver.styles.hulls import simple_hull, spiral
 from solver.styles.polytope import from_directions
 
 CUBENESS, NEAR, STEPS = 0.6, np.cos(np.radians(6.0)), 60
 LEVELS = 5
 """subdivisions of an icosahedron, which make 10,242 vertices"""
-HOUSE = ((-0.6, -0.5), (0.6, -0.5), (0.6, 0.3), (0.0, 0.8), (-0.6, 0.3))
 ROUNDING = 1e-12
 
 
 def main():
     """Print a row for each form."""
-    V, F = ball()
+    V, F = ball(LEVELS)
     print(f"{len(V):,} vertices, cubeness {CUBENESS}")
     for name, form in bodies().items():
         stylize(V, F, CUBENESS, form=form, max_iterations=2)  # compiles
@@ -45,7 +47,7 @@ def main():
 
 def bodies():
     """Return the forms by their names, cube first."""
-    house = np.array([(x, y, z) for y in (-0.7, 0.7) for x, z in HOUSE])
+    house = np.array([(x, y, z) for y in (-HALF_LENGTH, HALF_LENGTH) for x, z in HOUSE])
     return {
         "cube": forms.cube(),
         "octahedron": forms.octahedron(),
@@ -53,7 +55,7 @@ def bodies():
         "prism, 6 sides": forms.prism(6),
         "rounded cube": forms.rounded_cube(),
         "12 directions": forms.dodecahedron(),
-        "64 directions": from_directions(spread(64)),
+        "64 directions": from_directions(spiral(64)),
         "hull of a house": simple_hull(house, 64),
         "tetrahedron": forms.tetrahedron(),
         "icosahedron": forms.icosahedron(),
@@ -61,34 +63,6 @@ def bodies():
         "cylinder": forms.cylinder(),
         "cone": forms.cone(),
     }
-
-
-def ball():
-    """Return vertices and triangles of an icosahedron, subdivided and projected to the sphere."""
-    body = forms.icosahedron()
-    V = body.vertices / body.radius
-    middles = body.middles @ V.T
-    F = np.argsort(-middles, axis=1)[:, :3]
-    flipped = np.linalg.det(V[F]) < 0.0
-    F[flipped] = F[flipped][:, ::-1]
-    for _ in range(LEVELS):
-        edges = np.sort(F[:, [[1, 2], [2, 0], [0, 1]]], axis=2)
-        unique, number = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
-        a, b, c = len(V) + number.reshape(-1, 3).T
-        i, j, k = F.T
-        F = np.concatenate([np.stack(t, axis=1) for t in ((i, c, b), (c, j, a), (b, a, k))])
-        F = np.concatenate([F, np.stack((a, b, c), axis=1)])
-        V = np.concatenate([V, V[unique].mean(axis=1)])
-        V /= np.linalg.norm(V, axis=1, keepdims=True)
-    return V, F
-
-
-def spread(count):
-    """Return evenly spread unit vectors, on a spiral."""
-    k = np.arange(count) + 0.5
-    z, angles = 1.0 - 2.0 * k / count, np.pi * (1.0 + np.sqrt(5.0)) * k
-    radii = np.sqrt(1.0 - z * z)
-    return np.column_stack([radii * np.cos(angles), radii * np.sin(angles), z])
 
 
 def share(U, F, directions):

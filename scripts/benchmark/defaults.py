@@ -80,5 +80,7 @@ def _figures(V, F, cubeness, name, link_seconds):
     """
     link_seconds.clear()
     run = solve(V, F, cubeness, **SETTINGS[name])
-    figures = {name: value for name, value in run.figures.items() if name != "curve"}
-    return figures | {"links": link_seconds.total(), "solved": len(run.setup.rest.V)}
+    return run.figures_without_curve() | {
+        "links": link_seconds.total(),
+        "solved": len(run.setup.rest.V),
+    }

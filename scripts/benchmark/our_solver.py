@@ -28,9 +28,21 @@ class TimedRun:
     """seconds until the first iteration begins (``setup``) and in all, ``iterations``, ``reason``,
     and the ``curve``: [seconds since the beginning, energy] after each iteration"""
 
+    def figures_without_curve(self):
+        """Return all figures but the ``curve``."""
+        return {name: value for name, value in self.figures.items() if name != "curve"}
+
 
 def solve(
-    V, F, cubeness, is_over=None, is_accelerated=True, proxy=PAPER, keep_rotation=False, **stop
+    V,
+    F,
+    cubeness,
+    is_over=None,
+    is_accelerated=True,
+    proxy=PAPER,
+    keep_rotation=False,
+    device="auto",
+    **stop,
 ):
     """Stylize a mesh and return the TimedRun; unless settings are given, as in the paper.
 
@@ -43,7 +55,7 @@ def solve(
     begin = time.perf_counter()
     setup = Setup(rest_mesh(V, F, proxy))
     options = {"is_accelerated": is_accelerated, "keep_rotation": keep_rotation}
-    stylization = Stylization(setup, cubeness, **options)
+    stylization = Stylization(setup, cubeness, device=device, **options)
     begin += stylization.compile_seconds
     setup_seconds = time.perf_counter() - begin
 

@@ -42,6 +42,8 @@ def _sections(results):
         ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
         ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
         ("### Memory of the largest", _MEMORY, tables.memory_of_defaults(results["defaults"])),
+        ("## Without Taichi", _NUMPY, map(tables.without_taichi, results["numpy"])),
+        ("## More cores", _CORES, map(tables.cores, results["cores"])),
         ("## From start to first result", _STARTUP, tables.startup(results["startup"])),
         ("## Targets", _TARGETS, targets(results)),
     ]
@@ -74,6 +76,12 @@ _DEFAULTS = """\
 The artist's defaults beside the paper's settings, each to its own stop. "Ticks per second" is how
 often Live could show a coarse mesh anew, without what Blender takes to draw."""
 _MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
+_NUMPY = """\
+The artist's defaults beside those without Taichi, as in a Blender whose Python it has no wheel for;
+not as in the paper. Each to its own stop."""
+_CORES = """\
+An iteration as in the paper, in processes that may use one core and all of them. "Not parallel" is
+Amdahl's share s, by which the time on n cores is s + (1 - s) / n of that on one."""
 _STARTUP = "Fresh processes, with the files in the system's cache and the compiled kernels on disk."
 _TARGETS = "What was to be reached, and whether this run has."
 

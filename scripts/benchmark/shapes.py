@@ -45,12 +45,18 @@ def bumpy(V):
     return V * radius[:, None] * [1.0, 0.8, 1.3]
 
 
-def blob(subdivisions):
-    """Return a sphere with bumps; n = 10 * 4 ** subdivisions + 2."""
+def ball(subdivisions):
+    """Return a unit sphere; n = 10 * 4 ** subdivisions + 2."""
     V, F = _unit(ICOSAHEDRON), ICOSAHEDRON_FACES
     for _ in range(subdivisions):
         V, F = subdivided(V, F)
         V = _unit(V)
+    return V, F
+
+
+def blob(subdivisions):
+    """Return a `ball` with bumps."""
+    V, F = ball(subdivisions)
     return bumpy(V), F
 
 

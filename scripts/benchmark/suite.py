@@ -3,8 +3,9 @@
 
 from typing import NamedTuple
 
-from . import defaults, solver_alone
+from . import defaults, solver_alone, without_taichi
 from .best_energies import BestEnergies
+from .cores import on_one_and_all
 from .find_best import find_best
 from .machine import isolated, machine_line
 from .meshes import known_meshes, made_meshes, scaled_meshes
@@ -18,6 +19,8 @@ LARGE_SCALING = 50_000
 """vertices from which a size is measured only once"""
 CUBENESS = solver_alone.CUBENESS
 """of all parts but the race"""
+MULTIGRID = 100_000
+"""vertices of the largest mesh without Taichi: more than are factorised"""
 COARSE = 2000
 """vertices up to which Live is measured with the defaults"""
 
@@ -119,6 +122,23 @@ def _defaults(plan, meshes, say):
     yield _head(largest) | alone | {"ticks": []}
 
 
+def _numpy(plan, meshes, say):
+    largest = scaled_meshes(meshes.get("bunny"), min(plan.max_vertices, MULTIGRID))[-1:]
+    for mesh in (*_meshes(plan, meshes), *largest):
+        say(f"without Taichi: {mesh.name}, {mesh.vertices:,} vertices")
+        case = {"path": mesh.path, "cubeness": CUBENESS, "runs": plan.runs}
+        yield _head(mesh) | isolated(without_taichi.side_by_side, **case)
+
+
+def _cores(plan, meshes, say):
+    for mesh in _meshes(plan, meshes):
+        if mesh.vertices >= LARGE:
+            say(f"cores: {mesh.name}")
+            found = on_one_and_all(mesh.path, CUBENESS)
+            if found is not None:
+                yield _head(mesh) | found
+
+
 def _startup(plan, meshes, say):
     say("start-up")
     yield startup(plan.runs)
@@ -130,6 +150,8 @@ PARTS = {
     "phases": _phases,
     "scaling": _scaling,
     "defaults": _defaults,
+    "numpy": _numpy,
+    "cores": _cores,
     "startup": _startup,
 }
 

@@ -3,6 +3,7 @@
 
 from statistics import median
 
+from .cores import serial_share
 from .solver_alone import PAPER_SECONDS
 from .summary import (
     GAPS,
@@ -131,6 +132,29 @@ def memory_of_defaults(cases):
         for name, program in _BOTH.items():
             if "peak" in case[program][0]:
                 yield _case(case) | {"settings": name} | _memory(case[program][0])
+
+
+def without_taichi(case):
+    """Return NumPy alone beside Taichi."""
+    return _case(case) | {
+        "with Taichi: to our stop, s": median_of(case, "taichi", "seconds"),
+        "NumPy alone: to our stop, s": median_of(case, "numpy", "seconds"),
+        "times as long": times_as_long(case, "numpy", "taichi"),
+    }
+
+
+def cores(case):
+    """Return an iteration on one core and on all, and the shares that run on one core only."""
+    one, every, count = case["one"], case["all"], case["cores"]
+    total, at_all = sum(one.values()), sum(every.values())
+    row = _case(case) | {"on 1 core, ms": total, f"on {count} cores, ms": at_all}
+    row["not parallel, %"] = 100 * serial_share(total, at_all, count)
+    for phase in _PHASES:
+        row[f"{phase}, % of the time on {count} cores"] = 100 * every[phase] / at_all
+        row[f"of it not parallel, % ({phase})"] = 100 * serial_share(
+            one[phase], every[phase], count
+        )
+    return row
 
 
 def startup(results):

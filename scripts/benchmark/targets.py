@@ -34,6 +34,7 @@ def targets(results):
         *_beside_the_paper(results["ten"]),
         *_scaling(results["scaling"]),
         *_defaults(results["defaults"]),
+        *_without_taichi(results["numpy"]),
         *_startup(results["startup"]),
     ]
 
@@ -100,6 +101,14 @@ def _defaults(cases):
         if case["vertices"] in MILLION:
             peak = case["defaults"][0]["peak"]
             yield target("1 M vertices, with the defaults, peak memory in GB", peak / 1e9, 4)
+
+
+def _without_taichi(cases):
+    for case in cases:
+        if case["vertices"] >= min(FIFTY_THOUSAND):
+            ratio = times_as_long(case, "numpy", "taichi")
+            name = f"{case['mesh']}, {case['vertices']:,} vertices"
+            yield target(f"{name}, times as long without Taichi", ratio, 4)
 
 
 def _startup(results):

@@ -14,7 +14,7 @@ from headless.progress import ProgressBar
 from headless.render import render
 from headless.studio import furnish
 
-from . import captures, cubeness, forms, handles, orientations, teaser, uv_texture
+from . import captures, cubeness, forms, handles, low_poly, orientations, rigs, teaser, uv_texture
 from .figure_meshes import FigureMeshes
 
 __all__ = ("render_figures",)
@@ -42,6 +42,8 @@ FIGURES = {
     "6": Figure("figure_6_orientations", orientations.compose, 520),
     "forms": Figure("figure_forms", forms.compose, 700),
     "captures": Figure("figure_captures", captures.compose, 460),
+    "rigs": Figure("figure_rigs", rigs.compose, 520),
+    "low_poly": Figure("figure_low_poly", low_poly.compose, 520),
     "targets": Figure("figure_targets", forms.compose_targets, 560),
 }
 

@@ -3,6 +3,7 @@
 
 import argparse
 import json
+import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import NoReturn
 
 from .checks import check_batch, check_single
 from .errors import InputError
-from .formats import KEEP_VERTICES, READABLE, listing
+from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
 from .handles_file import read_handles
 from .region_option import region_option
 
@@ -36,6 +37,7 @@ HELP = {
     "files, or folders of them",
     "--object": "this mesh object only (default: all)",
     "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
+    "--options": "more of these options, in one text: for programs that hand on one",
     "--worker": argparse.SUPPRESS,
     "--verbose": "show Blender's own messages",
     "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
@@ -80,11 +82,18 @@ HELP = {
     "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
     "several cubeness values one file each (name_0.4.obj); in a batch the end of the names, such "
     "as .obj or _cubic.obj",
+    "--bake": f"the cubic version of each frame of an animation: {listing(ANIMATED)}; instead of "
+    "a picture and a mesh; in a batch the end of the names. A run that was ended continues where "
+    "it was",
+    "--frames": "first and last frame for --bake (default: those of the file)",
+    "--part": "for --bake on several machines: solves the Kth of N parts of the frames; when all "
+    "are solved, the same command without --part writes the file",
     "--report": "numbers of the run",
     "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
     "for render farms, which would blame the machine",
     "--output-folder": "for the results, each named as its input; made if it is not there",
     "--recursive": "take folders with the folders in them, and lay the results out alike",
+    "--only": "this file of them only, counted from 1: for render farms, where each is a task",
     "--jobs": "files worked on at the same time, each in a Blender of its own (default: 1)",
     "--scheduler": "of a Dask cluster whose workers do the files, such as tcp://host:8786",
     "--force": "do also what is done already",
@@ -151,6 +160,8 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         An option, the input or an output path cannot be used.
     """
     options = _parser().parse_args(arguments)
+    if options.options:
+        options = _parser().parse_args([*arguments, *_words(options.options)])
     if options.worker:  # what is the same for all files, as `batch.plan.settings_of` has it
         vars(options).update(json.loads(sys.stdin.readline()))
     options.cubeness = list(dict.fromkeys(options.cubeness))
@@ -184,6 +195,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_batch(_adder(parser.add_argument_group("several files")))
     _add_picture(_adder(parser.add_argument_group("the picture")))
     add("--threads", type=_number(1, 1024, int), metavar="N")
+    add("--options", default="", metavar="TEXT")
     add("--worker", default="", metavar="KEY:BATCH")
     add("--verbose", action="store_true")
     return parser
@@ -232,6 +244,10 @@ def _add_outputs(add: Callable[..., argparse.Action]) -> None:
     add("--output", type=Path, metavar="PICTURE.png")
     add("--no-render", action="store_true")
     add("--save-mesh", metavar="FILE")
+    add("--bake", type=Path, metavar="FILE")
+    frame = _number(-1048574, 1048574, int)
+    add("--frames", nargs=2, type=frame, metavar=("A", "B"))
+    add("--part", nargs=2, type=_number(1, 10000, int), metavar=("K", "N"))
     add("--report", type=Path, metavar="FILE.json")
     add("--error-file", type=Path, metavar="FILE")
 
@@ -239,6 +255,7 @@ def _add_outputs(add: Callable[..., argparse.Action]) -> None:
 def _add_batch(add: Callable[..., argparse.Action]) -> None:
     add("--output-folder", type=Path, metavar="DIR")
     add("--recursive", action="store_true")
+    add("--only", type=_number(1, 1_000_000, int), metavar="K")
     add("--jobs", type=_number(1, 1024, int), metavar="N")
     add("--scheduler", metavar="ADDRESS")
     add("--force", action="store_true")
@@ -267,6 +284,16 @@ def _number(low: float, high: float, kind: type = float) -> Callable[[str], floa
         return value
 
     return number
+
+
+def _words(text: str) -> list[str]:
+    """Split a text as a shell does, but for backslashes, which stand in paths of Windows."""
+    words = shlex.shlex(text, posix=True)
+    words.whitespace_split, words.escape, words.commenters = True, "", ""
+    try:
+        return list(words)
+    except ValueError:
+        raise InputError(f"--options {text}: a quotation mark is not closed") from None
 
 
 def _axes(text: str) -> str:

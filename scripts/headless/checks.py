@@ -5,7 +5,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from .errors import InputError
-from .formats import KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
+from .formats import ANIMATED, KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
 from .output_files import check_writable, numbered, per_cubeness
 
 __all__ = ("check_batch", "check_single", "refuse_empty")
@@ -19,10 +19,11 @@ def check_single(options: Namespace) -> None:
     InputError
         The input, an output path, or how options go together.
     """
-    for option in ("jobs", "scheduler", "force", "recursive"):
+    for option in ("jobs", "scheduler", "force", "recursive", "only"):
         if getattr(options, option):
             raise InputError(f"--{option}: is for several files; add --output-folder DIR")
     check_form(options)
+    _check_bake(options)
     _check_is_something_to_do(options)
     if not options.no_render and options.output is None:
         options.output = Path("cubic_craft.png")
@@ -74,6 +75,7 @@ def check_batch(options: Namespace) -> None:
             "--output: is for one file; in --output-folder pictures are named as their inputs",
         ),
         (options.error_file, "--error-file: is for one file; here --report has all that failed"),
+        (options.part, "--part: is for one file"),
         (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
         (
             options.jobs and options.scheduler,
@@ -83,6 +85,7 @@ def check_batch(options: Namespace) -> None:
         if is_wrong:
             raise InputError(message)
     check_form(options)
+    _check_bake(options)
     _check_is_something_to_do(options)
     for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
         if not path.exists():
@@ -90,7 +93,10 @@ def check_batch(options: Namespace) -> None:
         if not path.is_dir():
             _check_format(path)
     if options.save_mesh is not None:
-        _check_ending(options.save_mesh)
+        _check_ending("--save-mesh", options.save_mesh)
+        _check_mesh_suffix(Path(f"name{options.save_mesh}"))
+    if options.bake is not None:
+        _check_ending("--bake", str(options.bake))
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report:
@@ -105,11 +111,33 @@ def refuse_empty(path: Path) -> None:
         raise InputError(f"{path}: the file is empty; export it again")
 
 
+def _check_bake(options: Namespace) -> None:
+    """Check what concerns an animation; it is the only thing that is written then."""
+    if not options.bake:
+        for option in ("frames", "part"):
+            if getattr(options, option):
+                raise InputError(f"--{option}: is for --bake FILE")
+        return
+    for option in ("output", "save_mesh", "turntable", "with_modifiers"):
+        if getattr(options, option):
+            name = option.replace("_", "-")
+            raise InputError(f"--{name}: does not go together with --bake; drop one")
+    name = f"name{options.bake}" if options.output_folder else options.bake
+    _check_suffix("--bake", Path(name), ANIMATED)
+    if len(options.cubeness) > 1:
+        raise InputError("--cubeness: an animation has one; run once for each")
+    if options.frames and options.frames[0] > options.frames[1]:
+        raise InputError("--frames: the last frame comes before the first")
+    if options.part and options.part[0] > options.part[1]:
+        raise InputError("--part: there is no such part; give its number, then how many there are")
+    options.no_render = True
+
+
 def _check_is_something_to_do(options: Namespace) -> None:
     """Refuse --no-render together with pictures, and without anything else to write."""
     if options.no_render and (options.output or options.turntable):
         raise InputError("--no-render: does not go together with --output or --turntable; drop one")
-    if options.no_render and not (options.save_mesh or options.report):
+    if options.no_render and not (options.save_mesh or options.bake or options.report):
         raise InputError("--no-render: nothing to write; add --save-mesh FILE or --report FILE")
 
 
@@ -129,14 +157,14 @@ def _check_mesh_suffix(path: Path) -> None:
     _check_suffix("--save-mesh", path, KEEP_VERTICES)
 
 
-def _check_ending(ending: str) -> None:
+def _check_ending(option: str, ending: str) -> None:
     """Refuse what cannot be the end of a name: ``.obj`` and ``_cubic.obj`` can."""
     if not ending or ending[0].isalnum() or Path(ending).name != ending:
+        example = ".obj or _cubic.obj" if option == "--save-mesh" else ".abc or _cubic.abc"
         raise InputError(
-            f"--save-mesh {ending}: with several files give how the names of the results shall "
-            "end, such as .obj or _cubic.obj"
+            f"{option} {ending}: with several files give how the names of the results shall "
+            f"end, such as {example}"
         )
-    _check_mesh_suffix(Path(f"name{ending}"))
 
 
 def _check_format(path: Path) -> None:
@@ -165,6 +193,8 @@ def _check_outputs(options: Namespace) -> None:
     if options.save_mesh:
         _check_mesh_suffix(options.save_mesh)
         outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
+    if options.bake:
+        outputs["--bake"] = [options.bake]
     if options.report:
         _check_suffix("--report", options.report, (".json",))
         outputs["--report"] = [options.report]

@@ -15,7 +15,7 @@ from .pose import groups_of, handles_of_all, start_of
 from .progress import ProgressBar
 from .region_option import region_of
 
-__all__ = ("Sculpture", "cubify_all")
+__all__ = ("Sculpture", "check_groups", "cubify_all", "settings_of_object")
 
 
 @dataclass
@@ -49,7 +49,7 @@ def cubify_all(
     CubicCraftError
         An object, or an option for it, cannot be used.
     """
-    _check_groups(loaded.objects, options)
+    check_groups(loaded.objects, options)
     handles = handles_of_all(loaded, options, extension)
     by_mesh: dict[str, list[bpy.types.Object]] = {}
     for obj in loaded.objects:
@@ -57,7 +57,7 @@ def cubify_all(
     members = [
         extension.member.read_member(
             users[0],
-            _settings(users[0], handles[users[0].name], options, extension, loaded),
+            settings_of_object(users[0], handles[users[0].name], options, extension, loaded),
         )
         for users in by_mesh.values()
     ]
@@ -89,7 +89,7 @@ def _solve(prepared: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, 
     return solutions
 
 
-def _settings(
+def settings_of_object(
     obj: bpy.types.Object,
     handles: tuple[Any, ...],
     options: Namespace,
@@ -98,6 +98,7 @@ def _settings(
 ) -> Any:
     """Return the Settings for one object; a group that only others have does not concern it."""
     return extension.settings.Settings(
+        cubeness=options.cubeness[0],
         form=options.form.upper(),
         form_sides=options.form_sides,
         form_weights=tuple(options.form_weights),
@@ -140,7 +141,8 @@ def _regions(obj: bpy.types.Object, options: Namespace, extension: Extension) ->
     )
 
 
-def _check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
+def check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
+    """Raise InputError if no object has a vertex group that was named."""
     there, has = groups_of(objects)
     wanted = [("--pin", group) for group in options.pin]
     wanted += [("--region", region_of(text).group) for text in options.region]

@@ -22,6 +22,9 @@ class Extension:
 
     def __init__(self, root: Path) -> None:
         self.assembly = _room("cubic_craft_addon.run.assembly")
+        self.bake = _room("cubic_craft_addon.animation.bake")
+        self.exchange = _room("cubic_craft_addon.animation.exchange")
+        self.parts = _room("cubic_craft_addon.animation.parts")
         self.pipeline = _room("cubic_craft_addon.run.pipeline")
         self.form = _room("cubic_craft_addon.run.form")
         self.form_pictures = _room("cubic_craft_addon.settings.form_pictures")

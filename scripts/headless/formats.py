@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which formats can be read, and which can be written with vertex order and count kept."""
 
-__all__ = ("KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "RENUMBER_VERTICES", "listing")
+__all__ = ("ANIMATED", "KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "RENUMBER_VERTICES", "listing")
 
 READABLE = (
     (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
@@ -11,6 +11,9 @@ READABLE = (
 
 # Each comes back with the same vertices in the same order: tests/scripts proves it.
 KEEP_VERTICES = (".obj", ".ply", ".usd", ".usdc", ".usda", ".usdz", ".abc", ".blend")
+
+# For the frames of an animation.
+ANIMATED = (".abc", ".usd", ".usdc", ".usda", ".pc2")
 
 # STL stores triangle corners only, glTF splits vertices at seams, FBX rounds on the way through
 # its own units and axes.

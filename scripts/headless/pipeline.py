@@ -7,16 +7,17 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
+from .bake_frames import bake_frames
 from .cubify_all import cubify_all
 from .errors import InputError
 from .extension import Extension, registered
 from .form_object import FormMesh, make_form, read_form
 from .gallery import build_gallery
-from .load_meshes import empty_blender, load
+from .load_meshes import Loaded, empty_blender, load
 from .output_files import numbered, per_cubeness
 from .progress import ProgressBar
 from .render import render
-from .report import write_report
+from .report import write_animation_report, write_report
 from .save_meshes import check_exporter, save_meshes
 from .studio import furnish
 
@@ -60,6 +61,9 @@ def _run(
         loaded = load(options.input, options.object, options.verbose, seen_by)
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None
+    if options.bake:
+        _bake(loaded, options, extension, bar, seconds, begin)
+        return
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
     except extension.solver.CubicCraftError as error:
@@ -80,6 +84,25 @@ def _run(
     seconds["total"] = time.perf_counter() - begin
     if options.report:
         write_report(options.report, sculptures, options, extension, seconds)
+        bar.say(f"wrote {options.report}")
+
+
+def _bake(
+    loaded: Loaded,
+    options: Namespace,
+    extension: Extension,
+    bar: ProgressBar,
+    seconds: dict[str, float],
+    begin: float,
+) -> None:
+    try:
+        with _timed("bake", seconds):
+            animation = bake_frames(loaded, options, extension, bar)
+    except extension.solver.CubicCraftError as error:
+        raise InputError(f"{options.input or 'monkey'}: {error}") from error
+    seconds["total"] = time.perf_counter() - begin
+    if options.report:
+        write_animation_report(options.report, animation, options, extension, seconds)
         bar.say(f"wrote {options.report}")
 
 

@@ -15,7 +15,7 @@ from .cubify_all import Sculpture
 from .extension import Extension
 from .output_files import write_json, written
 
-__all__ = ("write_report",)
+__all__ = ("write_animation_report", "write_report")
 
 SETTINGS = (
     *("form", "form_sides", "form_weights", "form_directions", "region"),
@@ -39,19 +39,49 @@ def write_report(
     seconds : what "load", "write", "render" and "total" took
     """
     report = {
-        "versions": _versions(extension),
+        **_head(options, extension),
         "device": sculptures[0].solutions[0].result.device,
-        "notices": extension.notices(),
-        "settings": {name: getattr(options, name) for name in SETTINGS}
-        | {"capture_strength": options.capture_strength if options.capture else None},
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }
-    if options.worker:  # so that the batch can tell whether the outputs are still those of this run
-        outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
-        sizes = {path.name: path.stat().st_size for path in outputs}
-        report["made"] = {"for": options.worker, "sizes": sizes}
-    write_json(path, report)
+    outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
+    write_json(path, {**report, **_made(options, outputs)})
+
+
+def write_animation_report(
+    path: Path,
+    animation: dict[str, Any],
+    options: Namespace,
+    extension: Extension,
+    seconds: dict[str, float],
+) -> None:
+    """Write the report of ``--bake`` as JSON.
+
+    Parameters
+    ----------
+    animation : from `bake_frames`
+    """
+    report = {**_head(options, extension), **animation, "seconds": seconds}
+    write_json(path, {**report, **_made(options, [options.bake])})
+
+
+def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
+    """Return what tells a batch whether the outputs are still those of this run."""
+    if not options.worker:
+        return {}
+    sizes = {path.name: path.stat().st_size for path in outputs}
+    return {"made": {"for": options.worker, "sizes": sizes}}
+
+
+def _head(options: Namespace, extension: Extension) -> dict[str, Any]:
+    """Return what all reports begin with."""
+    settings = {name: getattr(options, name) for name in SETTINGS}
+    strength = options.capture_strength if options.capture else None
+    return {
+        "versions": _versions(extension),
+        "notices": extension.notices(),
+        "settings": {**settings, "capture_strength": strength},
+    }
 
 
 def _versions(extension: Extension) -> dict[str, str | None]:

@@ -49,11 +49,13 @@ def in_a_worker(options, monkeypatch):
 def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
     options, defaults = batch_options(*ALL_OPTIONS.split()), batch_options()
     there = in_a_worker(options, monkeypatch)
-    for name in set(vars(options)) - OF_THE_BATCH - {"no_render"}:
+    for name in set(vars(options)) - OF_THE_BATCH - {"no_render", "frames"}:
         assert getattr(options, name) != getattr(defaults, name), f"{name} is not tried here"
         assert getattr(there, name) == getattr(options, name)
     assert there.handles[0].vertices == options.handles[0].vertices == (0,)
     assert there.form_object == folder / "other" / "A.obj"
+    baked = in_a_worker(batch_options("--bake", "_c.abc", "--frames", "2", "5"), monkeypatch)
+    assert baked.frames == [2, 5] and baked.bake == folder / "out" / "a_c.abc"
     assert there.capture == folder / "other" / "b.ply"
     assert there.input == folder / "a.obj"
     assert there.output == folder / "out" / "a.png"

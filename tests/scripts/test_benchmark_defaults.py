@@ -3,7 +3,7 @@
 
 import pytest
 
-from scripts.benchmark import defaults, shapes
+from scripts.benchmark import defaults, shapes, without_taichi
 from scripts.benchmark.machine import isolated
 from scripts.benchmark.meshes import keep
 from solver import ProxyOptions, rest_mesh
@@ -32,6 +32,14 @@ def test_both_settings_side_by_side(path):
     assert 0.0 < ours["links"] < ours["setup"] < ours["seconds"]
     assert paper["solved"] == 34
     assert ours["solved"] > 1000
+
+
+def test_both_devices_side_by_side(path):
+    results = without_taichi.side_by_side(path, 0.4, runs=1)
+    assert {name: len(runs) for name, runs in results.items()} == {"taichi": 1, "numpy": 1}
+    (fast,), (plain,) = results.values()
+    assert fast["iterations"] == plain["iterations"]
+    assert fast["seconds"] != plain["seconds"]
 
 
 def test_memory_of_one_setting(path):

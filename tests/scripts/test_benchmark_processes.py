@@ -2,6 +2,7 @@
 """How the benchmark takes measurements: processes of its own, memory, clocks on functions."""
 
 import fractions
+import mmap
 import os
 import sys
 import types
@@ -9,7 +10,7 @@ import types
 import numpy as np
 import pytest
 
-from scripts.benchmark import phases, shapes
+from scripts.benchmark import cores, phases, shapes
 from scripts.benchmark.machine import isolated, peak_memory
 from scripts.benchmark.meshes import keep
 from scripts.benchmark.startup import startup
@@ -21,15 +22,20 @@ def test_call_in_another_process():
         isolated(fractions.Fraction, numerator=1, denominator=0)
 
 
+def fill(size):
+    """Use memory that is new: NumPy may be given what other tests have freed."""
+    with mmap.mmap(-1, size) as block:
+        for begin in range(0, size, mmap.PAGESIZE):
+            block[begin] = 1
+
+
 def test_peak_memory_is_that_of_the_block():
     size = 64 * 1024**2
-    block = np.ones(size, np.uint8)
-    del block
+    fill(size)
     with peak_memory() as small:
         pass
     with peak_memory() as large:
-        block = np.ones(size, np.uint8)
-        del block
+        fill(size)
     assert large["peak"] > large["above"] > size // 2
     assert sys.platform != "linux" or small["above"] < size // 2, "elsewhere it cannot be reset"
 
@@ -62,6 +68,15 @@ def test_phases_of_a_run(tmp_path):
     assert min(result["setup"]["rest mesh"], result["setup"]["factorisation"]) > 0.0
     assert min(result["iteration"][name] for name in ("local step", "solve")) > 0.0
     assert result["peak"] > result["above"]
+
+
+def test_what_of_an_iteration_runs_on_one_core(tmp_path):
+    path = keep("blob", tmp_path / "blob.npz", *shapes.blob(2)).path
+    found = cores.on_one_and_all(path, 0.4)
+    assert found is not None and found["one"].keys() == found["all"].keys()
+    assert min(found[name][phase] for name in ("one", "all") for phase in ("local step", "solve"))
+    shares = [cores.serial_share(8.0, every, 4) for every in (1.0, 2.0, 5.0, 8.0, 9.0)]
+    assert shares == [0.0, 0.0, 0.5, 1.0, 1.0]
 
 
 @pytest.mark.parametrize("mesh", [shapes.blob(2), shapes.sphere(8, 5)], ids=["blob", "sphere"])

@@ -21,6 +21,8 @@ HEIGHTS = {
     "figure_6_orientations": 520,
     "figure_forms": 700,
     "figure_captures": 460,
+    "figure_rigs": 520,
+    "figure_low_poly": 520,
     "figure_targets": 560,
 }
 """of a picture of 1600 pixels"""
@@ -44,7 +46,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--width", WIDTH, "--samples", 1)
-    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets", "captures")
+    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets", "captures", "rigs", "low_poly")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
@@ -77,6 +79,8 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
     [
         *("figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"),
         "figure_captures",
+        "figure_rigs",
+        "figure_low_poly",
         "figure_targets",
     ],
 )

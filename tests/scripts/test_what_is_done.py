@@ -87,17 +87,20 @@ def test_every_exception_is_still_needed():
     assert {where for where, what in ALLOWED if what not in found_in(ROOT / where)} == set()
 
 
-def test_the_manifest_asks_for_no_right():
-    """The extension writes Blender's data, Taichi's cache in its folder, and the artist's presets.
+def test_the_manifest_asks_for_files_only():
+    """The extension writes Blender's data, Taichi's cache, presets, and what it bakes or sends.
 
-    Of the rights that a manifest can ask for, "files" means the artist's files, "network" the
-    internet; what the tests above look for would need them. Presets go to Blender's own folder of
-    presets, and only when the artist asks for one to be saved or deleted.
+    Of the rights that a manifest can ask for, "files" means the artist's files, which baked
+    animations, normal maps and what is sent are, and "network" the internet, which the tests above
+    look for. Presets go to Blender's own folder of presets, and only when the artist asks for one
+    to be saved or deleted.
     """
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
-    assert "permissions" not in manifest
+    assert list(manifest["permissions"]) == ["files"]
     writers = {p.relative_to(ROOT).as_posix() for p in EXTENSION if _called(p) & WRITERS}
-    assert writers == {"cubic_craft_addon/presets/files.py"}
+    names = ("environment/new_file", "presets/files", "send/normal_map")
+    animation = ("animation/playback", "animation/point_cache", "animation/recording")
+    assert writers == {f"cubic_craft_addon/{name}.py" for name in (*names, *animation)}
 
 
 def _called(path):

@@ -14,19 +14,21 @@ from .sources import Source
 __all__ = ("Job", "decisive", "plan", "settings_of")
 
 OF_THE_BATCH = {
-    *("inputs", "input", "handles", "handles_file", "output", "save_mesh", "report", "error_file"),
+    *("inputs", "input", "handles", "handles_file", "report", "error_file"),
+    *("output", "save_mesh", "bake", "part"),
     *(
         "form_object",
         "capture",
         "output_folder",
         "recursive",
+        "only",
         "jobs",
         "scheduler",
         "force",
         "threads",
         "worker",
     ),
-    "paper",  # what it stands for is set
+    *("paper", "options"),  # what they stand for is set
 }
 """the options that are not handed on as they are"""
 
@@ -47,11 +49,12 @@ class Job(NamedTuple):
 
 
 def plan(options: Namespace, sources: list[Source]) -> list[Job]:
-    """Return one job per source, in the same order.
+    """Return one job per source, in the same order; with ``--only`` the one of that number.
 
     Raises
     ------
     InputError
+        There are fewer sources.
         A result would take the place of an input, or be taken for one the next time.
     """
     jobs = [_job(options, source) for source in sources]
@@ -69,7 +72,11 @@ def plan(options: Namespace, sources: list[Source]) -> list[Job]:
             f"--output-folder {options.output_folder}: is the folder of the inputs as well, where "
             "the meshes would be inputs the next time; choose another, it may lie in this one"
         )
-    return jobs
+    if options.only is None:
+        return jobs
+    if options.only > len(jobs):
+        raise InputError(f"--only {options.only}: there are {len(jobs)} files")
+    return [jobs[options.only - 1]]
 
 
 def settings_of(options: Namespace) -> str:
@@ -83,7 +90,8 @@ def decisive(options: Namespace, version: str) -> str:
     handles = options.handles_file and options.handles_file.read_text(encoding="utf-8")
     shapes = [path and hashlib.sha256(path.read_bytes()).hexdigest() for path in _shapes(options)]
     settings = settings_of(Namespace(**vars(options) | {"verbose": False}))
-    return json.dumps([version, settings, options.save_mesh, handles, *shapes])
+    ending = str(options.bake or options.save_mesh)
+    return json.dumps([version, settings, ending, handles, *shapes])
 
 
 def _shapes(options: Namespace) -> tuple[Path | None, Path | None]:
@@ -109,4 +117,7 @@ def _job(options: Namespace, source: Source) -> Job:
     if options.capture:
         arguments.append(f"--capture={options.capture.absolute()}")
     outputs = written(picture, options.turntable, mesh, options.cubeness)
+    if options.bake:
+        outputs = [folder / f"{source.name}{options.bake}"]
+        arguments.append(f"--bake={outputs[0]}")
     return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))

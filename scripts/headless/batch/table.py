@@ -30,6 +30,8 @@ def summary(about: dict[str, Any]) -> str:
         return f"failed: {one_line(about['error'])}"
     if about["status"] == KEPT:
         return "kept, it was done before"
+    if frames := _frames(about["report"]):
+        return f"{frames}, {about['seconds']:.1f} s"
     runs = "; ".join(
         f"{run['iterations']} iterations, "
         f"{'converged' if run['converged'] else 'not converged'}, energy {run['energy']:.4g}"
@@ -52,11 +54,22 @@ def _rows(label: str, about: dict[str, Any]) -> Iterator[tuple[str, ...]]:
     outputs = ", ".join(map(one_line, about["outputs"][:MOST_OUTPUTS]))
     if (more := len(about["outputs"]) - MOST_OUTPUTS) > 0:
         outputs += f" and {more} more"
+    if frames := _frames(about["report"]):
+        yield (name, *[""] * (len(HEAD) - 3), seconds, f"{outputs} ({frames})")
+        return
     for run in _runs(about["report"]["objects"]):
         numbers = (str(run["cubeness"]), str(run["vertices"]), str(run["iterations"]))
         energy, converged = f"{run['energy']:.4g}", "yes" if run["converged"] else "no"
         yield (name, *numbers, energy, converged, seconds, outputs)
         name = seconds = outputs = ""
+
+
+def _frames(report: dict[str, Any]) -> str:
+    """Return how many frames an animation has, in words; empty for anything else."""
+    if "frames" not in report:
+        return ""
+    first, last = report["frames"]
+    return f"{last - first + 1} frames"
 
 
 def _runs(objects: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A cubic mesh, and its low-poly version without and with the normal map."""
+
+from typing import Any
+
+import bpy
+from headless.gallery import Group
+from headless.quiet import captured
+from headless.studio import FINISHES, surface
+
+from .figure_meshes import FigureMeshes, Model
+
+__all__ = ("compose",)
+
+CUBENESS = 0.4
+TRIANGLES = 1000
+
+
+def compose(meshes: FigureMeshes) -> list[Group]:
+    """Return the result, the low-poly mesh, and the same with the map."""
+    (model,) = meshes.there([], instead=["monkey"])
+    positions = meshes.cubified(model, CUBENESS)
+    low = _low_poly(meshes, model)
+    triangles = len(low.data.polygons)
+    plain: Any = low.copy()
+    plain.data = low.data.copy()
+    material: Any = surface("Plain", *FINISHES["green"])
+    for number in range(len(plain.data.materials)):
+        plain.data.materials[number] = material
+    groups = [meshes.group(model, positions, f"{len(positions):,} vertices", "green")]
+    for copy, label in ((plain, f"{triangles:,} triangles"), (low, "with the normal map")):
+        group = meshes.group(model, positions, label, "green")
+        bpy.data.objects.remove(group.copies[0])
+        group.copies[0] = copy
+        groups.append(group)
+    return groups
+
+
+def _low_poly(meshes: FigureMeshes, model: Model) -> bpy.types.Object:
+    """Return the low-poly version of a cubic mesh, in no scene, with its map and no modifiers."""
+    bpy.context.window.scene = model.scene
+    obj = model.object
+    obj.data.materials.append(surface("Green", *FINISHES["green"]))
+    bpy.ops.object.select_all(action="DESELECT")
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    operators: Any = bpy.ops.cubic_craft
+    with captured(verbose=False):
+        operators.cubify(cubeness=CUBENESS, space="OBJECT")
+        operators.bake_normal_map(triangles=TRIANGLES)
+        low = bpy.context.object
+        model.scene.collection.objects.unlink(low)
+        obj.hide_set(False)
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+        operators.restore()
+    obj.data.materials.clear()
+    return low

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cubify every frame of an animation, into one file that other programs play back."""
+
+import shutil
+from argparse import Namespace
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .cubify_all import check_groups, settings_of_object
+from .errors import InputError
+from .extension import Extension
+from .load_meshes import Loaded
+from .output_files import replacing
+from .pose import handles_of_all
+from .progress import ProgressBar
+from .quiet import captured
+
+__all__ = ("bake_frames",)
+
+
+@dataclass
+class _Given:
+    """The settings of the command line, as `SettingsOverrides` gives those of the panel."""
+
+    loaded: Loaded
+    options: Namespace
+    extension: Extension
+    handles: dict[str, tuple[Any, ...]]
+
+    def settings_for(self, obj: bpy.types.Object) -> Any:
+        """Return the Settings for an object."""
+        handles = self.handles[obj.name]
+        return settings_of_object(obj, handles, self.options, self.extension, self.loaded)
+
+
+def bake_frames(
+    loaded: Loaded, options: Namespace, extension: Extension, bar: ProgressBar
+) -> dict[str, Any]:
+    """Bake the frames to the file of ``--bake``, and return what there is to report.
+
+    What is solved stays in a folder beside the file until that is written: a run that was ended
+    continues there, and one with ``--part`` leaves it for the one that writes.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    CubicCraftError
+        An object or a setting cannot be used in some frame.
+    """
+    check_groups(loaded.objects, options)
+    path = options.bake
+    if path.suffix == ".pc2" and len(loaded.objects) > 1:
+        raise InputError(f"--bake {path}: a .pc2 has one object; name it, --object NAME")
+    scene = bpy.context.scene
+    start, end = options.frames or (scene.frame_start, scene.frame_end)
+    folder = path.with_name(f"{path.name}.unfinished")
+    given = _Given(loaded, options, extension, handles_of_all(loaded, options, extension))
+    count = len(range(start, end + 1))
+    part = extension.parts.part_of(count, *options.part) if options.part else None
+    bake_options = extension.bake.BakeOptions(start, end, folder, part=part)
+    work = extension.bake.Bake(given, loaded.objects, bake_options)
+    try:
+        with bar.task(f"{len(part or range(count))} frames") as task:
+            for step in work.steps():
+                task.describe(step.texts[-1])
+                task.advance_to(step.factor)
+            summary, problems = work.write(is_alone=True)
+            task.describe("frames")
+            task.finish(summary)
+    finally:
+        work.discard()
+    found = [result.frames for result in work.results]
+    if problems and (part is not None or found != [count] * len(loaded.objects)):
+        raise extension.solver.CubicCraftError("; ".join(problems))
+    if part is not None:
+        return {"frames": [start + part.start, start + part.stop - 1], "objects": []}
+    _export(path, work.baked, (start, end), extension, options.verbose)
+    shutil.rmtree(folder)
+    bar.say(f"wrote {path}")
+    for problem in problems:  # of all frames: how steady they are
+        bar.warn(problem)
+    return {"frames": [start, end], "objects": [vars(found) for found in work.results]}
+
+
+def _export(path, baked, frames, extension, verbose):
+    with captured(verbose), replacing(path) as temporary:
+        if path.suffix == ".pc2":
+            cache = Path(bpy.path.abspath(baked[0].modifiers[0].filepath))
+            shutil.copyfile(cache, temporary)
+        else:
+            extension.exchange.export_frames(baked, temporary, *frames)
