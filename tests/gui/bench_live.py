@@ -73,8 +73,11 @@ class Counter:
         self._global_step(stylization)
 
 
-def load(path):
-    """Make the scene hold nothing but the mesh of a file, or a monkey subdivided so many times."""
+def load(path, cuts):
+    """Make the scene hold nothing but the mesh of a file, or a monkey subdivided so many times.
+
+    The edges of a file's mesh are then cut so many times.
+    """
     if isinstance(path, int):
         scene.add_monkey(path)
         return bpy.context.object
@@ -87,12 +90,16 @@ def load(path):
         bpy.context.view_layer.objects.active = obj
         size = max(obj.dimensions)
         obj.scale = (3 / size,) * 3
+        if cuts:
+            obj.modifiers.new("Cuts", "SUBSURF").subdivision_type = "SIMPLE"
+            obj.modifiers["Cuts"].levels = cuts
+            bpy.ops.object.modifier_apply(modifier="Cuts")
         bpy.ops.ed.undo_push(message="Load")
     return obj
 
 
-def measure(path, counter):
-    obj = load(path)
+def measure(path, counter, cuts=0):
+    obj = load(path, cuts)
     name, vertices = obj.name, len(obj.data.vertices)
     yield from gui.wait_redraw()
     yield from gui.open_sidebar("Cubic Craft")
@@ -135,6 +142,8 @@ def test():
     paths = sorted([*FOLDER.glob("*.obj"), *FOLDER.glob("*.ply")])
     for path in (1, *(paths or (2, 3))):  # the first is coarse, and is refined
         rows.append((yield from measure(path, counter)))
+    if paths:
+        rows.append((yield from measure(paths[-1], counter, cuts=1)))  # a large one
     (FOLDER / "ticks.json").write_text(json.dumps(rows))
 
 

@@ -3,7 +3,8 @@
 
     keep_places.py LEARNED.json... KEPT.json
 
-Of each button and size of its region, the places of all runs, those of the first file first.
+Of each button and size of its region, the places of all runs, those of the first file first, and
+those that were kept already last.
 """
 
 import json
@@ -14,7 +15,7 @@ MOST = 4
 
 *learned, kept = map(pathlib.Path, sys.argv[1:])
 places = {}
-for path in learned:
+for path in (*learned, kept):
     for button, found in json.loads(path.read_text()).items():
         others = [place for place in found if place not in places.get(button, [])]
         places[button] = (places.get(button, []) + others)[:MOST]

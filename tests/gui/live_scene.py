@@ -37,8 +37,11 @@ def note(name=NAME):
     return bpy.data.objects[name].data.get("cubic_craft_note")
 
 
-def add_monkey(levels=0):
-    """Leave nothing in the scene but a monkey, selected and active, as one undo step."""
+def add_monkey(levels=0, is_refined=False):
+    """Leave nothing in the scene but a monkey, selected and active, as one undo step.
+
+    Refined, it has ten times the vertices, and with NumPy each change takes seconds.
+    """
     with gui.in_region():
         if bpy.context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
@@ -48,6 +51,8 @@ def add_monkey(levels=0):
         if levels:
             bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = levels
             bpy.ops.object.modifier_apply(modifier="Subdivision")
+        if not is_refined:
+            settings(bpy.context.object.name).refine = "OFF"
         bpy.ops.ed.undo_push(message="Add the monkey")
 
 

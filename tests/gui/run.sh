@@ -1,5 +1,6 @@
 #!/bin/bash
-# Runs every window test (test_*.py of this folder) on a built extension.
+# Runs every window test (test_*.py of this folder) on a built extension. Of several Blenders, a test
+# that says "# Suite: NAME" runs only in that one: what it clicks on is ours, and is drawn as others.
 #   run.sh [--if-possible] EXTENSION.zip [OUTPUT [SUITE...]]
 #     OUTPUT  folder for screenshots and logs (default: build/gui in the project)
 #     SUITE   Debian releases whose Blender is used (default: trixie sid); set up at first use
@@ -63,14 +64,18 @@ trap 'rm -rf "$WORK"' EXIT
 
 # Sets up a suite, and installs the extension once for all its tests.
 prepare() {
-    local suite=$1 folder=$OUTPUT/$1/install
+    local suite=$1 folder=$OUTPUT/$1/install only test
     rm -rf "$folder"
     mkdir -p "$folder"
     if { [ "$suite" = blender ] || "$HERE/kit/setup_blender_gui.sh" -s "$suite"; } &&
         run_script "$suite" "$HERE/install.py" "$folder" "$WORK/$suite" -e "$ZIP" >"$folder/log.txt" 2>&1
     then
-        for test in "$HERE"/${TESTS:-test_*}.py; do
-            echo "$suite $(basename "$test" .py)"
+        # the longest scripts take longest, and would else be waited for in the end
+        for test in $(ls -S "$HERE"/${TESTS:-test_*}.py); do
+            only=$(sed -n 's/^# Suite: //p' "$test")
+            if [ "${#SUITES[@]}" = 1 ] || [ "${only:-$suite}" = "$suite" ]; then
+                echo "$suite $(basename "$test" .py)"
+            fi
         done >"$WORK/$suite.tests"
     else
         cat "$folder/log.txt" 2>/dev/null

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Auto Orient for a box whose sides are turned against its axes, seen in the overlay; undo."""
 
 import importlib

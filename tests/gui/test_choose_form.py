@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Choose a form by hand, see it, follow an object that is edited in Live, and flatten the sides."""
 
 import bpy

@@ -10,7 +10,7 @@ from mathutils import Euler
 def set_the_stage():
     bpy.context.preferences.system.use_region_overlap = False  # the view ends at the sidebar
     with gui.in_region():
-        scene.add_monkey(levels=2)
+        scene.add_monkey(levels=2, is_refined=True)
         bpy.ops.object.shade_smooth()
         bpy.ops.ed.undo_push(message="Shade smooth")
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Pick faces by hand as the sides of the form, cubify toward them, and undo it."""
 
 import bmesh

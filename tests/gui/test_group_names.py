@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """A vertex group with the name of the attribute that holds the original, given in Edit Mode."""
 
 import bpy

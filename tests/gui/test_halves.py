@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """By hand: a half under a Mirror modifier, Symmetry, Keep on Floor, and Hold the Rest."""
 # Window: 1280x1200
 

@@ -7,7 +7,7 @@ import live_scene as scene
 
 
 def test():
-    scene.add_monkey()
+    scene.add_monkey(is_refined=True)
     before = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     yield from scene.start_live()

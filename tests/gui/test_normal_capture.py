@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Pick a ball in the panel, drag its strength, Cubify, and sculpt the ball while Live runs."""
 
 import bpy

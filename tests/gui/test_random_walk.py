@@ -19,7 +19,7 @@ ACTIONS = int(os.environ.get("WALK_ACTIONS", "40"))
 def test():
     faulthandler.enable()  # a crash of Blender names the line of the step that it crashed in
     gui.simplify_viewport()
-    scene.add_monkey()
+    scene.add_monkey(is_refined=True)
     yield from gui.open_sidebar("Cubic Craft")
     yield from gui.screenshot("start.png")
     yield from walk(SEED, ACTIONS)

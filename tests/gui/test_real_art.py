@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """A character of many parts and a dressed body, cubified by hand: they hold together.
 
 The meshes and the measures are those of tests/art. Nothing but what is named is changed from its

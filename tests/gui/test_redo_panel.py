@@ -67,8 +67,15 @@ def start_anew(add):
         bpy.ops.object.delete()
         add()
         bpy.ops.ed.undo_push(message="Add")
-    yield 1.0  # a draw may come before Blender knows that the object is visible
+    # A draw may come before Blender knows that the object is visible.
+    yield from gui.wait_until(may_cubify, what="an object that can be seen")
+    yield 1.0
     yield from gui.wait_redraw("UI")
+
+
+def may_cubify():
+    with gui.in_region():
+        return bpy.ops.cubic_craft.cubify.poll()
 
 
 def check_new_object(name):

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Give the selected vertices a form of their own by hand: in the list, by Cubify, and in Live."""
 # Window: 1000x1400
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Show the angles to the form by a click: a ball in bright colors, its cube in dark ones; Live.
 
 The pictures prove it: the surface is bright where it does not lie in a side of the form.

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """The pictures of docs/user_guide.md: each section of the panel as the artist sees it.
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1300x2500
+# Window: 1300x3050
 
 import importlib
 import math
@@ -30,6 +31,8 @@ SECTIONS = {
     "regions": ("cubic_craft.region_add", 33 * SCALE),
     "map": ("cubic_craft.map_group", 38 * SCALE),
     "result": ("cubic_craft.result", 33 * SCALE),
+    "animation": ("cubic_craft_animation.use_range", 33 * SCALE),
+    "send": ("cubic_craft.send_to", 33 * SCALE),
     "solver": ("cubic_craft.device", 33 * SCALE),
 }
 LAST = "cubic_craft.tolerance"
@@ -56,7 +59,7 @@ def cut(picture, name, left, bottom, right, top):
 
 def add_monkey():
     """Leave a monkey with two parts to hold and a painted map."""
-    scene.add_monkey(levels=2)
+    scene.add_monkey(levels=2, is_refined=True)
     obj = bpy.data.objects[scene.NAME]
     places = np.frombuffer(scene.positions(), dtype=np.float32).reshape(-1, 3)
     for group, held in (("Chin", places[:, 2] < -0.75), ("Ear", places[:, 0] > 1.05)):
@@ -86,11 +89,13 @@ def set_the_stage():
     yield from gui.wait_redraw()
 
 
-def open_solver():
-    """Click on the header below the last section that is open."""
-    above = yield from gui.find_button("cubic_craft.result")
-    yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))
-    yield from gui.wait_redraw("UI")
+def open_last():
+    """Click on the headers of the last sections, each below the last button that is open."""
+    buttons = ("result", "bake_process", "bake_normal_map")
+    for button in (f"cubic_craft.{name}" for name in buttons):
+        above = yield from gui.find_button(button)
+        yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))
+        yield from gui.wait_redraw("UI")
 
 
 def open_regions():
@@ -318,7 +323,7 @@ def picture_of_preferences():
 
 def test():
     yield from set_the_stage()
-    yield from open_solver()
+    yield from open_last()
     yield from picture_of_redo()
     yield from picture_of_top("cubify")
     yield from picture_of_changed()

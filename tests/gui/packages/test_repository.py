@@ -18,6 +18,7 @@ from preferences_area import (
     WHERE,
     cubify,
     extensions,
+    manifest,
     open_entry,
     open_preferences,
     press,
@@ -88,6 +89,14 @@ def install(version, picture):
     button = yield from gui.find_button("extensions.package_install", **WHERE)
     yield from gui.screenshot(picture)
     yield from gui.click(button)
+    try:
+        yield from gui.wait_until(
+            lambda: gui.running_operators() or manifest(MODULE).get("version") == version,
+            what="the download",
+            timeout=30,
+        )
+    except TimeoutError:  # a click on a list that is being drawn anew is lost
+        yield from gui.click(button)
     yield from wait_installed(MODULE, version)
 
 

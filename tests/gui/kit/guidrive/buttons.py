@@ -10,6 +10,8 @@ from .waiting import wait_redraw, wait_until
 
 SCAN_STEP = 12  # pixels; a row of buttons is 20 high
 
+_passed = {}  # text of a button: region, a point on it, how far the region was scrolled then
+
 
 def open_sidebar(tab):
     """Open the viewport's sidebar at a tab (a panel's bl_category) and wait until it is drawn."""
@@ -50,23 +52,29 @@ def button_under_mouse(region_type="UI", area_type="VIEW_3D"):
 def find_button(target, region_type="UI", area_type="VIEW_3D"):
     """Find a button by operator id ("my_extension.run") or end of its data path ("obj.strength").
 
-    The mouse looks where it was found before, then walks over the region, which is scrolled if
-    need be. Returns a Button; raises LookupError with the buttons that were met. Closed panels and
-    pop-ups are not searched.
+    Of an operator that has several buttons, an argument tells which: "my_extension.run(mode='A'".
+    The mouse looks where it was found before, then where it was passed in search of others, then it
+    walks over the region, which is scrolled if need be. Returns a Button; raises LookupError with
+    the buttons that were met. Closed panels and pop-ups are not searched.
     """
     met = {}
     where = region(region_type, area_type)
     key = f"{area_type} {region_type} {where.width}x{where.height} {target}"
 
+    operator, _, argument = target.partition("(")
+
     def matches(text):
-        return text.startswith(f"bpy.ops.{target}(") or f".{text}".endswith(f".{target}")
+        is_call = text.startswith(f"bpy.ops.{operator}(") and argument in text
+        return is_call or f".{text}".endswith(f".{target}")
 
     for place in places.known(key):
         button = yield from _look_at(place, matches, region_type, area_type)
         if button:
             return button
+    button = yield from _look_where_passed(matches, region_type, area_type)
     for thorough in (False, True):
-        button = yield from _scan(matches, met, region_type, area_type, thorough)
+        if not button:
+            button = yield from _scan(matches, met, region_type, area_type, thorough)
         for wheel in ("WHEELUPMOUSE", "WHEELDOWNMOUSE"):
             while not button and (yield from _scroll(wheel, region_type, area_type)):
                 button = yield from _scan(matches, met, region_type, area_type, thorough)
@@ -87,17 +95,35 @@ def _look_at(place, matches, region_type, area_type):
     """Return the Button at a place where it was before; None if it is not there, or narrower."""
     *edges, height = place
     button = Button("", *edges)
-    upwards = height > _scrolled(region_type, area_type)
-    wheel, sign = ("WHEELUPMOUSE", 1) if upwards else ("WHEELDOWNMOUSE", -1)
-    while sign * (height - _scrolled(region_type, area_type)) > 0:
-        if not (yield from _scroll(wheel, region_type, area_type, steps=1)):
-            return None
+    if not (yield from _scroll_to(height, region_type, area_type)):
+        return None
     texts = []
     for across in (0.5, 0.02, 0.98):
         texts.append((yield from _hover(*button.at(across), region_type, area_type)))
         if not matches(texts[-1]):
             return None
     return Button(texts[0], *edges)
+
+
+def _look_where_passed(matches, region_type, area_type):
+    """Return the Button if the mouse has passed it before and it is still there, or None."""
+    for passed, (where, x, y, height) in list(_passed.items()):
+        if matches(passed) and where == (region_type, area_type):
+            yield from _scroll_to(height, region_type, area_type)
+            text = yield from _hover(x, y, region_type, area_type)
+            if matches(text):
+                return (yield from _measure(text, x, y, region_type, area_type))
+    return None
+
+
+def _scroll_to(height, region_type, area_type):
+    """Scroll the region as it was; return whether that is possible."""
+    upwards = height > _scrolled(region_type, area_type)
+    wheel, sign = ("WHEELUPMOUSE", 1) if upwards else ("WHEELDOWNMOUSE", -1)
+    while sign * (height - _scrolled(region_type, area_type)) > 0:
+        if not (yield from _scroll(wheel, region_type, area_type, steps=1)):
+            return False
+    return True
 
 
 def _scan(matches, met, region_type, area_type, thorough):
@@ -118,6 +144,8 @@ def _scan(matches, met, region_type, area_type, thorough):
             text = yield from _hover(x, y, region_type, area_type)
             if text:
                 met[text] = True
+                height = _scrolled(region_type, area_type)
+                _passed[text] = ((region_type, area_type), x, y, height)
             if matches(text):
                 return (yield from _measure(text, x, y, region_type, area_type))
             if x == columns[0]:

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cubify Animation by a click: watched, stopped by Esc, continued, played back, and undone."""
+# Window: 1000x1400
+
+import importlib
+import tempfile
+from pathlib import Path
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+import numpy as np
+
+TRIANGLE, HEADER = 18, 22  # pixels from the lower left corner of the button above
+FRAMES = 24
+OPERATOR = "CUBIC_CRAFT_OT_bake_animation"
+CUBIC = f"{scene.NAME} Cubic"
+
+
+def add_bending_monkey():
+    """Leave a monkey that bends."""
+    scene.add_monkey(levels=1)
+    monkey = bpy.data.objects[scene.NAME]
+    bend = monkey.modifiers.new("Bend", "SIMPLE_DEFORM")
+    bend.deform_method, bend.deform_axis = "BEND", "Z"
+    for frame, angle in ((1, 0.0), (FRAMES, 1.2)):
+        bend.angle = angle
+        bend.keyframe_insert("angle", frame=frame)
+    bpy.context.scene.frame_end = FRAMES
+    bpy.context.scene.frame_set(7)
+    with gui.in_region():
+        bpy.ops.ed.undo_push(message="Bend")
+
+
+def open_section():
+    """Click on the header of the section, which is below that of the result."""
+    above = yield from gui.find_button("cubic_craft.result")
+    yield from gui.click((round(above.left + TRIANGLE - 120), round(above.bottom - HEADER)))
+    yield from gui.wait_redraw("UI")
+
+
+def make_slow(is_slow):
+    watched = importlib.import_module(f"{scene.job().__name__}.watched")
+    watched._SLICE, watched._TIMER_STEP = (0.0, 0.05) if is_slow else (0.05, 0.01)
+    scene.job().FIRST_SLICE = 0.0 if is_slow else 0.7
+
+
+def is_over():
+    return scene.job().current() is None and OPERATOR not in gui.running_operators()
+
+
+def cached(folder):
+    data = (folder / f"{scene.NAME}.pc2").read_bytes()
+    return np.frombuffer(data, "<f4", offset=32).reshape(-1, 3)
+
+
+def seen():
+    """Return the visible positions of the baked object in this frame."""
+    obj = bpy.data.objects[CUBIC]
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    values = np.empty((len(mesh.vertices), 3), np.float32)
+    mesh.vertices.foreach_get("co", values.ravel())
+    return values
+
+
+def stopped(folder):
+    """Start, wait for some frames, and press Esc: they are kept."""
+    make_slow(True)
+    yield from gui.click((yield from gui.find_button("cubic_craft.bake_animation")))
+    yield from gui.wait_until(
+        lambda: scene.job().current() and "left" in scene.job().current().step.texts[0],
+        what="some frames",
+    )
+    yield from gui.wait_redraw("UI")
+    yield from gui.screenshot("baking.png")
+    assert not bpy.ops.cubic_craft.cubify.poll() and not bpy.ops.cubic_craft.bake_animation.poll()
+    yield from scene.press("ESC")
+    yield from gui.wait_until(is_over, what="the end")
+    count = len(cached(folder)) // len(bpy.data.objects[CUBIC].data.vertices)
+    gui.log(f"stopped after {count} frames")
+    assert 1 <= count < FRAMES
+    assert bpy.context.scene.frame_current == 7
+    assert bpy.context.object.name == CUBIC and bpy.data.objects[scene.NAME].hide_get()
+    yield from gui.wait_redraw("UI")
+    yield from gui.screenshot("stopped.png")
+    return count
+
+
+def test():
+    gui.simplify_viewport()
+    folder = Path(tempfile.mkdtemp())
+    add_bending_monkey()
+    before = scene.positions()
+    bpy.context.scene.cubic_craft_animation.folder = str(folder)
+    yield from gui.open_sidebar("Cubic Craft")
+    scene.show_front()
+    yield from open_section()
+    yield from gui.screenshot("section.png")
+    yield from stopped(folder)
+
+    make_slow(False)
+    yield from gui.click((yield from gui.find_button("cubic_craft.bake_animation")))
+    yield from gui.wait_until(
+        lambda: is_over() and [path.name for path in folder.iterdir()] == [f"{scene.NAME}.pc2"],
+        what="the whole animation",
+        timeout=300,
+    )
+    frames = cached(folder).reshape(FRAMES, -1, 3)
+    for frame in (1, FRAMES):
+        bpy.context.scene.frame_set(frame)
+        assert np.allclose(seen(), frames[frame - 1], atol=1e-6), f"frame {frame} is not played"
+    yield from gui.wait_redraw()
+    yield from gui.screenshot("played.png")
+    assert bpy.ops.cubic_craft.bake_animation.poll()
+    assert scene.positions() == before, "the original mesh was changed"
+    scene.check_clean()
+
+    for _ in range(2):  # the bake and its continuation
+        yield from gui.undo()
+    assert CUBIC not in bpy.data.objects and not bpy.data.objects[scene.NAME].hide_get()
+    assert scene.positions() == before
+    yield from process_from_other_settings(folder, before)
+
+
+def process_from_other_settings(folder, original):
+    """Pick an object with other settings in the panel, and bake the way from these."""
+    monkey = bpy.data.objects[scene.NAME]
+    model = bpy.data.objects.new("A Model", monkey.data.copy())  # the first in the list
+    bpy.context.collection.objects.link(model)
+    model.hide_set(True)
+    model.cubic_craft.form, model.cubic_craft.cubeness = "OCTAHEDRON", 1.0
+    model.cubic_craft.refine = scene.settings().refine
+    bpy.context.scene.cubic_craft_animation.folder = str(folder)  # undone as well
+    yield from gui.wait_redraw("UI")
+    yield from gui.click((yield from gui.find_button("cubic_craft_animation.process_from")))
+    yield 0.5
+    yield from gui.screenshot("list.png")
+    yield from gui.keys("DOWN_ARROW", "RET")
+    chosen = bpy.context.scene.cubic_craft_animation
+    yield from gui.wait_until(lambda: chosen.process_from is not None, what="the object")
+    assert chosen.process_from.name == "A Model"
+    yield from gui.click((yield from gui.find_button("cubic_craft.bake_process")))
+    path = folder / f"{scene.NAME}_process.pc2"
+    yield from gui.wait_until(lambda: is_over() and path.exists(), what="the process", timeout=300)
+    bpy.context.scene.frame_set(1)
+    yield from gui.wait_redraw()
+    yield from gui.screenshot("process_first.png")
+    first = seen()
+    bpy.context.scene.frame_set(FRAMES)
+    yield from gui.wait_redraw()
+    yield from gui.screenshot("process_last.png")
+    assert np.abs(seen() - first).max() > 0.1, "nothing moves"
+    assert scene.positions() == original
+
+
+gui.run(test)

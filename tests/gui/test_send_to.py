@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bake a normal map by a click, look at it, and send the low-poly mesh to a file by the dialog."""
+# Window: 1000x1750
+
+import os
+import pathlib
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+import numpy as np
+from guidrive.pictures import save_screen
+
+TRIANGLE, HEADER = 18, 31  # pixels from the lower left corner of the button above
+DISTANCE = 21  # pixels from one closed section to the next
+LOW, IMAGE = "Suzanne Low", "Suzanne Normal"
+
+
+def folder():
+    return pathlib.Path(os.environ["GUIDRIVE_SHARE"])
+
+
+def open_section():
+    """Click on the header of the section, below those of the result and of the animation."""
+    above = yield from gui.find_button("cubic_craft.flatten")
+    yield from gui.click((above.left + TRIANGLE, round(above.bottom - HEADER - DISTANCE)))
+    yield from gui.wait_redraw("UI")
+
+
+def pixels(image):
+    values = np.empty(4 * image.size[0] * image.size[1], np.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(-1, 4)[:, :3]
+
+
+def middle(name):
+    """Return the pixels (h,w,3) in the middle of the viewport, and save the picture."""
+    picture = bpy.data.images.load((yield from gui.screenshot(name)))
+    width, height = picture.size
+    values = np.empty((height, width, 4), np.float32)
+    picture.pixels.foreach_get(values.ravel())
+    bpy.data.images.remove(picture)
+    x, y = gui.viewport_point(0.3, 0.5)
+    return values[y - 100 : y + 100, x - 100 : x + 100, :3]
+
+
+def by_click():
+    """Bake, check what is shown, and take it back by one Ctrl-Z."""
+    yield from gui.click((yield from gui.find_button("cubic_craft.bake_normal_map")))
+    yield from gui.wait_until(lambda: LOW in bpy.data.objects, what="the normal map")
+    low = bpy.data.objects[LOW]
+    assert bpy.context.view_layer.objects.active == low
+    assert bpy.data.objects[scene.NAME].hide_get() and not low.hide_get()
+    values = pixels(bpy.data.images[IMAGE])
+    gui.log("mean and spread of the map:", values.mean(axis=0), values.std(axis=0))
+    assert np.abs(values[:, :2].mean(axis=0) - 0.5).max() < 0.03 and values[:, 2].mean() > 0.9
+    assert values[:, 0].std() > 0.02
+
+
+def in_material_preview():
+    """Show the map on the surface by the switch beside its picture."""
+    view = gui.area().spaces.active
+    solid = yield from middle("solid.png")
+    assert solid.std() > 0.02, "the viewport shows no object"
+    view.shading.type = "MATERIAL"
+    yield from gui.wait_redraw()
+    material = bpy.data.objects[LOW].material_slots[0].material
+    strength = material.node_tree.nodes["Normal Map"].inputs["Strength"]
+    difference = 0.0
+    for _ in range(30):  # shaders are compiled meanwhile
+        strength.default_value = 0.0
+        without = yield from middle("without.png")
+        strength.default_value = 1.0
+        difference = np.abs((yield from middle("material.png")) - without).mean()
+        if difference > 0.004:
+            break
+    gui.log("what the map changes:", difference)
+    assert difference > 0.004, "Material Preview does not show the map"
+    view.shading.type = "SOLID"
+
+
+def send_by_dialog():
+    """Click on the first of the three buttons, and accept the name in the dialog."""
+    path = folder() / f"{LOW.replace(' ', '_')}.glb"
+    path.unlink(missing_ok=True)
+    windows = len(bpy.context.window_manager.windows)
+    yield from gui.find_button("cubic_craft.send_to(target='STL'")  # of three with that operator
+    yield from gui.click((yield from gui.find_button("cubic_craft.send_to(target='GLTF'")))
+    yield from gui.wait_until(
+        lambda: any(area.type == "FILE_BROWSER" for area in gui.window().screen.areas),
+        what="the file dialog",
+        timeout=60,
+    )
+    assert len(bpy.context.window_manager.windows) == windows
+    browser = gui.area("FILE_BROWSER")
+    yield from gui.wait_until(lambda: browser.spaces.active.params is not None, what="the dialog")
+    browser.spaces.active.params.directory = str(folder()).encode()
+    save_screen("dialog.png")
+    with gui.in_region("WINDOW", "FILE_BROWSER"):
+        bpy.ops.file.execute("INVOKE_DEFAULT")
+    yield from gui.wait_until(path.exists, what="the file", timeout=120)
+    assert path.read_bytes()[:4] == b"glTF"
+    path.unlink()
+
+
+def test():
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+    gui.simplify_viewport()
+    scene.add_monkey(levels=2)
+    original = scene.positions()
+    yield from gui.open_sidebar("Cubic Craft")
+    scene.show_front()
+    yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
+    yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")
+    cubic = scene.positions()
+    yield from open_section()
+    yield from gui.screenshot("opened.png")
+    yield from by_click()
+    yield from in_material_preview()
+    yield from send_by_dialog()
+    yield from gui.screenshot("sent.png")
+    yield from gui.undo()
+    assert LOW not in bpy.data.objects, "one step of undo takes back the whole bake"
+    assert not bpy.data.objects[scene.NAME].hide_get() and scene.positions() == cubic
+    yield from gui.screenshot("undone.png")
+
+
+gui.run(test)
