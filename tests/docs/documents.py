@@ -75,17 +75,29 @@ def links(page):
     return [target for target in targets if target]
 
 
-def examples(*, in_blender):
-    """Return the Python examples as (page, title of the section), for Blender or for the solver."""
+def examples(package):
+    """Return the Python examples as (page, title of the section), by what they need.
+
+    Parameters
+    ----------
+    package : {"bpy", "cubic_craft", "solver"}
+        Blender, the installed wheel, or the folder of the repository.
+    """
     found = []
     for page in PAGES:
         for section in sections(page):
             code = "".join(
                 content for language, content, _ in section.fences if language == "python"
             )
-            if code and ("import bpy" in code) == in_blender:
+            if code and _needs(code) == package:
                 found.append((page, section.title))
     return found
+
+
+def _needs(code):
+    if "import bpy" in code:
+        return "bpy"
+    return "cubic_craft" if "from cubic_craft" in code else "solver"
 
 
 def run_example(page, title):

@@ -21,7 +21,7 @@ PUBLIC = [
 
 
 @pytest.mark.parametrize(
-    ("page", "title"), examples(in_blender=False), ids=lambda value: getattr(value, "name", value)
+    ("page", "title"), examples("solver"), ids=lambda value: getattr(value, "name", value)
 )
 def test_example_runs(page, title):
     assert run_example(page, title)
