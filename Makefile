@@ -19,7 +19,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
 	test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck build package \
-	repository lock bench bench-quick bench-live docs-images clean has-py313
+	repository lock wheel test-wheel bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -54,18 +54,19 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 		$(PY) $(PYTEST) tests/blender/hostile
 
 # Of the scripts, those that use Blender's data, importers and exporters; batch, benchmark and
-# figures only start these. Faults of Python functions are the same in both.
+# figures only start these. Faults of Python functions, and signals, are the same in both.
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --ignore tests/blender/test_faults.py \
-		tests/blender tests/scripts/test_headless_*.py
+		--ignore tests/scripts/test_headless_interrupted.py tests/blender tests/scripts/test_headless_*.py
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
+# What is compared many times over in the mathematics is no other in another Python.
 test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
-	$(VENV)-py313/bin/python $(PYTEST) tests/solver
+	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" tests/solver
 
 $(VENV)-py313/.done: requirements/*.txt
 	@test -n "$(PYTHON313)" || \
@@ -128,6 +129,29 @@ package: setup $(ZIP) ## One zip for each platform that brings its wheels, in di
 
 repository: package ## Those as an extension repository for any web server, in dist/repository
 	$(PY) scripts/package repository dist/packages/*.zip
+
+wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in dist
+	rm -f dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz
+	$(VENV)-wheel/bin/python -m build --no-isolation --outdir dist
+
+$(VENV)-wheel/.done: requirements/wheel.txt
+	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
+	$(PYTHON) -m venv $(VENV)-wheel
+	$(VENV)-wheel/bin/python $(PIP) -r $<
+	@touch $@
+
+# In a new environment: its name, its Python, its requirements, the extra of the wheel, the tests.
+define test_library
+$(2) -m venv --clear $(VENV)-library-$(1)
+$(VENV)-library-$(1)/bin/python $(PIP) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
+$(VENV)-library-$(1)/bin/python -m pip check
+$(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
+endef
+NOTEBOOK := tests/library/test_library_notebook.py
+
+test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, its command and the notebook
+	$(call test_library,oldest,$(PYTHON),oldest,,--ignore $(NOTEBOOK) tests/library)
+	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
 
 lock: setup ## Choose the wheels of the packages anew: requirements/wheels.lock
 	$(PY) scripts/package lock
