@@ -3,25 +3,23 @@
 
 import numpy as np
 
+from ..algebra import columns, dot, from_columns
+
 
 def closest_points(P, A, B, C):
     """Return barycentric coordinates (k,3) of the nearest point to each P in a triangle each.
 
     P, A, B, C : (k,3) float arrays
-        Points, and the corners of the triangles.
+        Points, and the corners of the triangles. Fastest if they lie as by `algebra.by_columns`.
 
     Notes
     -----
     The regions of a triangle as in Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
     """
-    ab, ac = B - A, C - A
-
-    def dot(one, other):
-        return (one * other).sum(axis=1)
-
-    d1, d2 = dot(ab, P - A), dot(ac, P - A)
-    d3, d4 = dot(ab, P - B), dot(ac, P - B)
-    d5, d6 = dot(ab, P - C), dot(ac, P - C)
+    ab, ac = columns(B - A), columns(C - A)
+    (d1, d2), (d3, d4), (d5, d6) = (
+        (dot(*ab, *way), dot(*ac, *way)) for way in (columns(P - corner) for corner in (A, B, C))
+    )
     va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
     zero, one = np.zeros(len(P)), np.ones(len(P))
 
@@ -42,5 +40,4 @@ def closest_points(P, A, B, C):
     v, w = share(vb, total), share(vc, total)
     inside = (1 - v - w, v, w)
     is_case = [case for case, _ in cases]
-    columns = [np.select(is_case, [b[k] for _, b in cases], inside[k]) for k in range(3)]
-    return np.stack(columns, axis=1)
+    return from_columns([np.select(is_case, [b[k] for _, b in cases], inside[k]) for k in range(3)])

@@ -16,6 +16,7 @@ side at a distance, are not linked; and vertices of one part never are, however 
 import numpy as np
 from scipy.spatial import KDTree
 
+from ..algebra import by_columns, columns, dot, take
 from .closest_point import closest_points
 from .links import links_to_triangles, no_links
 from .samples import extents, surface_samples
@@ -29,6 +30,8 @@ SAMPLES = 30_000
 """approximate number of linked vertices"""
 LEAST_WEIGHT = 1e-4
 """Parts connected by less, such as those without area, do not count as a single part."""
+MANY = 64
+"""parts, of which there are too many to look at one by one"""
 
 _CANDIDATES = 6  # triangles, by their centers, among which the nearest is searched
 _UPRIGHT = 0.7  # cosine between a link within LAYER and the normal of the triangle
@@ -52,8 +55,9 @@ def neighbour_links(V, F, normals, areas, part, count):
     if count < 2 or not len(F):
         return no_links()
     corners = F.astype(np.int64)
-    middles = V[corners].mean(axis=1)
-    size = float(np.linalg.norm(V[corners] - middles[:, None], axis=2).max())
+    a, b, c = _corner_places(V, corners)
+    middles = (a + b + c) / 3.0
+    size = max(float(_squared(corner - middles).max()) for corner in (a, b, c)) ** 0.5
     near = _near_others(V, part, count, LAYER)
     face = np.flatnonzero(_near_others(middles, part[corners[:, 0]], count, LAYER + 2 * size))
     if not near.any() or not len(face):
@@ -65,49 +69,83 @@ def neighbour_links(V, F, normals, areas, part, count):
     share = np.zeros(len(V))
     share[chosen] = area
     i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
-    weights = share[i] / np.maximum((d * d).sum(axis=1), np.maximum(share[i], spacing[i] ** 2))
+    weights = share[i] / np.maximum(_squared(d), np.maximum(share[i], spacing[i] ** 2))
     is_kept = _is_accepted(V, corners, normals, part, i, triangle, d) & (weights > LEAST_WEIGHT)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
     return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
 
 
+def _corner_places(V, corners):
+    """Return the places (k,3) of the corners (k,3) of triangles, as `by_columns` has them."""
+    places = by_columns(V)
+    return [take(places, corners[:, k]) for k in range(3)]
+
+
+def _squared(d):
+    """Return the squared sizes (k,) of vectors (k,3)."""
+    return dot(*columns(d), *columns(d))
+
+
 def _near_others(points, label, count, reach):
     """Return which points (n,3) may be within reach of a part that is not theirs, by boxes."""
-    if count > 64:
+    if count > MANY:
         return np.ones(len(points), dtype=bool)
-    boxes = [points[label == k] for k in range(count)]
     is_near = np.zeros(len(points), dtype=bool)
-    for k, own in enumerate(boxes):
-        if len(own):
-            inside = (points >= own.min(axis=0) - reach) & (points <= own.max(axis=0) + reach)
-            is_near |= inside.all(axis=1) & (label != k)
+    coordinates = np.ascontiguousarray(points.T)
+    for k in range(count):
+        is_own = label == k
+        if is_own.any():
+            is_near |= ~is_own & _is_in_box(coordinates, coordinates[:, is_own], reach)
     return is_near
 
 
-def _nearest_middles(V, chosen, part, middles, face, corners, reach):
-    """Return pairs of a vertex and a triangle of another part that may be the nearest.
+def _is_in_box(points, others, reach):
+    """Return which points (3,n) are within reach of the box around others (3,k)."""
+    is_inside = np.ones(points.shape[1], dtype=bool)
+    for here, there in zip(points, others, strict=True):
+        is_inside &= (here >= there.min() - reach) & (here <= there.max() + reach)
+    return is_inside
 
-    Two different numbers differ in at least one bit, so for each bit, the vertices of parts that
-    have it are compared with the triangles of parts that do not, and vice versa.
-    """
-    of_vertex, of_face = part[chosen], part[corners[face, 0]]
+
+def _nearest_middles(V, chosen, part, middles, face, corners, reach):
+    """Return pairs of a vertex and a triangle of another part that may be the nearest."""
     vertices, triangles = [], []
-    for bit in range(int(part.max()).bit_length()):
-        vertex_bit, face_bit = of_vertex >> bit & 1, of_face >> bit & 1
-        for value in (0, 1):
-            asking, asked = chosen[vertex_bit == value], face[face_bit != value]
-            if not len(asking) or not len(asked):
-                continue
-            tree = KDTree(middles[asked], balanced_tree=False, compact_nodes=False)
-            k = min(_CANDIDATES, len(asked))
-            _, found = tree.query(V[asking], k=k, distance_upper_bound=reach, workers=-1)
-            found = found.reshape(len(asking), k)
-            is_found = found < len(asked)
-            vertices.append(np.repeat(asking, k)[is_found.ravel()])
-            triangles.append(asked[found[is_found]])
+    for asks, is_asked in _comparisons(part[chosen], part[corners[face, 0]]):
+        asking, asked = chosen[asks], face[is_asked]
+        if not len(asked):
+            continue
+        asking = asking[_is_in_box(V[asking].T, middles[asked].T, reach)]
+        if not len(asking):
+            continue
+        tree = KDTree(middles[asked], balanced_tree=False, compact_nodes=False)
+        k = min(_CANDIDATES, len(asked))
+        _, found = tree.query(V[asking], k=k, distance_upper_bound=reach, workers=-1)
+        found = found.reshape(len(asking), k)
+        is_found = found < len(asked)
+        vertices.append(np.repeat(asking, k)[is_found.ravel()])
+        triangles.append(asked[found[is_found]])
     if not vertices:
         return np.empty(0, np.int64), np.empty(0, np.int64)
     return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def _comparisons(of_vertex, of_face):
+    """Yield masks of vertices and of triangles, by their parts, that are compared with each other.
+
+    Together they are all pairs of different parts. Each of few parts is compared with all others.
+    Of many, it is used that two different numbers differ in at least one bit: for each bit, the
+    vertices of parts that have it are compared with the triangles of parts that do not, and vice
+    versa.
+    """
+    parts = np.unique(of_face)
+    if len(parts) <= MANY:
+        for k in parts:
+            yield of_vertex != k, of_face == k
+        return
+    for bit in range(int(max(of_vertex.max(), parts[-1])).bit_length()):
+        vertex_bit, face_bit = of_vertex >> bit & 1, of_face >> bit & 1
+        for value in (0, 1):
+            yield vertex_bit == value, face_bit != value
 
 
 def _nearest_triangles(V, corners, i, triangle):
@@ -121,11 +159,12 @@ def _nearest_triangles(V, corners, i, triangle):
     d : (k,3) array
         From the vertex to it.
     """
-    a, b, c = (V[corners[triangle, k]] for k in range(3))
-    barycentric = closest_points(V[i], a, b, c)
+    a, b, c = _corner_places(V, corners[triangle])
+    P = V[i]
+    barycentric = closest_points(P, a, b, c)
     points = barycentric[:, :1] * a + barycentric[:, 1:2] * b + barycentric[:, 2:] * c
-    d = points - V[i]
-    order = np.lexsort((triangle, (d * d).sum(axis=1), i))
+    d = points - P
+    order = np.lexsort((triangle, _squared(d), i))
     is_first = np.ones(len(order), dtype=bool)
     is_first[1:] = i[order][1:] != i[order][:-1]
     best = order[is_first]
@@ -136,8 +175,8 @@ def _is_accepted(V, corners, normals, part, i, triangle, d):
     """Return which links to create; see the module."""
     both = extents(V, part)[np.stack([part[i], part[corners[triangle, 0]]])]
     smaller, larger = both.min(axis=0), both.max(axis=0)
-    distance = np.linalg.norm(d, axis=1)
-    a, b, c = (V[corners[triangle, k]] for k in range(3))
+    distance = np.sqrt(_squared(d))
+    a, b, c = _corner_places(V, corners[triangle])
     upright = np.cross(b - a, c - a)
     upright /= np.maximum(np.linalg.norm(upright, axis=1), 1e-300)[:, None]
     is_layer = np.abs((upright * d).sum(axis=1)) > _UPRIGHT * distance

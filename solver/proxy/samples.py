@@ -47,9 +47,10 @@ def surface_samples(V, normals, areas, part, is_candidate, count):
 
 
 def extents(V, part):
-    """Return the largest extent (p,) of each part."""
-    count = int(part.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, part, V)
-    np.maximum.at(high, part, V)
-    return (high - low).max(axis=1)
+    """Return the largest extent (p,) of each part; none is without vertices."""
+    order = np.argsort(part, kind="stable")
+    starts = np.flatnonzero(np.diff(part[order], prepend=-1))
+    sides = [
+        np.maximum.reduceat(x, starts) - np.minimum.reduceat(x, starts) for x in V[order].T.copy()
+    ]
+    return np.max(sides, axis=0)

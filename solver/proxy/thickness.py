@@ -78,8 +78,8 @@ def thickness_links(V, F, normals, areas, part):
 
 def _opposite(V, normals, part, chosen, points):
     """Return the vertices whose balls end at an opposite side, and those at which they end."""
-    # parts are kept apart by a coordinate of their own
-    place = np.column_stack([V, 10.0 * part]) if part.any() else V
+    place = V.copy()
+    place[:, 0] += 10.0 * part  # farther apart than any ball is wide
     end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
     if len(points) > _MANY * len(chosen):  # a part of the points is enough to approach the end
         _shrink(place, normals, chosen, chosen, end, radius)
@@ -96,15 +96,14 @@ def _shrink(place, normals, chosen, points, end, radius):
     radius : (c,) array
     """
     tree = KDTree(place[points], balanced_tree=False, compact_nodes=False)
-    p, n = place[chosen, :3], normals[chosen]
+    p, n = place[chosen], normals[chosen]
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
-        centre = place[chosen[todo]]
-        centre[:, :3] -= radius[todo, None] * n[todo]
+        centre = p[todo] - radius[todo, None] * n[todo]
         # its stub takes the share for a whole number
         _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)  # pyright: ignore[reportArgumentType]
         q = points[nearest]
-        d = place[q, :3] - p[todo]
+        d = place[q] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
         is_other = (q != chosen[todo]) & (depth > 0.0)
         shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
