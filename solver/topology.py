@@ -9,6 +9,7 @@ import numpy as np
 from .components import components
 
 _CHUNK = 256
+_GROUP = 32
 
 
 @dataclass(frozen=True)
@@ -38,13 +39,15 @@ class Topology:
 
         (k+1,) int32 start of each, and (k,) int32 component of each.
         """
-        count = len(self.component)
-        is_start = np.zeros(count, dtype=bool)
-        is_start[::_CHUNK] = True
-        is_start[1:] |= self.component[1:] != self.component[:-1]
-        start = np.flatnonzero(is_start)
-        bounds = np.append(start, count).astype(np.int32)
-        return bounds, self.component[start].astype(np.int32)
+        return _runs(self.component, _CHUNK)
+
+    @cached_property
+    def groups(self):
+        """Up to 32 consecutive `chunks` of one component each, so that there are few sums.
+
+        (k+1,) int32 start of each, and (k,) int32 component of each.
+        """
+        return _runs(self.chunks[1], _GROUP)
 
     @cached_property
     def largest_component(self):
@@ -65,6 +68,15 @@ class Topology:
 
     def _sums(self, values):
         return np.bincount(self.component, values, self.component_count)
+
+
+def _runs(labels, length):
+    """Return where up to `length` equal labels begin, where the last end, and the labels."""
+    is_start = np.zeros(len(labels), dtype=bool)
+    is_start[::length] = True
+    is_start[1:] |= labels[1:] != labels[:-1]
+    start = np.flatnonzero(is_start)
+    return np.append(start, len(labels)).astype(np.int32), labels[start].astype(np.int32)
 
 
 def topology(F, count):

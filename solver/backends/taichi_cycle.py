@@ -2,6 +2,8 @@
 """The V-cycle of `multigrid.py` in Taichi."""
 
 from functools import cache
+from itertools import accumulate
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +12,9 @@ from . import taichi_runtime
 
 class TaichiCycle:
     """One V-cycle on vectors with four coordinates, of which the last is not used.
+
+    The levels lie one after the other in the same arrays, so that a single kernel does all of them:
+    to start a kernel on a GPU takes longer than the work of a coarse level.
 
     Parameters
     ----------
@@ -21,62 +26,68 @@ class TaichiCycle:
     ----------
     B, X : (n,4) float32 arrays
         The scaled residual, to be filled in, and the scaled correction that `run` makes of it.
+        They go on with what belongs to the coarser levels.
     """
 
     def __init__(self, multigrid, arrays):
-        self._kernels = _kernels()
-        self._levels = [_Level(level, arrays) for level in multigrid.levels]
+        levels = multigrid.levels
         inverse = np.linalg.inv(multigrid.coarsest.toarray()).astype(np.float32)
-        self._inverse = arrays.keep(inverse, of_numbers=True)
-        sizes = [level.A.shape[0] for level in multigrid.levels] + [len(inverse)]
-        self._vectors = [
-            [arrays.keep(np.zeros((n, 4), np.float32)) for _ in range(2)] for n in sizes
-        ]
-        self.B, self.X = self._vectors[0]
+        sizes = [level.A.shape[0] for level in levels] + [len(inverse)]
+        self._starts = (0, *accumulate(sizes))
+        here, below = self._starts[:-2], self._starts[1:-1]  # where the rows of each level begin
+        of_finest = np.zeros(sizes[0] if levels else 0, np.int64)  # nothing is restricted to it
+        matrices = (
+            *_stacked([level.A for level in levels], here),
+            *_stacked([level.P for level in levels], below),
+            *_stacked([level.restrict for level in levels], here, of_finest),
+        )
+        self.B, self.X, residual = (
+            arrays.keep(np.zeros((self._starts[-1], 4), np.float32)) for _ in range(3)
+        )
+        self._kernel = _kernel(len(levels))
+        self._arguments = (
+            *map(arrays.keep, matrices),
+            arrays.keep(inverse, of_numbers=True),
+            self.B,
+            self.X,
+            residual,
+            (*(float(level.of_b) for level in levels), 0.0),
+            (*(float(level.of_ab) for level in levels), 0.0),
+        )
 
     def calls(self):
-        """Return one call (kernel, arguments) of each kernel that is used."""
-        kernels, (b, x) = self._kernels, self._vectors[-1]
-        calls = [(kernels.multiply_dense, (self._inverse, b, x))]
-        if self._levels:
-            level, (B, X) = self._levels[0], self._vectors[0]
-            smoothing = (level.of_b, level.of_ab)
-            calls += [
-                (kernels.smooth, (*level.A, B, X, *smoothing)),
-                (kernels.subtract, (*level.A, X, B, level.residual)),
-                (kernels.multiply, (*level.restrict, level.residual, b)),
-                (kernels.add, (*level.P, x, X)),
-                (kernels.smooth_more, (*level.A, level.residual, X, *smoothing)),
-            ]
-        return calls
+        """Return a call (kernel, arguments) of each kernel that is used, of no rows."""
+        return [(self._kernel, (*self._arguments, (0,) * len(self._starts)))]
 
     def run(self):
         """Do the cycle."""
-        kernels, levels = self._kernels, list(zip(self._levels, self._vectors[:-1], strict=True))
-        for (level, (B, X)), (b, _) in zip(levels, self._vectors[1:], strict=True):
-            kernels.smooth(*level.A, B, X, level.of_b, level.of_ab)
-            kernels.subtract(*level.A, X, B, level.residual)
-            kernels.multiply(*level.restrict, level.residual, b)
-        kernels.multiply_dense(self._inverse, *self._vectors[-1])
-        for (level, (B, X)), (_, x) in zip(levels[::-1], self._vectors[:0:-1], strict=True):
-            kernels.add(*level.P, x, X)
-            kernels.subtract(*level.A, X, B, level.residual)
-            kernels.smooth_more(*level.A, level.residual, X, level.of_b, level.of_ab)
+        self._kernel(*self._arguments, self._starts)
 
 
-class _Level:
-    def __init__(self, level, arrays):
-        self.A, self.P, self.restrict = (
-            tuple(map(arrays.keep, (matrix.indptr, matrix.indices, matrix.data)))
-            for matrix in (level.A, level.P, level.restrict)
-        )
-        self.of_b, self.of_ab = float(level.of_b), float(level.of_ab)
-        self.residual = arrays.keep(np.zeros((level.A.shape[0], 4), np.float32))
+def _stacked(matrices, columns, before=()):
+    """Return indptr, indices and data of csr_matrices below each other, from the columns given.
+
+    Parameters
+    ----------
+    matrices : list of csr_matrix
+    columns : sequence of int
+        Where the first column of each is.
+    before : sequence of int
+        Numbers of entries of further rows above them, which are to be zero.
+    """
+    counts = [np.asarray(before), *(np.diff(matrix.indptr) for matrix in matrices)]
+    indices = [matrix.indices + at for matrix, at in zip(matrices, columns, strict=True)]
+    data = [matrix.data for matrix in matrices]
+    return (
+        np.concatenate([[0], *counts]).cumsum().astype(np.int32),
+        np.concatenate([np.zeros(0, np.int32), *indices]).astype(np.int32),
+        np.concatenate([np.zeros(0, np.float32), *data]),
+    )
 
 
 @cache
-def _kernels():
+def _kernel(level_count) -> Any:
     taichi_runtime.import_taichi()
-    from .taichi_cycle_kernels import make_cycle_kernels
+    from .taichi_cycle_kernels import make_cycle
 
-    return make_cycle_kernels()
+    return make_cycle(level_count)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The V-cycle of `multigrid.py` as Taichi kernels, in 32 bit: one thread per row.
+"""The V-cycle of `multigrid.py` as a Taichi kernel, in 32 bit: one thread per row.
 
 Import this only after `taichi_runtime.import_taichi`. Vectors have a fourth, unused coordinate:
 four of them are read at once, which takes half the time of three. Sums run in a fixed order.
@@ -8,18 +8,22 @@ four of them are read at once, which takes half the time of three. Sums run in a
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-from types import SimpleNamespace
-
 import taichi as ti
 
 
-def make_cycle_kernels():
-    """Return the kernels of a level; its matrix A is scaled to a diagonal of ones."""
+def make_cycle(level_count):
+    """Return the kernel for so many levels above the coarsest.
+
+    Rows of all levels follow each other. The matrices of the levels are scaled to a diagonal of
+    ones; `starts` says where the rows of each begin, and where those of the last end.
+    """
     vec = ti.types.vector(4, ti.f32)
     values = ti.types.ndarray(dtype=ti.f32, ndim=1)
     integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
     vectors = ti.types.ndarray(dtype=vec, ndim=1)
     square = ti.types.ndarray(dtype=ti.f32, ndim=2)
+    per_level = ti.types.vector(level_count + 1, ti.f32)
+    bounds = ti.types.vector(level_count + 2, ti.i32)
 
     @ti.func
     def row(
@@ -35,66 +39,45 @@ def make_cycle_kernels():
         return total
 
     @ti.kernel
-    def smooth(
-        indptr: integers,
-        indices: integers,
-        data: values,
+    def cycle(
+        A_indptr: integers,
+        A_indices: integers,
+        A_data: values,
+        P_indptr: integers,
+        P_indices: integers,
+        P_data: values,
+        restrict_indptr: integers,
+        restrict_indices: integers,
+        restrict_data: values,
+        inverse: square,
         B: vectors,
         X: vectors,
-        of_b: ti.f32,
-        of_ab: ti.f32,
+        residual: vectors,
+        of_b: per_level,
+        of_ab: per_level,
+        starts: bounds,
     ):
-        """Set X = of_b B + of_ab A B."""
-        for i in range(X.shape[0]):
-            X[i] = of_b * B[i] + of_ab * row(indptr, indices, data, B, i)
-
-    @ti.kernel
-    def smooth_more(
-        indptr: integers,
-        indices: integers,
-        data: values,
-        B: vectors,
-        X: vectors,
-        of_b: ti.f32,
-        of_ab: ti.f32,
-    ):
-        """Add of_b B + of_ab A B to X."""
-        for i in range(X.shape[0]):
-            X[i] += of_b * B[i] + of_ab * row(indptr, indices, data, B, i)
-
-    @ti.kernel
-    def subtract(
-        indptr: integers, indices: integers, data: values, X: vectors, B: vectors, residual: vectors
-    ):
-        """Set residual = B - A X."""
-        for i in range(residual.shape[0]):
-            residual[i] = B[i] - row(indptr, indices, data, X, i)
-
-    @ti.kernel
-    def multiply(indptr: integers, indices: integers, data: values, X: vectors, Y: vectors):
-        """Set Y = A X."""
-        for i in range(Y.shape[0]):
-            Y[i] = row(indptr, indices, data, X, i)
-
-    @ti.kernel
-    def add(indptr: integers, indices: integers, data: values, X: vectors, Y: vectors):
-        """Add A X to Y."""
-        for i in range(Y.shape[0]):
-            Y[i] += row(indptr, indices, data, X, i)
-
-    @ti.kernel
-    def multiply_dense(A: square, X: vectors, Y: vectors):
-        for i in range(Y.shape[0]):
+        for k in ti.static(range(level_count)):
+            for i in range(starts[k], starts[k + 1]):
+                X[i] = of_b[k] * B[i] + of_ab[k] * row(A_indptr, A_indices, A_data, B, i)
+            for i in range(starts[k], starts[k + 1]):
+                residual[i] = B[i] - row(A_indptr, A_indices, A_data, X, i)
+            for i in range(starts[k + 1], starts[k + 2]):
+                B[i] = row(restrict_indptr, restrict_indices, restrict_data, residual, i)
+        first = starts[level_count]
+        for i in range(first, starts[level_count + 1]):
             total = vec(0.0)
-            for j in range(X.shape[0]):
-                total += A[i, j] * X[j]
-            Y[i] = total
+            for j in range(inverse.shape[0]):
+                total += inverse[i - first, j] * B[first + j]
+            X[i] = total
+        for back in ti.static(range(level_count)):
+            k = ti.static(level_count - 1 - back)
+            for i in range(starts[k], starts[k + 1]):
+                X[i] += row(P_indptr, P_indices, P_data, X, i)
+            for i in range(starts[k], starts[k + 1]):
+                residual[i] = B[i] - row(A_indptr, A_indices, A_data, X, i)
+            for i in range(starts[k], starts[k + 1]):
+                rest = residual[i]
+                X[i] += of_b[k] * rest + of_ab[k] * row(A_indptr, A_indices, A_data, residual, i)
 
-    return SimpleNamespace(
-        smooth=smooth,
-        smooth_more=smooth_more,
-        subtract=subtract,
-        multiply=multiply,
-        add=add,
-        multiply_dense=multiply_dense,
-    )
+    return cycle

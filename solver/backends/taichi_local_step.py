@@ -155,18 +155,21 @@ class TaichiLocalStep:
         from .taichi_motion import TaichiMotion, motion_kernels
 
         keep = self.arrays.keep
-        bounds, self._chunk_component = setup.rest.topology.chunks
-        self._sums = keep(np.zeros((len(self._chunk_component), 3), self.real))
+        topology = setup.rest.topology
+        groups, self._group_component = topology.groups
+        self._sums = np.zeros((len(self._group_component), 3), self.real)
         # Taken from each vertex. Taken from their sum, which is as large as that of all squared
         # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
         at_rest = keep(setup.rest.energy_terms.astype(self.real))
         weight = keep(self._normal_weight.astype(self.real))
         arguments = (
-            keep(bounds),
+            keep(topology.chunks[0]),
             self._arguments.energies,
             at_rest,
             weight,
             self._arguments.certified,
+            keep(groups),
+            keep(np.zeros((len(topology.chunks[1]), 3), self.real)),
             self._sums,
         )
         kernel = motion_kernels(self.precision).sum_energies
@@ -201,13 +204,13 @@ class TaichiLocalStep:
     def _summed(self, U, sum_on_device):
         """Return the energies where kernels sum them up."""
         sum_on_device()
-        arap, cubic, uncertified = self.arrays.fetch(self._sums).T
+        arap, cubic, uncertified = self._sums.T
         if uncertified.any():
             self._solve_by_admm(U, self._uncertified())
             sum_on_device()
-            arap, cubic, _ = self.arrays.fetch(self._sums).T
+            arap, cubic, _ = self._sums.T
         count = self._rest.topology.component_count
-        return tuple(np.bincount(self._chunk_component, part, count) for part in (arap, cubic))
+        return tuple(np.bincount(self._group_component, part, count) for part in (arap, cubic))
 
     def _uncertified(self):
         return np.flatnonzero(self.arrays.fetch(self._arguments.certified) == 0)

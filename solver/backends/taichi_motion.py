@@ -15,7 +15,7 @@ class TaichiMotion:
     """As `Motion`, where the global step is a V-cycle.
 
     One pass over the vertices finds how each component has moved as a whole, and another one takes
-    that back, extrapolates and measures. Between them only the sums of `Topology.chunks` are looked
+    that back, extrapolates and measures. Between them only the sums of `Topology.groups` are looked
     at in NumPy. The positions lie where the arrays of the local step do.
 
     Parameters
@@ -39,24 +39,23 @@ class TaichiMotion:
         self._cycle = TaichiCycle(multigrid, arrays)
         self._scale = keep(multigrid.scale)
         topology = rest.topology
-        bounds, self._component = topology.chunks
-        self._bounds, self._kept_component = keep(bounds), keep(self._component)
+        (bounds, of_chunk), (groups, self._component) = topology.chunks, topology.groups
+        self._bounds, self._of_chunk, self._groups = keep(bounds), keep(of_chunk), keep(groups)
         weight = rest.areas + 1e-300
         share = weight / topology.sum_parts(weight)[topology.component]
         self._centre = topology.sum_parts(share[:, None] * rest.V)
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
-        count = len(self._component)
         # only asked for where a component has to be kept from turning
         self._P, self._pull = (keep(np.zeros_like(rest.V, real)) for _ in range(2))
         self._is_kept = False
         self._setup = setup
-        self._means, self._torques, self._largest = (
-            keep(np.zeros((count, 3), real)) for _ in range(3)
+        # of each chunk, and of each group; the latter are few, and written to NumPy at once
+        self._moments, self._largest = (
+            [keep(np.zeros((len(of_chunk), k), real)), np.zeros((len(self._component), k), real)]
+            for k in (6, 3)
         )
         self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
-        count = len(self._centre)
-        nothing = np.zeros(count)
-        still = (np.zeros((count, 3)), np.zeros((count, 3)), nothing, nothing)
+        still = np.zeros((len(self._centre), 8))
         self.compile_seconds = warm_up(
             [
                 (
@@ -64,7 +63,7 @@ class TaichiMotion:
                     local.residual_arguments(self.point, self._scale, self._cycle.B),
                 ),
                 (self._kernels.moments, self._moments_arguments()),
-                (self._kernels.move, self._move_arguments(*still)),
+                (self._kernels.move, self._move_arguments(still)),
                 *self._cycle.calls(),
             ]
         )
@@ -95,11 +94,11 @@ class TaichiMotion:
         arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
         self._kernels.residual(*arguments)
         self._cycle.run()
-        whole = self._whole(keep_rotation)
-        self._kernels.move(*self._move_arguments(*whole, momentum, overshoot))
+        motion = np.column_stack([*self._whole(keep_rotation), momentum, overshoot])
+        self._kernels.move(*self._move_arguments(motion))
         if before is not None:
             return self._impose(before)
-        displacement, distance, _ = self._local.arrays.fetch(self._largest).max(axis=0)
+        displacement, distance, _ = self._largest[1].max(axis=0)
         return float(displacement), float(distance)
 
     def _impose(self, before):
@@ -125,26 +124,23 @@ class TaichiMotion:
             self.point,
             self._scale,
             self._cycle.X,
-            self._means,
-            self._torques,
+            self._groups,
+            *self._moments,
         )
 
-    def _move_arguments(self, twist, shift, momentum, overshoot):
-        real = self._local.real
+    def _move_arguments(self, motion):
         return (
             self._bounds,
-            self._kept_component,
+            self._of_chunk,
             self._V,
             self._scale,
             self._cycle.X,
-            twist.astype(real),
-            shift.astype(real),
             self._P,
-            momentum.astype(real),
-            overshoot.astype(real),
+            motion.astype(self._local.real),
             self.point,
             self._U,
-            self._largest,
+            self._groups,
+            *self._largest,
         )
 
     def _whole(self, keep_rotation):
@@ -159,18 +155,11 @@ class TaichiMotion:
             self._local.arrays.put(self._pull, no_turning.pull)
             self._is_kept = True
         self._kernels.moments(*self._moments_arguments())
+        sums = [np.bincount(self._component, column, count) for column in self._moments[1].T]
+        means, torques = np.stack(sums[:3], axis=1), np.stack(sums[3:], axis=1)
         if no_turning:
-            twist = no_turning.twist(self._sums(self._torques))
-        is_held = self._is_anchored[:, None]
-        return twist, np.where(is_held, 0.0, self._centre - self._sums(self._means))
-
-    def _sums(self, parts):
-        """Add up what there is of each chunk, to (component_count, ...)."""
-        parts = self._local.arrays.fetch(parts)
-        count = len(self._centre)
-        flat = parts.reshape(len(parts), -1).T.astype(np.float64)
-        sums = [np.bincount(self._component, column, count) for column in flat]
-        return np.stack(sums, axis=1).reshape(count, *parts.shape[1:])
+            twist = no_turning.twist(torques)
+        return twist, np.where(self._is_anchored[:, None], 0.0, self._centre - means)
 
 
 @cache

@@ -2,7 +2,7 @@
 """What an iteration on a large mesh does beside the local step and the V-cycle, as Taichi kernels.
 
 Import this only after `taichi_runtime.import_taichi`. Sums and maxima are those of the chunks of
-`RestMesh`, each in a fixed order; the few that are left are added up in NumPy.
+`Topology` and then of its groups, each in a fixed order; the few of the groups go to NumPy.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
@@ -21,6 +21,8 @@ def make_motion_kernels(real):
     vec4 = ti.types.vector(4, ti.f32)
     singles = ti.types.ndarray(dtype=ti.f32, ndim=1)
     vectors4 = ti.types.ndarray(dtype=vec4, ndim=1)
+    vec6, vec8 = ti.types.vector(6, real), ti.types.vector(8, real)
+    vectors6, vectors8 = (ti.types.ndarray(dtype=vec, ndim=1) for vec in (vec6, vec8))
 
     @ti.func
     def moved(point, correction, scale):
@@ -56,18 +58,23 @@ def make_motion_kernels(real):
         point: vectors,
         scale: singles,
         X: vectors4,
-        means: vectors,
-        torques: vectors,
+        groups: integers,
+        parts: vectors6,
+        sums: vectors6,
     ):
-        """Sum what each chunk adds to the centroid of a component and to its torque."""
-        for c in range(means.shape[0]):
+        """Sum what each group adds to the centroid of a component and to its torque."""
+        for c in range(parts.shape[0]):
             mean, torque = vec3(0.0), vec3(0.0)
             for i in range(bounds[c], bounds[c + 1]):
                 u = moved(point[i], X[i], scale[i])
                 mean += share[i] * u
                 torque += pull[i].cross(u)
-            means[c] = mean
-            torques[c] = torque
+            parts[c] = vec6(mean[0], mean[1], mean[2], torque[0], torque[1], torque[2])
+        for g in range(sums.shape[0]):
+            total = vec6(0.0)
+            for c in range(groups[g], groups[g + 1]):
+                total += parts[c]
+            sums[g] = total
 
     @ti.kernel
     def move(
@@ -76,23 +83,23 @@ def make_motion_kernels(real):
         V: vectors,
         scale: singles,
         X: vectors4,
-        twist: vectors,
-        shift: vectors,
         P: vectors,
-        momentum: scalars,
-        overshoot: scalars,
+        motion: vectors8,
         point: vectors,
         U: vectors,
+        groups: integers,
+        parts: vectors,
         largest: vectors,
     ):
         """Find new positions U by the correction X, and the point that the next step starts from.
 
-        Each component is shifted, and kept from turning by twist x P, see `no_turning.py`. Of each
-        chunk: largest displacement and largest distance from rest, by coordinate.
+        The motion of a component is its twist, shift, momentum and overshoot. It is shifted, and
+        kept from turning by twist x P, see `no_turning.py`. Of each group: largest displacement and
+        largest distance from rest, by coordinate.
         """
-        for c in range(largest.shape[0]):
-            k = component[c]
-            mu, by = twist[k], shift[k]
+        for c in range(parts.shape[0]):
+            of = motion[component[c]]
+            mu, by = vec3(of[0], of[1], of[2]), vec3(of[3], of[4], of[5])
             displacement, distance = real(0.0), real(0.0)
             for i in range(bounds[c], bounds[c + 1]):
                 u = moved(point[i], X[i], scale[i]) + mu.cross(P[i]) + by
@@ -100,8 +107,13 @@ def make_motion_kernels(real):
                 displacement = ti.max(displacement, ti.abs(step).max())
                 distance = ti.max(distance, ti.abs(u - V[i]).max())
                 U[i] = u
-                point[i] = u + momentum[k] * step + overshoot[k] * (u - point[i])
-            largest[c] = vec3(displacement, distance, 0.0)
+                point[i] = u + of[6] * step + of[7] * (u - point[i])
+            parts[c] = vec3(displacement, distance, 0.0)
+        for g in range(largest.shape[0]):
+            most = vec3(0.0)
+            for c in range(groups[g], groups[g + 1]):
+                most = ti.max(most, parts[c])
+            largest[g] = most
 
     @ti.kernel
     def sum_energies(
@@ -110,10 +122,12 @@ def make_motion_kernels(real):
         at_rest: scalars,
         cubic_weight: scalars,
         certified: integers,
+        groups: integers,
+        parts: vectors,
         sums: vectors,
     ):
-        """Sum the ARAP energy, the cubic energy, and what is not certified."""
-        for c in range(sums.shape[0]):
+        """Sum the ARAP energy, the cubic energy, and what is not certified, of each group."""
+        for c in range(parts.shape[0]):
             total = vec3(0.0)
             for i in range(bounds[c], bounds[c + 1]):
                 quadratic, fit, cost = energies[i]
@@ -122,6 +136,11 @@ def make_motion_kernels(real):
                     cubic_weight[i] * cost,
                     ti.cast(certified[i] == 0, real),
                 )
-            sums[c] = total
+            parts[c] = total
+        for g in range(sums.shape[0]):
+            total = vec3(0.0)
+            for c in range(groups[g], groups[g + 1]):
+                total += parts[c]
+            sums[g] = total
 
     return SimpleNamespace(residual=residual, moments=moments, move=move, sum_energies=sum_energies)

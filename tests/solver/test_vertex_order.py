@@ -72,3 +72,16 @@ def test_chunks_are_of_one_component_each(ordered):
     assert (np.diff(bounds) > 0).all() and np.diff(bounds).max() <= 256
     for label, begin, end in zip(component, bounds, bounds[1:], strict=False):
         assert (rest.topology.component[begin:end] == label).all()
+
+
+def test_groups_are_of_chunks_of_one_component_each():
+    V, F = shapes.sphere(5)
+    small, G = shapes.sphere(3)
+    F = np.concatenate([F, F + len(V), G + 2 * len(V)])
+    topology = rest_mesh(np.concatenate([V, V + 3.0, small - 3.0]), F).topology
+    _, of_chunk = topology.chunks
+    starts, of_group = topology.groups
+    assert starts[0] == 0 and starts[-1] == len(of_chunk)
+    assert len(of_group) == 5  # of 41, 41 and 3 chunks
+    for label, begin, end in zip(of_group, starts, starts[1:], strict=False):
+        assert 0 < end - begin <= 32 and (of_chunk[begin:end] == label).all()
