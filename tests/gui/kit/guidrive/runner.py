@@ -73,13 +73,13 @@ def _finish():
 
 
 def _fail(reason):
-    """End Blender with exit code 1 and a picture of the screen, failed.png."""
+    """End Blender with a picture of the screen and exit code 1, or 3 after a Python error."""
     log(f"FAILED {reason}")
     sys.stderr.flush()
     try:
         save_screen("failed.png")
     finally:
-        os._exit(1)
+        os._exit(3 if python_errors else 1)
 
 
 def _after_first_draw(test):
