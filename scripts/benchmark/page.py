@@ -73,7 +73,8 @@ One run to our own stop, as in the paper: phases of set-up, then those of an ite
 all but the first. Peak memory is that of the whole process; "for the run" is what it takes above
 Python, the libraries and the kernels."""
 _DEFAULTS = """\
-The artist's defaults beside the paper's settings, each to its own stop. "Ticks per second" is how
+The artist's defaults beside the paper's settings and beside version 0.1.0, which had no others;
+each to its own stop. "Ticks per second" is how
 often Live could show a coarse mesh anew, without what Blender takes to draw."""
 _MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
 _NUMPY = """\

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from . import defaults, solver_alone, without_taichi
 from .best_energies import BestEnergies
 from .cores import on_one_and_all
+from .earlier import earlier
 from .find_best import find_best
 from .machine import isolated, machine_line
 from .meshes import known_meshes, made_meshes, scaled_meshes
@@ -114,12 +115,13 @@ def _defaults(plan, meshes, say):
         case = {"path": mesh.path, "cubeness": CUBENESS}
         figures = isolated(defaults.side_by_side, **case, runs=plan.runs)
         ticks = isolated(defaults.ticks, **case) if mesh.vertices <= COARSE else []
-        yield _head(mesh) | figures | {"ticks": ticks}
+        before = earlier(**case, runs=plan.runs)
+        yield _head(mesh) | figures | {"ticks": ticks, "earlier": before}
     largest = scaled_meshes(meshes.get("bunny"), plan.max_vertices)[-1]
     say(f"with the defaults: {largest.name}, {largest.vertices:,} vertices")
     case = {"path": largest.path, "cubeness": CUBENESS}
     alone = {name: [isolated(defaults.alone, **case, name=name)] for name in defaults.SETTINGS}
-    yield _head(largest) | alone | {"ticks": []}
+    yield _head(largest) | alone | {"ticks": [], "earlier": []}
 
 
 def _numpy(plan, meshes, say):

@@ -119,9 +119,12 @@ def defaults(case):
     for name, program in _BOTH.items():
         row |= _end(case, program, f"{name}: to our stop")
         row[f"{name}: set-up, s"] = _setup(case, program)
+    has_earlier = bool(case["earlier"])
     return row | {
         "of it finding links, s": median_of(case, "defaults", "links"),
         "times as long": times_as_long(case),
+        "0.1.0: to our stop, s": median_of(case, "earlier", "seconds") if has_earlier else None,
+        "times as long as 0.1.0": times_as_long(case, beside="earlier") if has_earlier else None,
         "ticks per second": ticks_per_second(case),
     }
 

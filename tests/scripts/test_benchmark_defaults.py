@@ -1,12 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmark makes, and runs with the artist's defaults."""
 
+import subprocess
+
 import pytest
 
-from scripts.benchmark import defaults, shapes, without_taichi
+from scripts.benchmark import defaults, earlier, shapes, without_taichi
 from scripts.benchmark.machine import isolated
 from scripts.benchmark.meshes import keep
 from solver import ProxyOptions, rest_mesh
+
+OLD_SOLVER = """
+from types import SimpleNamespace
+
+def stylize(V, F, cubeness, max_iterations=1000):
+    print("[Taichi] a greeting")
+    return SimpleNamespace(iterations=len(V), reason="of old")
+"""
 
 
 @pytest.fixture
@@ -40,6 +50,33 @@ def test_both_devices_side_by_side(path):
     (fast,), (plain,) = results.values()
     assert fast["iterations"] == plain["iterations"]
     assert fast["seconds"] != plain["seconds"]
+
+
+@pytest.fixture
+def repository(tmp_path, monkeypatch):
+    """Give a repository whose second commit has no solver any more."""
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=n", "-c", "user.email=e"]
+    (tmp_path / "solver").mkdir()
+    (tmp_path / "solver/__init__.py").write_text(OLD_SOLVER)
+    subprocess.run([*git, "init", "-q"], check=True)
+    subprocess.run([*git, "add", "."], check=True)
+    subprocess.run([*git, "commit", "-q", "-m", "old"], check=True)
+    monkeypatch.setattr(earlier, "_ROOT", tmp_path)
+    monkeypatch.setattr(earlier, "COMMIT", "HEAD")
+    subprocess.run([*git, "rm", "-qr", "solver"], check=True)
+    return monkeypatch
+
+
+def test_the_solver_of_an_earlier_commit(path, repository):
+    first, second = earlier.earlier(path, 0.4, runs=2)
+    assert first["iterations"] == 34  # vertices
+    assert first["seconds"] > 0.0
+    assert second["reason"] == "of old"
+
+
+def test_without_its_history_there_is_nothing_earlier(path, repository):
+    repository.setattr(earlier, "COMMIT", "0" * 40)
+    assert earlier.earlier(path, 0.4, runs=2) == []
 
 
 def test_memory_of_one_setting(path):
