@@ -116,8 +116,9 @@ try_again() {
             echo "$failure" >>"$WORK/failed"
         fi
     done <"$first"
-    echo "of these, each was tried twice unless it crashed or met a Python error:"
+    echo "at first:"
     cat "$first"
+    echo "after a second try of each that neither crashed nor met a Python error:"
 }
 
 # Side by side, as many as there are suites: each test has a screen and folders of its own. The

@@ -11,7 +11,6 @@ def test():
     before = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     yield from scene.start_live()
-    yield from gui.wait_until(lambda: scene.positions() != before, what="the first change")
     yield from gui.screenshot("live.png")
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
     yield from gui.drag_slider(slider, 0.3, 0.8)
@@ -38,7 +37,6 @@ def test():
     assert scene.positions() == confirmed, "Live leaves other bits than Cubify"
 
     yield from scene.start_live()
-    yield from gui.wait_until(lambda: scene.positions() != confirmed, what="a change")
     # Whatever is active, the panel stays that of Live, with its buttons.
     bpy.context.view_layer.objects.active = None
     yield from gui.click((yield from gui.find_button("cubic_craft.live_cancel")))

@@ -27,11 +27,11 @@ def view_of(window):
 
 
 def start_in(window):
-    before = scene.positions()
+    has_changed = scene.will_have_changed()
     area, region = view_of(window)
     with bpy.context.temp_override(window=window, area=area, region=region):
         assert bpy.ops.cubic_craft.live("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    yield from gui.wait_until(lambda: scene.positions() != before, what="a change")
+    yield from gui.wait_until(has_changed, what="a change")
     assert [operator.bl_idname for operator in window.modal_operators] == operators()
 
 
