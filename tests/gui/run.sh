@@ -73,7 +73,7 @@ prepare() {
         run_script "$suite" "$HERE/install.py" "$folder" "$WORK/$suite" -e "$ZIP" >"$folder/log.txt" 2>&1
     then
         # the longest scripts take longest, and would else be waited for in the end
-        for test in $(ls -S "$HERE"/${TESTS:-test_*}.py); do
+        for test in $(ls -S "$HERE"/${TESTS:-test_*}.py 2>/dev/null); do
             only=$(sed -n 's/^# Suite: //p' "$test")
             if [ "${#SUITES[@]}" = 1 ] || [ "${only:-$suite}" = "$suite" ]; then
                 echo "$suite $(basename "$test" .py)"
@@ -127,9 +127,13 @@ for suite in "${SUITES[@]}"; do prepare "$suite" & done
 wait
 export HERE OUTPUT WORK EXPECT_DEVICE
 export -f run_test run_script expected_device
+if ! cat "$WORK"/*.tests 2>/dev/null | grep -q . && [ ! -e "$WORK/failed" ]; then
+    echo "no test's name matches TESTS=${TESTS:-test_*}" >&2
+    exit 2
+fi
 for suite in $(printf '%s\n' "${SUITES[@]}" | tac); do
     [ ! -e "$WORK/$suite.tests" ] || cat "$WORK/$suite.tests"
-done | xargs -P "${#SUITES[@]}" -L 1 bash -c 'run_test "$@"' run_test
+done | xargs -r -P "${#SUITES[@]}" -L 1 bash -c 'run_test "$@"' run_test
 [ ! -e "$WORK/failed" ] || try_again
 if [ -e "$WORK/failed" ]; then
     cat "$WORK/failed"
