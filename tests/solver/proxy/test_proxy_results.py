@@ -27,7 +27,7 @@ def angle_to_axes(V, F):
 def test_a_box_does_not_move_whatever_its_triangulation(size, turn, device):
     V, F = proxy_shapes.box(size, turn)
     result = stylize(V, F, 1.0, device=device, **KEPT)
-    assert np.abs(result.positions - V).max() < 1e-6
+    assert np.abs(result.positions - V).max() < 1e-6 * max(size)  # a GPU may have only 32 bit
 
 
 @pytest.mark.parametrize("angles", [(0, 0, 10), (0, 0, 45), (20, 35, 50)])
