@@ -14,11 +14,11 @@ side at a distance, are not linked; and vertices of one part never are, however 
 """
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from ..algebra import by_columns, columns, dot, take
 from .closest_point import closest_points
 from .links import links_to_triangles, no_links
+from .nearest import Nearest
 from .samples import extents, surface_samples
 
 CONTACT = 0.01
@@ -117,9 +117,8 @@ def _nearest_middles(V, chosen, part, middles, face, corners, reach):
         asking = asking[_is_in_box(V[asking].T, middles[asked].T, reach)]
         if not len(asking):
             continue
-        tree = KDTree(middles[asked], balanced_tree=False, compact_nodes=False)
         k = min(_CANDIDATES, len(asked))
-        _, found = tree.query(V[asking], k=k, distance_upper_bound=reach, workers=-1)
+        found = Nearest(middles[asked])(V[asking], k=k, distance_upper_bound=reach)
         found = found.reshape(len(asking), k)
         is_found = found < len(asked)
         vertices.append(np.repeat(asking, k)[is_found.ravel()])

@@ -20,10 +20,10 @@ As next to no vertex of the part lies inside the ball, a link does not cross ano
 """
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from .edges import edges_of
 from .links import links_between, no_links
+from .nearest import Nearest
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
@@ -95,14 +95,12 @@ def _shrink(place, normals, chosen, points, end, radius):
         The vertex that each ball ends at, -1 while there is none on an opposite side.
     radius : (c,) array
     """
-    tree = KDTree(place[points], balanced_tree=False, compact_nodes=False)
+    nearest_of = Nearest(place[points])
     p, n = place[chosen], normals[chosen]
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
         centre = p[todo] - radius[todo, None] * n[todo]
-        # its stub takes the share for a whole number
-        _, nearest = tree.query(centre, eps=_INEXACTNESS, workers=-1)  # pyright: ignore[reportArgumentType]
-        q = points[nearest]
+        q = points[nearest_of(centre, eps=_INEXACTNESS)]
         d = place[q] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
         is_other = (q != chosen[todo]) & (depth > 0.0)

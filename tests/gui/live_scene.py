@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests of Live share: a monkey, its bits, and what must not be left behind."""
 
+import contextlib
 import importlib
 import os
 
@@ -10,6 +11,8 @@ import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 NAME = "Suzanne"
+LONG_SLICE = 0.4
+"""seconds"""
 EXTENSION = "bl_ext.user_default.cubic_craft"
 
 
@@ -110,7 +113,23 @@ def is_idle():
 
 
 def wait_idle():
-    yield from gui.wait_until(is_idle, what="the end of the computing")
+    """Wait until there is nothing left to compute.
+
+    Ticks are longer meanwhile, which changes no bit of the result: each ends in a redraw, which
+    takes software several times as long as what is usually computed in between.
+    """
+    with long_ticks():
+        yield from gui.wait_until(is_idle, what="the end of the computing")
+
+
+@contextlib.contextmanager
+def long_ticks():
+    session = importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live.session")
+    usual, session.SLICE = session.SLICE, LONG_SLICE
+    try:
+        yield
+    finally:
+        session.SLICE = usual
 
 
 def is_over():
@@ -140,12 +159,14 @@ def end_by(*keys):
 def wait_settled():
     """Wait until Live has nothing left to compute, or has ended."""
     yield
-    yield from gui.wait_until(lambda: is_over() or is_idle(), what="rest")
+    with long_ticks():
+        yield from gui.wait_until(lambda: is_over() or is_idle(), what="rest")
 
 
 def wait_idle_with(changed, what):
     """Wait until a condition holds and Live has done all that there is to compute."""
-    yield from gui.wait_until(changed, what=what)
+    with long_ticks():
+        yield from gui.wait_until(changed, what=what)
     yield from wait_idle()
 
 

@@ -15,6 +15,7 @@ def add_monkeys(*names):
         for number, name in enumerate(names):
             bpy.ops.mesh.primitive_monkey_add(location=(2.5 * number, 0, 0))
             bpy.context.object.name = bpy.context.object.data.name = name
+            scene.settings(name).refine = "OFF"
         for name in names:
             bpy.data.objects[name].select_set(True)
         bpy.context.view_layer.objects.active = bpy.data.objects[names[0]]

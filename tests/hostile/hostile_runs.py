@@ -8,7 +8,8 @@ from hostile_meshes import broken_meshes
 from hostile_options import options_for
 from hypothesis import strategies as st
 
-from solver import stylize
+import solver
+from solver import Setup, Stylization, rest_mesh
 
 ITERATIONS = 10
 ROUNDING = 1e-9
@@ -26,23 +27,25 @@ def cases(draw):
     return mesh, draw(options_for(mesh)), draw(st.sampled_from(DEVICES))
 
 
-def run(mesh, options, device, **more):
+def prepared(mesh, options):
+    """Return the Setup of a mesh."""
+    return Setup(rest_mesh(mesh.V, mesh.triangles, options.proxy), options.pinned)
+
+
+def run(setup, options, device, **more):
     """Return the Result and the energies of all iterations, the last that of the result."""
-    energies = []
-    result = stylize(
-        mesh.V,
-        mesh.triangles,
+    state = Stylization(
+        setup,
         options.cubeness,
-        options.pinned,
         targets=options.targets,
         orientation=options.orientation,
         keep_rotation=options.keep_rotation,
-        proxy=options.proxy,
         device=device,
-        max_iterations=ITERATIONS,
-        tolerance=1e-6,
-        on_iteration=lambda state: energies.append(state.energy.total),
         **more,
+    )
+    energies = []
+    result = solver.run(
+        state, ITERATIONS, tolerance=1e-6, on_iteration=lambda s: energies.append(s.energy.total)
     )
     return result, np.array([*energies, result.energy.total])
 

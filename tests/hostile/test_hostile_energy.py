@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from budget import examples
-from hostile_runs import DEVICES, NOTHING, ROUNDING, cases, check_result, run
+from hostile_runs import DEVICES, NOTHING, ROUNDING, cases, check_result, prepared, run
 from hypothesis import given
 from pieces import PIECES
 
@@ -15,7 +15,7 @@ from solver import stylize
 @given(case=cases())
 def test_the_energy_of_the_plain_iteration_never_rises(case):
     mesh, options, device = case
-    result, energies = run(mesh, options, device, is_accelerated=False)
+    result, energies = run(prepared(mesh, options), options, device, is_accelerated=False)
     check_result(mesh, options, result)
     assert np.diff(energies).max() <= ROUNDING * abs(energies[0]) + NOTHING
 

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of many points are nearest to others."""
+
+from scipy.spatial import KDTree
+
+FEW = 2000
+"""points to look from: for fewer, starting threads takes longer than one thread needs"""
+
+
+class Nearest:
+    """Points (n,3) to look for."""
+
+    def __init__(self, points):
+        # as soon as it is made: such a tree is asked only a few times
+        self._tree = KDTree(points, balanced_tree=False, compact_nodes=False)
+
+    def __call__(self, places, **options):
+        """Return the numbers of the points nearest to places (k,3); options as of `KDTree.query`.
+
+        Where there is none, the number is n.
+        """
+        workers = 1 if len(places) < FEW else -1
+        return self._tree.query(places, workers=workers, **options)[1]
