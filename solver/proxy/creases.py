@@ -8,8 +8,10 @@ ignored, and its area is given to the vertices beside it, which each have the no
 
 import numpy as np
 
+from ..cotangents import cotangents
 from ..edge_vectors import double_area_vectors, edge_vectors
 from ..rest_measures import triangle_areas_and_normals
+from .edges import edges_of
 
 FULL = np.cos(np.radians(25.0))
 """the normal counts where those of the faces around are within 25 degrees of it, on average..."""
@@ -62,27 +64,25 @@ def smoothness(V, F, C):
     return t * t * (3.0 - 2.0 * t)
 
 
-def mute_edges(V, F, C, edge_of, count):
-    """Return which of `count` edges lie within a side but join two vertices of its creases.
+def mute_sides(V, F):
+    """Return which sides of triangles (m,3), opposite their corners, join two vertices of creases.
 
-    A narrow side whose vertices are all in its creases has no vertex with its normal.
-
-    Parameters
-    ----------
-    V, F, C
-    edge_of : (m,3) int array
-        Edge opposite each corner.
+    Only those within a flat side of the surface: if it is narrow and all its vertices are in its
+    creases, none of them has its normal.
     """
-    is_silent = smoothness(V, F, C) < _LEAST
-    ends = np.stack([is_silent[F[:, [1, 2, 0]]], is_silent[F[:, [2, 0, 1]]]]).all(axis=0)
-    _, normals = triangle_areas_and_normals(V, F)
-    edge = edge_of.ravel()
+    is_silent = (smoothness(V, F, cotangents(V, F)) < _LEAST)[F]
+    joins = is_silent[:, [1, 2, 0]] & is_silent[:, [2, 0, 1]]
+    rows = np.flatnonzero(joins.any(axis=1))  # of a smooth mesh next to none
+    corners = F[rows]
+    edges, edge = edges_of(corners[:, [1, 2, 0]].ravel(), corners[:, [2, 0, 1]].ravel(), len(V))
+    _, normals = triangle_areas_and_normals(V, corners)
+    count = len(edges)
     sums = np.stack([np.bincount(edge, np.repeat(x, 3), count) for x in normals.T], axis=1)
-    uses = np.bincount(edge, minlength=count)
-    is_flat = (uses == 2) & ((sums * sums).sum(axis=1) > 2.0 + 2.0 * FLAT)
-    is_mute = np.zeros(count, dtype=bool)
-    is_mute[edge] = ends.ravel()
-    return is_mute & is_flat
+    is_flat = (sums * sums).sum(axis=1) > 2.0 + 2.0 * FLAT
+    is_flat &= np.bincount(edge, minlength=count) == 2
+    result = np.zeros(F.shape, dtype=bool)
+    result[rows] = joins[rows] & is_flat[edge].reshape(-1, 3)
+    return result
 
 
 def _angles(cotangents):

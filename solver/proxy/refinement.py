@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from ..cotangents import cotangents
-from .creases import mute_edges
+from ..algebra import columns, dot
+from .creases import mute_sides
 from .edges import edges_of
 from .samples import extents
 
@@ -44,10 +44,10 @@ def refine(V, F, bound, parts=1):
 
     At last a midpoint is put into narrow sides that have vertices in their creases only.
 
-    Rounds split the longest first, so that a budget that is too small is spent evenly. With an edge
-    of a triangle its longest one is split, too (Rivara, "Algorithms for refining triangular grids",
-    1984), which keeps triangles from becoming needles; neighbours share midpoints, so the surface
-    stays closed.
+    Rounds split the longest first, so that a budget that is too small is spent evenly. As a round
+    splits all edges beyond a length, it splits the longest one of each triangle of which it splits
+    any (Rivara, "Algorithms for refining triangular grids", 1984), which keeps triangles from
+    becoming needles; neighbours share midpoints, so the surface stays closed.
 
     Parameters
     ----------
@@ -73,54 +73,56 @@ def refine(V, F, bound, parts=1):
     F, bound = F.astype(np.int64), bound.astype(np.float64)
     is_fine = False
     while not is_fine:
-        edges, edge_of, ratio = _edges(V, F, bound)
-        is_fine, is_split = _to_be_split(V, F, edge_of, ratio, len(edges))
-        if len(V) + np.count_nonzero(is_split) > budget:
-            is_fine, is_split = True, _mute(V, F, edge_of, len(edges))
-        if is_fine and len(V) + np.count_nonzero(is_split) > OVERDRAFT * budget:
-            break
-        new = edges[is_split]
-        number = np.full(len(edges), -1)
-        number[is_split] = len(V) + np.arange(len(new))
+        ratio = _lengths(V, F) / bound[F[:, :1]]
+        longest = ratio.max(initial=0.0)
+        is_fine = longest <= 1.0
+        if not is_fine:
+            rows, new, middle = _midpoints(F, ratio > max(1.0, _STEP * longest), len(V))
+            is_fine = len(V) + len(new) > budget
+        if is_fine:
+            rows, new, middle = _midpoints(F, mute_sides(V, F), len(V))
+            if len(V) + len(new) > OVERDRAFT * budget:
+                break
         V = np.concatenate([V, 0.5 * (V[new[:, 0]] + V[new[:, 1]])])
         bound = np.concatenate([bound, bound[new[:, 0]]])
-        F = _split(F, number[edge_of], ratio[edge_of])
+        F = np.concatenate([F[~rows], _split(F[rows], middle, ratio[rows])])
         parents.append(new)
         rounds.append(rounds[-1] + len(new))
     return V, F.astype(np.int32), np.concatenate(parents), np.array(rounds)
 
 
-def _to_be_split(V, F, edge_of, ratio, count):
-    """Return whether this is the last round, and the edges to be split in it."""
-    longest = ratio.max(initial=0.0)
-    if longest > 1.0:
-        return False, _closed(ratio > max(1.0, _STEP * longest), ratio, edge_of)
-    return True, _mute(V, F, edge_of, count)
+def _lengths(V, F):
+    """Return the length (m,3) of the side opposite each corner."""
+    corners = [columns(V).take(F[:, k], axis=1) for k in range(3)]
+    sides = [corners[k - 1] - corners[k - 2] for k in range(3)]
+    return np.sqrt(np.stack([dot(*side, *side) for side in sides], axis=1))
 
 
-def _mute(V, F, edge_of, count):
-    return mute_edges(V, F, cotangents(V, F), edge_of, count)
+def _midpoints(F, is_split, n):
+    """Return the midpoints of the sides (m,3) to be split, numbered from n on.
 
+    Only triangles with such a side are looked at: most of a fine mesh has none.
 
-def _edges(V, F, bound):
-    """Return edges (e,2), the edge (m,3) opposite each corner, and lengths (e,) in their bounds."""
-    edges, number = edges_of(F[:, [1, 2, 0]].ravel(), F[:, [2, 0, 1]].ravel(), len(V))
-    length = np.linalg.norm(V[edges[:, 1]] - V[edges[:, 0]], axis=1)
-    return edges, number.reshape(F.shape), length / bound[edges[:, 0]]
-
-
-def _closed(is_split, ratio, edge_of):
-    """Mark the longest edge of each triangle to be split if any of its edges is."""
-    longest = edge_of[np.arange(len(edge_of)), ratio[edge_of].argmax(axis=1)]
-    while True:
-        wanted = longest[is_split[edge_of].any(axis=1)]
-        if is_split[wanted].all():
-            return is_split
-        is_split[wanted] = True
+    Returns
+    -------
+    rows : (m,) bool array
+        The k triangles that have such sides.
+    new : (p,2) int array
+        Ends of the edges that are split, in ascending order.
+    middle : (k,3) int array
+        Midpoint of the side opposite each corner, or -1.
+    """
+    rows = is_split.any(axis=1)
+    sides, is_split = F[rows], is_split[rows].ravel()
+    start, end = sides[:, [1, 2, 0]].ravel(), sides[:, [2, 0, 1]].ravel()
+    new, number = edges_of(start[is_split], end[is_split], n)
+    middle = np.full(len(start), -1)
+    middle[is_split] = n + number
+    return rows, new, middle.reshape(sides.shape)
 
 
 def _split(F, middle, length):
-    """Replace triangles by two, three or four.
+    """Replace triangles, each of which has at least one midpoint, by two, three or four.
 
     Parameters
     ----------
@@ -140,14 +142,10 @@ def _split(F, middle, length):
         parts.append(np.stack([corner[where] for corner in corners], axis=1))
 
     has_q, has_r = q >= 0, r >= 0
-    whole = p < 0
-    add(whole, a, b, c)
-    left, right = ~whole & ~has_r, ~whole & ~has_q
-    add(left, a, b, p)
-    add(right, a, p, c)
-    left, right = ~whole & has_r, ~whole & has_q
-    add(left, a, r, p)
-    add(left, r, b, p)
-    add(right, a, p, q)
-    add(right, q, p, c)
+    add(~has_r, a, b, p)
+    add(~has_q, a, p, c)
+    add(has_r, a, r, p)
+    add(has_r, r, b, p)
+    add(has_q, a, p, q)
+    add(has_q, q, p, c)
     return np.concatenate(parts)
