@@ -41,6 +41,7 @@ def arguments() -> argparse.Namespace:
     add("--only", nargs="+", choices=ALL, default=ALL, help="numbers or names of figures")
     add("--width", type=int, default=1600, help="pixels")
     add("--samples", type=int, default=24, help="of Cycles, denoised")
+    add("--rough", action="store_true", help="few iterations and small textures, to try things out")
     add("--engine", choices=("cycles", "workbench"), default="cycles", help="of Blender")
     shots = "folder that the window tests wrote, for figure 4"
     add("--screenshots", type=Path, default=ROOT / "build" / "gui", help=shots)

@@ -32,6 +32,9 @@ __all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "colored_by", "moved")
 AS_IN_THE_PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
 """settings for figures that show what the energy of the paper does"""
 
+ROUGH_ITERATIONS = 8
+"""after which meshes are about as cubic as they become"""
+
 
 @dataclass(frozen=True)
 class Role:
@@ -89,8 +92,15 @@ class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
     def __init__(
-        self, extension: Extension, folder: Path | None, bar: ProgressBar, verbose: bool
+        self,
+        extension: Extension,
+        folder: Path | None,
+        bar: ProgressBar,
+        verbose: bool,
+        is_rough: bool = False,
     ) -> None:
+        self.is_rough = is_rough
+        self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
         self.extension, self._folder, self._bar, self._verbose = extension, folder, bar, verbose
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
@@ -126,7 +136,7 @@ class FigureMeshes:
         """
         radians = tuple(math.radians(angle) for angle in orientation)
         settings = self.extension.settings.Settings(
-            cubeness=cubeness, orientation=radians, space="OBJECT", **others
+            cubeness=cubeness, orientation=radians, space="OBJECT", **self.limit, **others
         )
         return self._solve(model.name, settings)
 

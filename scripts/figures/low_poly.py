@@ -14,6 +14,8 @@ __all__ = ("compose",)
 
 CUBENESS = 0.4
 TRIANGLES = 1000
+ROUGH_PIXELS = 128
+"""of a side of the map"""
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
@@ -45,9 +47,10 @@ def _low_poly(meshes: FigureMeshes, model: Model) -> bpy.types.Object:
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
     operators: Any = bpy.ops.cubic_craft
+    size = {"resolution": ROUGH_PIXELS} if meshes.is_rough else {}
     with captured(verbose=False):
-        operators.cubify(cubeness=CUBENESS, space="OBJECT")
-        operators.bake_normal_map(triangles=TRIANGLES)
+        operators.cubify(cubeness=CUBENESS, space="OBJECT", **meshes.limit)
+        operators.bake_normal_map(triangles=TRIANGLES, **size)
         low = bpy.context.object
         model.scene.collection.objects.unlink(low)
         obj.hide_set(False)

@@ -65,7 +65,7 @@ def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
     empty_blender()
     bar = ProgressBar()
     with registered(root) as extension:
-        meshes = FigureMeshes(extension, options.meshes, bar, options.verbose)
+        meshes = FigureMeshes(extension, options.meshes, bar, options.verbose, options.rough)
         for number in wanted:
             figure = FIGURES[number]
             gallery = _gallery(figure, meshes)

@@ -14,9 +14,9 @@ from .figure_meshes import FigureMeshes, Model, colored_by
 __all__ = ("compose",)
 
 CUBENESS = 0.7
-PIXELS = 2048
-MARGIN = 32
-"""pixels that the paint reaches beyond the islands of the UV map, against seams"""
+PIXELS, ROUGH_PIXELS = 2048, 256
+MARGIN = 1 / 64
+"""of the side of the image: the paint beyond the islands of the UV map, against seams"""
 WHITE = (0.66, 0.60, 0.51, 1.0)
 BROWN = (0.12, 0.045, 0.02, 1.0)
 """linear RGBA"""
@@ -31,11 +31,12 @@ def compose(meshes: FigureMeshes) -> list[Group]:
     """Return a painted mesh and one with Blender's own test grid, each before and after."""
     (model,) = meshes.there(["spot"], instead=["monkey"])
     shape = meshes.cubified(model, CUBENESS)
-    grid = bpy.data.images.new("Grid", PIXELS, PIXELS)
+    pixels = ROUGH_PIXELS if meshes.is_rough else PIXELS
+    grid = bpy.data.images.new("Grid", pixels, pixels)
     grid.generated_type = "COLOR_GRID"
     grid.pack()
     groups = []
-    for image, name in ((_painted_hide(model), "painted"), (grid, "grid")):
+    for image, name in ((_painted_hide(model, pixels), "painted"), (grid, "grid")):
         material = colored_by("ShaderNodeTexImage", ROUGHNESS, image=image)
         for positions, label in ((model.original, name), (shape, f"{name}, cubeness {CUBENESS:g}")):
             group = meshes.group(model, positions, label, "grey")
@@ -45,12 +46,12 @@ def compose(meshes: FigureMeshes) -> list[Group]:
     return groups
 
 
-def _painted_hide(model: Model) -> bpy.types.Image:
+def _painted_hide(model: Model, pixels: int) -> bpy.types.Image:
     """Return an image of a cow's patches, baked from where the original lies in space to its UVs.
 
     Whoever shows it sees nothing of that space any more, only UVs.
     """
-    image = bpy.data.images.new("Hide", PIXELS, PIXELS)
+    image = bpy.data.images.new("Hide", pixels, pixels)
     bpy.context.window.scene = scene = model.scene
     scene.render.engine = "CYCLES"
     scene.cycles.device, scene.cycles.samples = "CPU", 4
@@ -63,7 +64,7 @@ def _painted_hide(model: Model) -> bpy.types.Image:
     copy.select_set(True)
     bpy.context.view_layer.objects.active = copy
     with captured(verbose=False):
-        bpy.ops.object.bake(type="EMIT", margin=MARGIN, use_clear=True)
+        bpy.ops.object.bake(type="EMIT", margin=int(MARGIN * pixels), use_clear=True)
     image.pack()
     bpy.data.meshes.remove(copy.data)  # takes the object along
     return image

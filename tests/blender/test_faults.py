@@ -23,7 +23,9 @@ IS_THOROUGH = bool(os.environ.get("CUBIC_CRAFT_FAULTS"))
 SHARE = 160
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 WORDS = {RuntimeError: "disk on fire", MemoryError: "memory", KeyboardInterrupt: "interrupted"}
-OPTIONS = {"max_iterations": 2, "device": "NUMPY"}
+OPTIONS = {"max_iterations": 2, "device": "NUMPY", "refine": "OFF"}
+FINER = {"refine": "AUTO"}
+"""in scenarios that are to reach the functions for a finer copy, each of which takes long"""
 
 # All is done when it is called, and has its undo step; to report that cannot be taken back.
 AFTERWARDS = "report_all"
@@ -49,8 +51,8 @@ def bake_normal_map():
 
 # What was done before, what fails, and what is there once it does not.
 SCENARIOS = {
-    "mesh": (None, run_cubify("MESH")),
-    "mesh with Taichi": (None, run_cubify("MESH", device="CPU")),
+    "mesh": (None, run_cubify("MESH", **FINER)),
+    "mesh with Taichi": (None, run_cubify("MESH", device="CPU", **FINER)),
     "mesh after a key": ("SHAPE_KEY", run_cubify("MESH")),
     "key after a mesh": ("MESH", run_cubify("SHAPE_KEY")),
     "new object after a mesh": ("MESH", run_cubify("NEW_OBJECT")),

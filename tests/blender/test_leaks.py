@@ -58,8 +58,10 @@ needs_proc = pytest.mark.skipif(
 
 
 @needs_proc
-@pytest.mark.parametrize("device", ["AUTO", "NUMPY"])
-@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
+@pytest.mark.parametrize(
+    ("result", "device"),  # each of both: what writes the result knows nothing of the device
+    [("MESH", "AUTO"), ("SHAPE_KEY", "NUMPY"), ("NEW_OBJECT", "NUMPY")],
+)
 def test_cubify_and_restore(result, device):
     obj = add_monkey()
 

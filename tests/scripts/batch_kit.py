@@ -16,7 +16,7 @@ CUBE = """o part
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8
 """
-QUICK = ("--device", "numpy", "--max-iterations", "2")
+QUICK = ("--device", "numpy", "--max-iterations", "2", "--refine", "off")
 ENDLESS = (
     *("--device", "numpy", "--no-render", "--save-mesh", ".obj"),
     *("--tolerance", "1e-12", "--max-iterations", "1000000", "--cubeness", "1"),
@@ -84,6 +84,15 @@ def wait_for_files(process, count=1):
         assert time.monotonic() < end, "no file is begun"
         time.sleep(0.02)
     return found
+
+
+def wait_until_they_solve(numbers):
+    """Wait until processes have used more of the processor than Blender's start takes."""
+    end = time.monotonic() + PATIENCE
+    for number in numbers:
+        while sum(psutil.Process(number).cpu_times()[:2]) < 2.0:  # seconds
+            assert time.monotonic() < end
+            time.sleep(0.1)
 
 
 def is_there(number):

@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run the script as a user does, in a process of its own."""
+"""Run the script as a user does, in a process of its own or in one for many runs."""
 
 import json
 import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
+
+from shared_process import SharedProcess
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "headless_render.py"
 PATIENCE = 900
 """seconds: what takes longer on the slowest and busiest machine does not come at all"""
+_shared = SharedProcess()
 
 
 def headless(*arguments, cwd):
-    """Run headless_render.py and return the completed process."""
+    """Run headless_render.py in a process of its own, and return that once it is completed."""
     return subprocess.run(
         [sys.executable, str(SCRIPT), *map(str, arguments)],
         cwd=cwd,
@@ -23,6 +27,11 @@ def headless(*arguments, cwd):
         timeout=PATIENCE,
         check=False,
     )
+
+
+def headless_shared(*arguments, cwd):
+    """Run headless_render.py where others ran before it, and return what a process would be."""
+    return _shared.run(SCRIPT, ["--", *arguments], cwd)  # as in Blender, which is there already
 
 
 def start_headless(*arguments, cwd, script=(str(SCRIPT),)):
@@ -38,10 +47,10 @@ def start_headless(*arguments, cwd, script=(str(SCRIPT),)):
     )
 
 
-def headless_refused(*arguments, words, cwd):
+def headless_refused(*arguments, words, cwd, run=headless_shared):
     """Run headless_render.py, which must say these words in one line and leave all files alone."""
     before = sorted(cwd.rglob("*"))
-    process = headless(*arguments, cwd=cwd)
+    process = run(*arguments, cwd=cwd)
     assert process.returncode == 2, process.stderr
     assert process.stdout == ""
     lines = process.stderr.splitlines()
@@ -51,17 +60,20 @@ def headless_refused(*arguments, words, cwd):
     assert sorted(cwd.rglob("*")) == before
 
 
-def headless_ok(*arguments, cwd):
+def headless_ok(*arguments, cwd, run=headless_shared):
     """Run headless_render.py, which must succeed and leave standard output empty."""
-    process = headless(*arguments, cwd=cwd)
+    process = run(*arguments, cwd=cwd)
     assert process.returncode == 0, process.stderr
     assert process.stdout == ""
     return process
 
 
-def make_blend(script, path):
-    """Have a Blender of its own run a script that saves a file to ``sys.argv[1]``; return that."""
-    subprocess.run([sys.executable, "-c", script, str(path)], check=True, capture_output=True)
+def make_blend(text, path):
+    """Have Blender alone run a script that saves a file to ``sys.argv[1]``; return that."""
+    with tempfile.NamedTemporaryFile("w", suffix=".py") as script:
+        script.write(text)
+        script.flush()
+        _run_beside(script.name, path)
     return path
 
 
@@ -77,8 +89,13 @@ def run_to_blend(source, folder, *options):
 def read_files(*paths, folder):
     """Return what `read_files.py` finds in each file, in a list."""
     target = folder / "read.pickle"
-    script = Path(__file__).with_name("read_files.py")
     names = [str(path) for path in paths]
-    subprocess.run([sys.executable, script, target, *names], check=True, capture_output=True)
+    _run_beside(Path(__file__).with_name("read_files.py"), target, *names)
     found = pickle.loads(target.read_bytes())
     return [found[name] for name in names]
+
+
+def _run_beside(script, *arguments):
+    """Run a script of the tests, which must succeed."""
+    process = _shared.run(script, arguments, Path(__file__).parent)
+    assert process.returncode == 0, process.stderr

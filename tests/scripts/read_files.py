@@ -56,6 +56,6 @@ def _pixels(path):
     return pixels[::-1]
 
 
-if __name__ == "__main__":
+def main():
     target, *files = sys.argv[1:]
     Path(target).write_bytes(pickle.dumps({file: read(file) for file in files}))

@@ -3,7 +3,7 @@
 
 import pytest
 from batch_kit import CUBE
-from headless import PATIENCE, SCRIPT, headless_refused, start_headless
+from headless import PATIENCE, SCRIPT, headless, headless_refused, start_headless
 
 TO = ("--output-folder", "out")
 
@@ -68,7 +68,7 @@ def folder(tmp_path):
 @pytest.mark.parametrize("case", REFUSALS)
 def test_refusal(folder, case):
     arguments, words = REFUSALS[case]
-    headless_refused(*arguments, words=words, cwd=folder)
+    headless_refused(*arguments, words=words, cwd=folder, run=headless)
 
 
 WITHOUT = f"""

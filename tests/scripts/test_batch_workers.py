@@ -18,7 +18,7 @@ from batch_kit import CUBE, cluster_of, files_in, files_of, is_there, start, sta
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
-COUNT = int(os.environ.get("CUBIC_CRAFT_BATCH", "24"))
+COUNT = int(os.environ.get("CUBIC_CRAFT_BATCH", "12"))
 WORKERS, BROKEN, KILLS = (4, 10, 2) if COUNT >= 200 else (2, 1, 1)
 CRASHES = "crashes.obj"
 
@@ -67,7 +67,7 @@ def watch(process, cluster, out):
             files.update(files_of(cluster))
             crash(cluster)
             if len(killed) < KILLS and len(written) >= moments[len(killed)]:
-                time.sleep(random.random() * 3)
+                time.sleep(random.random() * (3 if COUNT >= 200 else 1))
                 worker = random.choice(workers_of(cluster))
                 killed.append([child.pid for child in worker.children()])
                 worker.kill()

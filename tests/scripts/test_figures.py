@@ -45,7 +45,7 @@ def figures(*arguments):
 def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
-    size = ("--width", WIDTH, "--samples", 1)
+    size = ("--rough", "--width", WIDTH, "--samples", 1)
     numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets", "captures", "rigs", "low_poly")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from headless import headless, headless_ok, read_files
+from headless import headless_ok, headless_shared, read_files
 from make_inputs import POSITIONS, TINY
 
 REST = POSITIONS * TINY
@@ -70,7 +70,7 @@ def test_at_rest_nothing_moves(inputs, tmp_path):
 def test_vertices_below_the_threshold_are_not_held(inputs, tmp_path):
     handles = write(tmp_path, {"group": "light", "threshold": 0.5})
     common = (inputs / "awkward.blend", "--object", "twin", *FAST, "--save-mesh", "posed.abc")
-    result = headless(*common, "--handles", handles, cwd=tmp_path)
+    result = headless_shared(*common, "--handles", handles, cwd=tmp_path)
     assert result.returncode == 2
     assert 'weighs 0.5 or more in the vertex group "light"' in result.stderr
 
@@ -131,7 +131,7 @@ REFUSED = {
 def test_refusal(inputs, tmp_path, case):
     text, words = REFUSED[case]
     (tmp_path / "handles.json").write_text(text, encoding="utf-8")
-    process = headless(
+    process = headless_shared(
         *(inputs / "awkward.obj", "--handles", "handles.json", *FAST, "--save-mesh", "a.obj"),
         cwd=tmp_path,
     )
@@ -154,7 +154,7 @@ def test_refusal(inputs, tmp_path, case):
 )
 def test_a_file_that_cannot_be_used_is_refused(inputs, tmp_path, arguments, words):
     write(tmp_path, {"vertices": [1]})
-    process = headless(
+    process = headless_shared(
         *(inputs / "awkward.obj", *arguments, *FAST, "--save-mesh", "a.obj"), cwd=tmp_path
     )
     assert process.returncode == 2, process.stderr
@@ -169,7 +169,7 @@ def test_a_file_that_cannot_be_used_is_refused(inputs, tmp_path, arguments, word
 )
 def test_numbers_that_mean_nothing_are_refused(inputs, tmp_path, name, words):
     path = write(tmp_path, {"vertices": [1]})
-    process = headless(
+    process = headless_shared(
         *(inputs / name, "--handles", path, *FAST, "--report", "a.json"), cwd=tmp_path
     )
     assert process.returncode == 2, process.stderr

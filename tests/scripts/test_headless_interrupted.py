@@ -10,8 +10,9 @@ import signal
 import sys
 import time
 
+import psutil
 import pytest
-from headless import PATIENCE, SCRIPT, headless_ok, start_headless
+from headless import PATIENCE, SCRIPT, headless, headless_ok, start_headless
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
@@ -38,11 +39,17 @@ def temporaries(folder):
 
 
 def wait_until(process, is_reached):
-    """Wait without a pause, as moments are short; fail where the process ends before."""
+    """Wait, with short pauses as moments are short; fail where the process ends before."""
     end = time.monotonic() + PATIENCE
     while not is_reached():
         assert process.poll() is None, process.stderr.read()
         assert time.monotonic() < end, "the moment does not come"
+        time.sleep(0.001)
+
+
+def busy(process):
+    """Return the seconds of the processor that a process has used."""
+    return sum(psutil.Process(process.pid).cpu_times()[:2])
 
 
 def stop(process, number):
@@ -90,11 +97,12 @@ def check_stopped(tmp_path, number, name, script):
 def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     picture = tmp_path / "picture.png"
     picture.write_bytes(OLD)
-    lasting = ("--samples", "65536", "--resolution", "1600", "540")
+    lasting = ("--samples", "65536", "--resolution", "1600", "540", "--threads", "1")
     process = start(tmp_path, *lasting, "--output", picture.name, "--save-mesh", "mesh.obj")
     wait_until(process, lambda: (tmp_path / "mesh.obj").exists())
-    time.sleep(3)  # it now renders, for hours
-    assert process.poll() is None
+    begin = busy(process)
+    # What comes between takes 0.3 s; then it renders, for hours.
+    wait_until(process, lambda: busy(process) > begin + 1.5)
     stop(process, number)
     assert picture.read_bytes() == OLD
     assert not temporaries(tmp_path)
@@ -104,7 +112,7 @@ def test_stopped_while_a_picture_is_rendered(tmp_path, number):
 def test_stopped_while_a_picture_is_written(tmp_path, number):
     picture = tmp_path / "picture.png"
     picture.write_bytes(OLD)
-    process = start(tmp_path, "--samples", "1", "--resolution", "1000", "560", "--output", picture)
+    process = start(tmp_path, "--samples", "1", "--resolution", "640", "360", "--output", picture)
     wait_until(process, lambda: temporaries(tmp_path))
     stop(process, number)
     whole = picture.read_bytes()
@@ -143,7 +151,7 @@ def test_killed_at_any_moment(tmp_path):
     count = int(os.environ.get("CUBIC_CRAFT_KILLS", "2"))
     arguments = (*SMALL, "--save-mesh", "mesh.obj", "--report", "run.json")
     begin = time.monotonic()
-    headless_ok(*QUICK, *arguments, cwd=tmp_path)
+    headless_ok(*QUICK, *arguments, cwd=tmp_path, run=headless)
     length = time.monotonic() - begin
     outputs = sorted(tmp_path.iterdir())
     for path in outputs:

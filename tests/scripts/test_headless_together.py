@@ -17,7 +17,7 @@ bpy.context.collection.objects.link(twin)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 MIRRORED = np.array([1, -1, 1], np.float32)
-FAST = ("--device", "numpy", "--max-iterations", 20)
+FAST = ("--device", "numpy", "--max-iterations", 20, "--refine", "off")
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from batch_kit import CUBE, MESHES, batch
+from batch_kit import CUBE, MESHES, QUICK, batch
 from headless import PATIENCE, SCRIPT, headless_ok
 from rigged import make_rigged, read_pc2
 
@@ -64,16 +64,16 @@ def test_the_job_is_valid(job):
 
 @pytest.fixture
 def meshes(tmp_path):
-    """Return what a job gets for a folder of meshes, of which the second is broken."""
+    """Return what a job gets for a folder of meshes, of which one is broken."""
     folder = tmp_path / "in"
     folder.mkdir()
     (folder / "Broken.obj").write_text("v 0 0 0\n")
-    for name in ("it's $HOME", "Größe 立方体", "-lead"):
+    for name in ("it's $HOME", "-lead Größe 立方体"):
         (folder / f"{name}.obj").write_text(CUBE)
     return {
         "InputFolder": folder,
         "OutputFolder": tmp_path / "jobs",
-        "Options": "--no-render --device numpy --max-iterations 2",
+        "Options": " ".join(("--no-render", *QUICK)),
         "Script": SCRIPT,
     }
 
@@ -97,18 +97,19 @@ def test_the_task_of_a_mesh_that_cannot_be_used_fails_and_says_why(meshes, blend
 
 
 def test_a_task_for_which_there_is_no_file_fails(meshes, blender):
-    code, words = run(MESH_JOB, **meshes, Blender=blender, Files="5")
-    assert code != 0 and "--only 5: there are 4 files" in words
+    code, words = run(MESH_JOB, **meshes, Blender=blender, Files="4")
+    assert code != 0 and "--only 4: there are 3 files" in words
 
 
 def test_each_range_of_frames_is_a_task_and_their_file_is_that_of_one_run(blender, tmp_path):
     scene = make_rigged(tmp_path / "rigged.blend")
-    frames, options = ("--frames", "1", "75"), ("--object", "Ball", "--device", "numpy")
+    frames = ("--frames", "1", "24")
+    options = ("--object", "Ball", "--device", "numpy", "--refine", "off")
     code, words = run(
         ANIMATION_JOB,
         Scene=scene,
         Animation=tmp_path / "parts.pc2",
-        LastFrame=75,
+        LastFrame=24,
         Parts=3,
         Options=" ".join(options),
         Script=SCRIPT,
@@ -120,7 +121,7 @@ def test_each_range_of_frames_is_a_task_and_their_file_is_that_of_one_run(blende
     parts, whole = (read_pc2(tmp_path / f"{name}.pc2") for name in ("parts", "whole"))
     assert len(parts) == len(whole) == json.loads(report.read_text())["objects"][0]["frames"]
     assert np.abs(parts - whole).max() < 1e-4 * np.ptp(whole[0])
-    assert words.count("Solved 25 of 75 frames") == 3
+    assert words.count("Solved 8 of 24 frames") == 3
     assert not list(tmp_path.glob("*.unfinished"))
 
 

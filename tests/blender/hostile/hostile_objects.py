@@ -76,7 +76,7 @@ def asked(draw):
         "map_group": draw(st.sampled_from(["", "Map"])),
         "map_invert": draw(st.booleans()),
         "device": draw(st.sampled_from(["CPU", "CPU", "NUMPY"])),
-        "max_iterations": 8,
+        "max_iterations": 3,
     }
     return Asked(
         draw(broken_meshes(for_blender=True)),
