@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import CYCLES, NoTurning
+from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
@@ -72,8 +73,7 @@ class GlobalStep:
     def posed(self, rest):
         """Return the same step for another pose of the mesh, see `RestMesh.posed`."""
         other = copy(self)
-        for name in ("no_turning", "no_turning_by_cycles"):
-            other.__dict__.pop(name, None)
+        other._forget_constraints()
         other._rest = rest
         other._floating = other._centring_weights()
         return other
@@ -81,12 +81,15 @@ class GlobalStep:
     def anchored(self, components):
         """Return the same step, in which components (c,) are not kept where they are at rest."""
         other = copy(self)
-        for name in ("no_turning", "no_turning_by_cycles"):
-            other.__dict__.pop(name, None)
+        other._forget_constraints()
         other.is_anchored = self.is_anchored.copy()
         other.is_anchored[components] = True
         other._floating = other._centring_weights()
         return other
+
+    def _forget_constraints(self):
+        for name in ("no_turning", "no_turning_by_cycles", "upright_parts"):
+            self.__dict__.pop(name, None)
 
     def _centring_weights(self):
         """Return the share of each vertex (n,) in its floating component's area, else 0."""
@@ -102,7 +105,13 @@ class GlobalStep:
         """The NoTurning, created on first use."""
         if not self.is_factorized:
             return self.no_turning_by_cycles
-        return NoTurning(self._rest, ~self.is_anchored, self.solve)
+        is_whole = ~self.is_anchored & ~self.upright_parts.is_kept
+        return NoTurning(self._rest, is_whole, self.solve)
+
+    @cached_property
+    def upright_parts(self):
+        """The UprightParts, created on first use; by a factorisation only."""
+        return UprightParts(self._rest, ~self.is_anchored, self.solve)
 
     @cached_property
     def no_turning_by_cycles(self):
@@ -119,11 +128,13 @@ class GlobalStep:
         near : (n,3) array
             Positions to start from, where the solution is iterative. Pinned vertices stay there.
         keep_rotation : bool
-            Keep each component without pins from turning as a whole.
+            Keep each component without pins from turning as a whole, and its large parts, too.
         """
         result = self.solve(rhs, near)
         if keep_rotation and self._floating is not None:
             result = self.no_turning.apply(result)
+            if self.is_factorized:
+                self.upright_parts.apply(result)
         if self._floating is not None:
             self._centre(result, self._floating)
         return result
