@@ -13,13 +13,14 @@ PIP := -m pip install --quiet --disable-pip-version-check
 # first. Not more than four, as each Blender takes its memory.
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 ZIP := dist/cubic_craft.zip
+BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name "*.py" -o -name "*.png")
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render docs test test-solver test-blender test-oldest test-py313 test-hostile \
-	test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck build package \
-	repository lock wheel test-wheel bench bench-quick bench-live docs-images clean has-py313
+.PHONY: help setup setup-all setup-gui render docs test test-solver test-blender test-oldest test-py313 \
+	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
+	build package repository lock wheel test-wheel bench bench-quick bench-live docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -91,13 +92,18 @@ test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=ow
 		tests/solver/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
 		CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender/test_gpu.py'
 
+ENVIRONMENTS := $(foreach name,-oldest -docs -wheel -bare-oldest -bare-newest $(if $(PYTHON313),-py313),$(VENV)$(name)/.done)
+
+setup-all: $(ZIP) $(ENVIRONMENTS) setup-gui ## All that the tests need, ahead of them; side by side with -j
+
+setup-gui:
+	tests/gui/set_up.sh $(GUI_OPTIONS) trixie sid
+
 test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path for your own
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
 
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
 	SEEDS="$(SEEDS)" ACTIONS="$(ACTIONS)" tests/gui/walks.sh $(ZIP)
-
-BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 
 test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64

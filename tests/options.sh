@@ -3,6 +3,7 @@
 # out of them, and answers --help and what is no first argument.
 #   usage        prints the comment at the top of the script
 #   skip REASON  says why nothing is run, and exits: with code 0 after --if-possible, else 2
+#   needs_root_on_debian WHAT  does so where this is another system, or another user
 
 usage() { sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; }
 
@@ -10,6 +11,11 @@ skip() {
     echo "$1"
     [ -n "$IF_POSSIBLE" ]
     exit $((2 * $?))
+}
+
+needs_root_on_debian() {
+    { [ "$(id -u)" = 0 ] && grep -qsx 'ID=debian' /etc/os-release; } ||
+        skip "$1 skipped: they need root on Debian"
 }
 
 IF_POSSIBLE=''

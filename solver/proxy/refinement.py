@@ -75,10 +75,8 @@ def refine(V, F, bound, parts=1):
     while not is_fine:
         ratio = _lengths(V, F) / bound[F[:, :1]]
         longest = ratio.max(initial=0.0)
-        is_fine = longest <= 1.0
-        if not is_fine:
-            rows, new, middle = _midpoints(F, ratio > max(1.0, _STEP * longest), len(V))
-            is_fine = len(V) + len(new) > budget
+        rows, new, middle = _midpoints(F, ratio > max(1.0, _STEP * longest), len(V))
+        is_fine = not len(new) or len(V) + len(new) > budget
         if is_fine:
             rows, new, middle = _midpoints(F, mute_sides(V, F), len(V))
             if len(V) + len(new) > OVERDRAFT * budget:

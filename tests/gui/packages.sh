@@ -15,9 +15,7 @@ HERE=$(dirname "$(realpath "$0")")
 PROJECT=$(realpath "$HERE/../..")
 . "$HERE/../options.sh"
 [ $# -ge 2 ] || { usage >&2; exit 2; }
-if [ "$(id -u)" != 0 ] || ! grep -qsx 'ID=debian' /etc/os-release; then
-    skip "window tests of the packages skipped: they need root on Debian"
-fi
+needs_root_on_debian "window tests of the packages"
 PACKAGES=$(realpath -e "$1") || exit 2
 PLAIN=$(realpath -e "$2") || exit 2
 OUTPUT=${3:-$PROJECT/build/packages}
