@@ -137,7 +137,8 @@ def is_over():
 
 
 def wait_over():
-    yield from gui.wait_until(is_over, what="the end of Live")
+    with long_ticks():
+        yield from gui.wait_until(is_over, what="the end of Live")
     check_clean()
 
 

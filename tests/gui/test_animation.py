@@ -19,7 +19,7 @@ CUBIC = f"{scene.NAME} Cubic"
 
 def add_bending_monkey():
     """Leave a monkey that bends."""
-    scene.add_monkey(levels=1)
+    scene.add_monkey()
     monkey = bpy.data.objects[scene.NAME]
     bend = monkey.modifiers.new("Bend", "SIMPLE_DEFORM")
     bend.deform_method, bend.deform_axis = "BEND", "Z"
@@ -41,7 +41,8 @@ def open_section():
 
 def make_slow(is_slow):
     watched = importlib.import_module(f"{scene.job().__name__}.watched")
-    watched._SLICE, watched._TIMER_STEP = (0.0, 0.05) if is_slow else (0.05, 0.01)
+    watched._SLICE, watched._TIMER_STEP = (0.0, 0.02) if is_slow else (0.4, 0.01)
+    watched._REDRAW_STEP = 0.5  # of the panel, which takes software longer than an iteration
     scene.job().FIRST_SLICE = 0.0 if is_slow else 0.7
 
 

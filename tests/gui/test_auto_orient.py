@@ -44,7 +44,7 @@ def glimpse_over():
 def turned_by_hand():
     """Drag an angle: the cube is seen for a moment, though its overlay is off."""
     before = pixels((yield from gui.screenshot("not_turned.png")))
-    glimpse().SECONDS = 10.0  # a picture takes its time
+    glimpse().SECONDS = 5.0  # a picture takes its time
     yield from gui.drag_slider((yield from gui.find_button("cubic_craft.orientation[2]")))
     assert orientation()[2], "the angle has not been dragged"
     turned = pixels((yield from gui.screenshot("turned_by_hand.png")))

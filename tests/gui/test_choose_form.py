@@ -72,7 +72,7 @@ def in_live(original):
 def test():
     gui.simplify_viewport()
     gui.area().spaces.active.overlay.show_overlays = True
-    scene.add_monkey(levels=2)
+    scene.add_monkey(levels=1)
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()

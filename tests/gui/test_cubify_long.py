@@ -22,6 +22,7 @@ def make_slow(is_slow):
     scene.settings().tolerance = 1e-9 if is_slow else 1e-3
     watched = importlib.import_module(f"{scene.job().__name__}.watched")
     watched._SLICE, watched._TIMER_STEP = 0.0, 0.2 if is_slow else 0.02
+    watched._REDRAW_STEP = 0.5  # of the panel, which takes software longer than an iteration
     scene.job().FIRST_SLICE = 0.0
 
 
@@ -192,7 +193,7 @@ def by_another_file():
 
 def test():
     gui.simplify_viewport()
-    scene.add_monkey(levels=2, is_refined=True)
+    scene.add_monkey(is_refined=True)
     scene.settings().device = "NUMPY"
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
@@ -210,7 +211,7 @@ def test():
         yield from way(original)
         scene.settings().device = "NUMPY"
     yield from by_another_file()
-    scene.add_monkey(levels=2, is_refined=True)
+    scene.add_monkey(is_refined=True)
     scene.settings().device = "NUMPY"
     yield from gui.open_sidebar("Cubic Craft")
     yield from start()  # and Blender quits while it runs

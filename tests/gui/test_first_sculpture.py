@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Do what docs/first_sculpture.md says, step by step; its pictures are the screenshots of this."""
 
 import bpy
@@ -30,25 +31,25 @@ def test():
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     yield from frame_the_view()
-    yield from gui.screenshot("first_1_panel.png")
+    yield from gui.smooth_screenshot("first_1_panel.png")
 
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify")
     assert scene.settings().status
-    yield from gui.screenshot("first_2_cubify.png")
+    yield from gui.smooth_screenshot("first_2_cubify.png")
 
     yield from scene.start_live()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
     yield from gui.drag_slider(slider, 0.4, 0.9)
     yield from scene.wait_idle()
-    yield from gui.screenshot("first_3_live.png")
+    yield from gui.smooth_screenshot("first_3_live.png")
     strong = scene.positions()
 
     yield from gui.click((yield from gui.find_button("cubic_craft_overlay")))
     turn = yield from gui.find_button("cubic_craft_live.orientation[2]")
     yield from gui.enter_value(turn, 30)
     yield from scene.wait_idle_with(lambda: scene.positions() != strong, "the turned shape")
-    yield from gui.screenshot("first_4_orientation.png")
+    yield from gui.smooth_screenshot("first_4_orientation.png")
 
     yield from scene.press("RET")
     yield from gui.wait_until(scene.is_over, what="the end")

@@ -106,7 +106,7 @@ def test():
     posed = yield from cubify(original)
     expected = os.environ.get("EXPECT_DEVICE", "")
     assert expected in settings().status, settings().status
-    yield from gui.screenshot("posed.png")
+    yield from gui.smooth_screenshot("posed.png")
     assert posed[chin].tobytes() == original[chin].tobytes()
     wanted = (original[ear].astype(np.float64) + np.array(way, dtype=np.float64)).astype(np.float32)
     np.testing.assert_allclose(posed[ear], wanted, rtol=0, atol=3e-7)

@@ -209,7 +209,7 @@ def take_the_picture(ear):
     yield from ear.drag((0, 50))
     yield from gui.move_mouse(gui.viewport_point(0.1, 0.02))
     yield from gui.wait_redraw()
-    yield from gui.screenshot("gizmo.png")
+    yield from gui.smooth_screenshot("gizmo.png")
     yield from scene.end_by("RET")
     scene.check_bits_of_cubify()
 

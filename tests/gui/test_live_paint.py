@@ -19,7 +19,7 @@ def stroke(start, end):
     with gui.in_region():
         has_brush = bpy.ops.paint.weight_paint.poll()
     if has_brush:
-        yield from gui.drag(scene.screen_point(start), scene.screen_point(end), steps=10)
+        yield from gui.drag(scene.screen_point(start), scene.screen_point(end))
     else:  # Debian's Blender 4.3 has no brushes: what a stroke would do
         obj = bpy.data.objects[scene.NAME]
         near = [v.index for v in obj.data.vertices if abs(v.co.x - start[0]) < 0.3]

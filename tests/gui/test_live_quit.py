@@ -7,7 +7,7 @@ import live_scene as scene
 
 def test():
     gui.simplify_viewport()
-    scene.add_monkey(levels=3)
+    scene.add_monkey(levels=2)
     yield from gui.open_sidebar("Cubic Craft")
     yield from scene.start_live()
     assert not scene.is_idle() and scene.live().current() is not None

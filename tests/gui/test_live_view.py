@@ -37,7 +37,7 @@ def orbited(is_at_rest):
         assert session.meshes[0].iteration == iteration
 
 
-def cpu_share(seconds=4.0):
+def cpu_share(seconds=2.0):
     """Leave Blender alone; return the share of a core that it used, and its draws."""
     draws = gui.counts["WINDOW"], gui.counts["UI"]
     used, begin = time.process_time(), time.monotonic()

@@ -66,7 +66,7 @@ def in_live(original):
 
 def test():
     gui.simplify_viewport()
-    scene.add_monkey(levels=2)
+    scene.add_monkey(levels=1)
     original = scene.positions()
     add_ball()
     yield from gui.open_sidebar("Cubic Craft")

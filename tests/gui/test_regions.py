@@ -43,7 +43,7 @@ def open_section():
 
 def test():
     gui.simplify_viewport()
-    scene.add_monkey(levels=2)
+    scene.add_monkey(levels=1)
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()

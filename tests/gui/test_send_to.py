@@ -106,7 +106,7 @@ def send_by_dialog():
 def test():
     bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
     gui.simplify_viewport()
-    scene.add_monkey(levels=2)
+    scene.add_monkey(levels=1)
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()

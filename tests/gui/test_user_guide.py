@@ -6,6 +6,7 @@ The window is so high that all sections are open at once; each is cut out of a p
 """
 # Window: 1300x3050
 
+import contextlib
 import importlib
 import math
 import os
@@ -72,6 +73,25 @@ def add_monkey():
         bpy.ops.ed.undo_push(message="Paint")
 
 
+@contextlib.contextmanager
+def all_of_the_view():
+    """Draw all that an artist sees in the viewport, which most of these pictures do not show.
+
+    In a window of this size, each redraw then takes the better part of a second.
+    """
+    view = gui.area().spaces.active
+
+    def switch(is_on):
+        view.overlay.show_overlays = view.show_gizmo = is_on
+        view.shading.show_object_outline = is_on
+
+    switch(True)
+    try:
+        yield
+    finally:
+        switch(False)
+
+
 def set_the_stage():
     preferences = bpy.context.preferences
     preferences.system.use_region_overlap = False  # the view ends at the sidebar
@@ -79,6 +99,7 @@ def set_the_stage():
     with gui.in_region():
         bpy.ops.screen.screen_full_area()
     yield from gui.wait_redraw()
+    gui.simplify_viewport()
     add_monkey()
     view = gui.area().spaces.active
     view.shading.light = "MATCAP"
@@ -114,10 +135,13 @@ def add_region():
     yield from gui.wait_redraw("UI")
 
 
-def whole(name):
+def whole(name, shows_view=False):
     """Take a picture of the window, with nothing lit up under the mouse."""
     yield from gui.move_mouse(gui.viewport_point(0.1, 0.02))
-    return (yield from gui.screenshot(f"{name}_window.png"))
+    if not shows_view:
+        return (yield from gui.screenshot(f"{name}_window.png"))
+    with all_of_the_view():
+        return (yield from gui.smooth_screenshot(f"{name}_window.png"))
 
 
 def panels():
@@ -204,7 +228,8 @@ def picture_of_presets():
     scene.settings().cubeness = 0.6
     yield from press_button("cubic_craft.preset_add")
     yield from gui.wait_until(lambda: shown_preset() == "My_Look", what="a preset that is kept")
-    yield from choose_preset("My_Look")
+    with all_of_the_view():
+        yield from choose_preset("My_Look")
     left, _ = panels()
     place = gui.region("UI")
     top = place.y + place.height
@@ -255,7 +280,7 @@ def picture_of_map():
     with gui.in_region():
         bpy.ops.cubic_craft.cubify(cubeness=0.8)
         bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
-    picture = yield from whole("map_view")
+    picture = yield from whole("map_view", shows_view=True)
     view = gui.region()
     middle, half = view.y + view.height / 2, 0.4 * view.width
     cut(picture, "map_view", view.x, middle - half, view.x + view.width, middle + half)
@@ -276,7 +301,7 @@ def picture_of_angles():
     up = seen.view_rotation @ Vector((0.0, 1.0, 0.0))
     low, high = (location_3d_to_region_2d(view, seen, at)[1] for at in (place, place + up))
     seen.view_location = place + up * ((low - 0.5 * view.width) / (high - low))
-    picture = yield from whole("angles_view")
+    picture = yield from whole("angles_view", shows_view=True)
     cut(picture, "angles", view.x, view.y, view.x + view.width, view.y + 0.9 * view.width)
     seen.view_perspective, seen.view_location = "PERSP", place
     bpy.context.window_manager.cubic_craft_angles = False

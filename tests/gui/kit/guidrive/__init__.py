@@ -31,7 +31,7 @@ from .gestures import (
     type_text,
     undo,
 )
-from .pictures import screenshot
+from .pictures import screenshot, smooth_screenshot
 from .runner import log, python_errors, run
 from .screen import (
     Button,
@@ -40,6 +40,7 @@ from .screen import (
     region,
     running_operators,
     simplify_viewport,
+    smooth_viewport,
     viewport_point,
     window,
 )
@@ -67,6 +68,8 @@ __all__ = [
     "running_operators",
     "screenshot",
     "simplify_viewport",
+    "smooth_screenshot",
+    "smooth_viewport",
     "turn_wheel",
     "type_text",
     "undo",

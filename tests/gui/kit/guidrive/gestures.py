@@ -21,7 +21,7 @@ def click(target, button="LEFTMOUSE"):
     yield from settle()
 
 
-def drag(start, end, steps=8, button="LEFTMOUSE"):
+def drag(start, end, steps=4, button="LEFTMOUSE"):
     """Press at a point, move to another in some steps, release."""
     yield from move_mouse(start)
     events().press(button)
@@ -33,7 +33,7 @@ def drag(start, end, steps=8, button="LEFTMOUSE"):
     yield from settle()
 
 
-def drag_slider(slider, start=0.5, end=0.9, steps=8):
+def drag_slider(slider, start=0.5, end=0.9, steps=4):
     """Drag in a slider found by find_button, between two fractions of its width."""
     yield from drag(slider.at(start), slider.at(end), steps)
 
