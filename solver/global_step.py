@@ -10,11 +10,13 @@ import scipy.sparse as sp
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import CYCLES, NoTurning
+from .proxy.samples import extents
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
 but a third more iterations are needed, so a run ends as soon; of 400 k it is four times faster."""
+_POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
 
 
 class GlobalStep:
@@ -87,6 +89,12 @@ class GlobalStep:
         other._floating = other._centring_weights()
         return other
 
+    @property
+    def _may_be_kept(self):
+        """(component_count,) bool array, components that float and have a rotation: no points."""
+        rest = self._rest
+        return ~self.is_anchored & (extents(rest.V, rest.topology.component) > _POINT)
+
     def _forget_constraints(self):
         for name in ("no_turning", "no_turning_by_cycles", "upright_parts"):
             self.__dict__.pop(name, None)
@@ -105,18 +113,18 @@ class GlobalStep:
         """The NoTurning, created on first use."""
         if not self.is_factorized:
             return self.no_turning_by_cycles
-        is_whole = ~self.is_anchored & ~self.upright_parts.is_kept
+        is_whole = self._may_be_kept & ~self.upright_parts.is_kept
         return NoTurning(self._rest, is_whole, self.solve)
 
     @cached_property
     def upright_parts(self):
         """The UprightParts, created on first use; by a factorisation only."""
-        return UprightParts(self._rest, ~self.is_anchored, self.solve)
+        return UprightParts(self._rest, self._may_be_kept, self.solve)
 
     @cached_property
     def no_turning_by_cycles(self):
         """The same by multigrid, for a GPU or where nothing is factorised."""
-        return NoTurning(self._rest, ~self.is_anchored, self.multigrid.solve, CYCLES)
+        return NoTurning(self._rest, self._may_be_kept, self.multigrid.solve, CYCLES)
 
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).

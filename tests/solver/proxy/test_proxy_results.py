@@ -108,6 +108,16 @@ def test_a_kept_rotation_is_kept_and_the_energy_falls(cubeness, proxy, device):
     assert np.isfinite(result.positions).all()
 
 
+def test_a_part_that_is_a_point_does_not_explode(device):
+    V, F = shapes.blob(2)
+    point = np.full((3, 3), 3.0)
+    for bits in range(3):
+        point[1, bits] = np.nextafter(point[0, bits], 4)
+    both = proxy_shapes.joined((V, F), (point, np.array([[0, 1, 2]])))
+    result = stylize(*both, 0.4, device=device, proxy=PAPER, keep_rotation=True)
+    assert np.abs(result.positions[len(V) :] - point).max() < 1e-6
+
+
 def test_what_is_still_stays_bit_for_bit_and_nothing_turns():
     V, F = shapes.blob(4)
     V = V @ Q.T
