@@ -54,8 +54,8 @@ class Stylization:
     is_accelerated : bool
         False for the plain iteration, in which the energy falls in every step.
     keep_rotation : bool
-        Whether each component without pins keeps its orientation. Otherwise it may turn as
-        a whole to fit the cube.
+        Whether each component without pins keeps its orientation, and so does each of its large
+        parts (`upright_parts`). Otherwise it may turn as a whole to fit the cube.
     is_coarse : bool
         Whether the mesh is a coarser one that provides the start for another.
     hold_matrices : sequence of (4,4) numpy arrays
