@@ -89,14 +89,14 @@ class GlobalStep:
         other._floating = other._centring_weights()
         return other
 
-    @property
+    @cached_property
     def _may_be_kept(self):
         """(component_count,) bool array, components that float and have a rotation: no points."""
         rest = self._rest
         return ~self.is_anchored & (extents(rest.V, rest.topology.component) > _POINT)
 
     def _forget_constraints(self):
-        for name in ("no_turning", "no_turning_by_cycles", "upright_parts"):
+        for name in ("_may_be_kept", "no_turning", "no_turning_by_cycles", "upright_parts"):
             self.__dict__.pop(name, None)
 
     def _centring_weights(self):

@@ -21,7 +21,8 @@ from .algebra import axial
 
 CYCLES = 4
 """number of solves, if each is approximate"""
-_SMALLEST = 1e-9  # relative; a component on a line may turn about it
+SMALLEST = 1e-9
+"""relative stiffness that still counts: what lies on a line may turn about it"""
 
 
 class NoTurning:
@@ -51,7 +52,8 @@ class NoTurning:
         x = (rest.V - centre[topology.component]) * is_free[topology.component][:, None]
         self.pull = share[:, None] * x
         P = np.zeros_like(x)
-        for _ in range(solves):
+        self._is_idle = not is_free.any()
+        for _ in range(0 if self._is_idle else solves):
             P = solve(self.pull.copy(), P)
         weight = rest.areas + 1e-300  # so that the centroid stays where it is
         share = weight / topology.sum_parts(weight)[topology.component]
@@ -61,10 +63,12 @@ class NoTurning:
         M = M.reshape(-1, 3, 3)
         M = 0.5 * (M + M.swapaxes(1, 2))
         stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
-        self._inverse = np.linalg.pinv(stiffness, rcond=_SMALLEST, hermitian=True)
+        self._inverse = np.linalg.pinv(stiffness, rcond=SMALLEST, hermitian=True)
 
     def apply(self, U):
         """Return the nearest positions (n,3) in which nothing has turned."""
+        if self._is_idle:
+            return U
         if self._topology.component_count == 1:
             (mu,) = self.twist(torque(self.pull, U)[None])
             return U + self.P @ np.cross(mu, np.eye(3))

@@ -17,6 +17,7 @@ P_k = L^-1 (w_k x_k); the mu solve
 import numpy as np
 
 from .algebra import axial
+from .no_turning import SMALLEST
 from .proxy.samples import extents
 
 LARGE = 0.25
@@ -27,7 +28,6 @@ MOST_PARTS = 16
 """in a component; of more, the largest"""
 MOST_MEMORY = 2**28
 """bytes for the constraints of all components together; the largest components come first"""
-_SMALLEST = 1e-9  # relative; a part on a line may turn about it
 
 
 class UprightParts:
@@ -123,4 +123,4 @@ def _inverse(pulls, ways):
     M = (pulls.T @ ways).reshape(count, 3, count, 3).swapaxes(1, 2)
     traces = np.trace(M, axis1=2, axis2=3)[:, :, None, None] * np.eye(3)
     matrix = (traces - M.swapaxes(2, 3)).swapaxes(1, 2).reshape(3 * count, 3 * count)
-    return np.linalg.pinv(0.5 * (matrix + matrix.T), rcond=_SMALLEST, hermitian=True)
+    return np.linalg.pinv(0.5 * (matrix + matrix.T), rcond=SMALLEST, hermitian=True)

@@ -9,12 +9,13 @@ import sys
 import tempfile
 from pathlib import Path
 
+import psutil
 from shared_process import SharedProcess
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "headless_render.py"
 PATIENCE = 900
 """seconds: what takes longer on the slowest and busiest machine does not come at all"""
-_shared = SharedProcess()
+_shared = SharedProcess(PATIENCE)
 
 
 def headless(*arguments, cwd):
@@ -45,6 +46,11 @@ def start_headless(*arguments, cwd, script=(str(SCRIPT),)):
         # A test run in the background may have SIGINT ignored, which children would inherit.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
+
+
+def processor_seconds(number):
+    """Return how long a process, by its number, has used the processor."""
+    return sum(psutil.Process(number).cpu_times()[:2])
 
 
 def headless_refused(*arguments, words, cwd, run=headless_shared):

@@ -16,6 +16,7 @@ import runpy
 import subprocess
 import sys
 import tempfile
+import threading
 import traceback
 from pathlib import Path
 
@@ -25,8 +26,8 @@ __all__ = ("SharedProcess",)
 class SharedProcess:
     """A process that starts with the first script, and anew after one that has crashed it."""
 
-    def __init__(self) -> None:
-        self._process = None
+    def __init__(self, patience) -> None:
+        self._process, self._patience = None, patience  # seconds for each script
 
     def run(self, script, arguments, cwd):
         """Run a script with these arguments in a folder, and return the completed process."""
@@ -42,7 +43,10 @@ class SharedProcess:
             job = [script, [str(word) for word in arguments], cwd, *files]
             self._process.stdin.write(json.dumps(job, default=str) + "\n")
             self._process.stdin.flush()
+            alarm = threading.Timer(self._patience, self._process.kill)
+            alarm.start()
             answer = self._process.stdout.readline()
+            alarm.cancel()
             said = [file.read_text(encoding="utf-8") for file in files]
         if not answer:
             code, self._process = self._process.wait(), None

@@ -10,9 +10,15 @@ import signal
 import sys
 import time
 
-import psutil
 import pytest
-from headless import PATIENCE, SCRIPT, headless, headless_ok, start_headless
+from headless import (
+    PATIENCE,
+    SCRIPT,
+    headless,
+    headless_ok,
+    processor_seconds,
+    start_headless,
+)
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
@@ -45,11 +51,6 @@ def wait_until(process, is_reached):
         assert process.poll() is None, process.stderr.read()
         assert time.monotonic() < end, "the moment does not come"
         time.sleep(0.001)
-
-
-def busy(process):
-    """Return the seconds of the processor that a process has used."""
-    return sum(psutil.Process(process.pid).cpu_times()[:2])
 
 
 def stop(process, number):
@@ -100,9 +101,9 @@ def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     lasting = ("--samples", "65536", "--resolution", "1600", "540", "--threads", "1")
     process = start(tmp_path, *lasting, "--output", picture.name, "--save-mesh", "mesh.obj")
     wait_until(process, lambda: (tmp_path / "mesh.obj").exists())
-    begin = busy(process)
+    begin = processor_seconds(process.pid)
     # What comes between takes 0.3 s; then it renders, for hours.
-    wait_until(process, lambda: busy(process) > begin + 1.5)
+    wait_until(process, lambda: processor_seconds(process.pid) > begin + 1.5)
     stop(process, number)
     assert picture.read_bytes() == OLD
     assert not temporaries(tmp_path)
