@@ -89,9 +89,14 @@ def times(a, b, c, d, e, f, g, h, i, x, y, z):
     return [dot(*row, x, y, z) for row in ((a, b, c), (d, e, f), (g, h, i))]
 
 
+def transposed(a, b, c, d, e, f, g, h, i):
+    """Return the transposed matrix."""
+    return [a, d, g, b, e, h, c, f, i]
+
+
 def transposed_times(a, b, c, d, e, f, g, h, i, x, y, z):
     """Return the transposed matrix applied to the vector."""
-    return times(a, d, g, b, e, h, c, f, i, x, y, z)
+    return times(*transposed(a, b, c, d, e, f, g, h, i), x, y, z)
 
 
 def product(*entries):

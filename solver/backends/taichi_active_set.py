@@ -27,7 +27,7 @@ from ..algebra import (
     times,
     total,
     trace,
-    transposed_times,
+    transposed,
     turn,
 )
 from ..rotation_fit import MIN_CURVATURE, is_definite
@@ -58,53 +58,72 @@ def rotation_near(kind: ti.template(), S, normal, Q, cubeness, last, last_s):
 
     R and s are the last ones where none better was found, so that no iteration raises the energy.
     """
-    R, s = last, last_s
-    G = kind.mat3(ti.static(product(*R, *S)))
-    y = kind.vec3(ti.static(times(*R, *normal)))
-    x = kind.vec3(ti.static(times(*Q, *y)))
-    last_fit, last_cost = ti.static([trace(*G)])[0], ti.static([total(*ti.abs(x))])[0]
-    active = ti.cast(ti.abs(s) < 1, kind.real)
+    R, G, x = in_frame(kind, last, S, normal, Q)
+    s, active = last_s, ti.cast(ti.abs(last_s) < 1, kind.real)
+    last_fit, last_cost = fit_and_cost(kind, G, x)
     is_done, is_good = False, True
-    step = 0
-    while step < MAX_STEPS and is_good and not is_done:
-        step += 1
-        q, v, is_last, is_sound = next_turn(kind, G, x, y, s, active, Q, cubeness)
-        is_done, is_good = is_last, is_sound
-        if is_good:
-            scale = 2 / (q * q + ti.static([dot(*v, *v)])[0])
-            W = kind.mat3(ti.static(turn(scale, q, *v)))
-            R = kind.mat3(ti.static(product(*W, *R)))
-            G = kind.mat3(ti.static(product(*W, *G)))
-            y = kind.vec3(ti.static(times(*R, *normal)))
-            x = kind.vec3(ti.static(times(*Q, *y)))
-            if cubeness > 0:
-                s, active, is_kept = next_set(kind, G, x, y, s, active, Q, cubeness)
-                is_done = is_done and is_kept
-    is_done = is_done and is_good
-    fit, cost = ti.static([trace(*G)])[0], ti.static([total(*ti.abs(x))])[0]
+    number = 0
+    while number < MAX_STEPS and is_good and not is_done:
+        number += 1
+        R, G, x, s, active, is_done, is_good = step(kind, R, G, x, s, active, cubeness)
+    fit, cost = fit_and_cost(kind, G, x)
+    R = kind.mat3(ti.static(product(*transposed(*Q), *R)))
     if not is_done or cubeness * cost - fit > cubeness * last_cost - last_fit:
         R, s, fit, cost = last, last_s, last_fit, last_cost
     return R, s, fit, cost, is_done
 
 
 @ti.func
-def next_turn(kind: ti.template(), G, x, y, s, active, Q, cubeness):
+def in_frame(kind: ti.template(), R, S, normal, Q):
+    """Return R, G = R S and the normal x, rotated, all in the frame of the form.
+
+    With Q R in place of R and S Q' in place of S the objective stays the same, and Q drops out of
+    every step.
+    """
+    turned = kind.mat3(ti.static(product(*Q, *R)))
+    covariance = kind.mat3(ti.static(product(*S, *transposed(*Q))))
+    G = kind.mat3(ti.static(product(*turned, *covariance)))
+    return turned, G, kind.vec3(ti.static(times(*turned, *normal)))
+
+
+@ti.func
+def fit_and_cost(kind: ti.template(), G, x):
+    """Return tr(R S) and |Q R n|_1."""
+    return ti.static([trace(*G)])[0], ti.static([total(*ti.abs(x))])[0]
+
+
+@ti.func
+def step(kind: ti.template(), R, G, x, s, active, cubeness):
+    """Return R, G, x, s and the active axes after a step, whether it is the last, and sound."""
+    q, v, is_done, is_good = next_turn(kind, G, x, s, active, cubeness)
+    if is_good:
+        scale = 2 / (q * q + ti.static([dot(*v, *v)])[0])
+        W = kind.mat3(ti.static(turn(scale, q, *v)))
+        R = kind.mat3(ti.static(product(*W, *R)))
+        G = kind.mat3(ti.static(product(*W, *G)))
+        x = kind.vec3(ti.static(times(*W, *x)))
+        if cubeness > 0:
+            s, active, is_kept = next_set(kind, G, x, s, active, cubeness)
+            is_done = is_done and is_kept
+    return R, G, x, s, active, is_done and is_good, is_good
+
+
+@ti.func
+def next_turn(kind: ti.template(), G, x, s, active, cubeness):
     """Return a quaternion, whether it may be the last turn, and whether it is sound."""
     q, v = kind.real(1.0), kind.vec3(0.0)
     is_last, is_good = False, True
     number = ti.static([total(*active)])[0]
     if number > 1:
-        t = kind.vec3(ti.static(transposed_times(*Q, *((1 - active) * s))))
-        q, v, is_last, is_good = turn_about_axis(kind, G, y, t)
+        q, v, is_last, is_good = turn_about_axis(kind, G, x, (1 - active) * s)
     else:
-        pull = kind.vec3(ti.static(transposed_times(*Q, *(s * cubeness))))
-        L = G - kind.mat3(ti.static(outer(*y, *pull)))
-        p = kind.vec3(ti.static(cross(*y, *transposed_times(*Q, *active))))
+        pull = s * cubeness
+        L = G - kind.mat3(ti.static(outer(*x, *pull)))
+        p = kind.vec3(ti.static(cross(*x, *active)))
         kappa = number * (ti.abs(ti.static([trace(*L)])[0]) + cubeness)
         w, is_sound = newton_step(kind, L, p, ti.static([dot(*x, *active)])[0], kappa)
         v = w / 2
-        angle = kind.real(kind.tolerances.angle**2)
-        is_small = ti.static([dot(*w, *w)])[0] <= angle
+        is_small = ti.static([dot(*w, *w)])[0] <= kind.real(kind.tolerances.angle**2)
         is_last, is_good = is_sound and is_small, is_sound or not is_small
     return q, v, is_last, is_good
 
@@ -146,13 +165,13 @@ def newton_step(kind: ti.template(), L, p, excess, kappa):
 
 
 @ti.func
-def next_set(kind: ti.template(), G, x, y, s, active, Q, cubeness):
+def next_set(kind: ti.template(), G, x, s, active, cubeness):
     """Return s with new multipliers, the active axes, and whether both may stay."""
     slack = kind.tolerances.slack
     fixed = (1 - active) * s
-    pull = kind.vec3(ti.static(transposed_times(*Q, *fixed))) * cubeness
-    force = kind.vec3(ti.static(axial(*G))) - kind.vec3(ti.static(cross(*y, *pull)))
-    turning = kind.vec3(ti.static(times(*Q, *cross(*force, *y))))
+    pull = fixed * cubeness
+    force = kind.vec3(ti.static(axial(*G))) - kind.vec3(ti.static(cross(*x, *pull)))
+    turning = kind.vec3(ti.static(cross(*force, *x)))
     s = fixed + active * turning / (ti.max(1 - x * x, kind.real(1e-6)) * cubeness)
     size = ti.abs(s)
     freed = size > 1

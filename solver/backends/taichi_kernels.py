@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The local step as Taichi kernels: one thread per vertex, in 64 or 32 bit.
+"""The local step as Taichi kernels: one thread per vertex, in 64 or 32 bit; `taichi_lanes.py` has it
+for several vertices at once.
 
 Import this only after `taichi_runtime.import_taichi`. All arrays are kernel arguments, because a
 foreign ``ti.init`` destroys fields; sums run in a fixed order and nothing is added atomically, so
@@ -8,8 +9,7 @@ that results are the same bit for bit.
 Python runs through each kernel once per process, even when it is compiled already, and spends about
 as long on a product of two matrices in Taichi's own words as on a hundred products of scalars. So
 small algebra is that of `algebra.py`, on entries; what is left are vectors and control flow. The
-loops over neighbours could end early, for an index that never comes: else LLVM makes vector loops
-of them, which gain nothing with six neighbours and take as long to load as all the rest.
+loop over neighbours could end early, as that of `taichi_covariances.py`.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
@@ -19,14 +19,16 @@ from types import SimpleNamespace
 
 import taichi as ti
 
-from ..algebra import dot, nearer_to_orthogonal, outer, times
+from ..algebra import nearer_to_orthogonal, times
 from ..styles.active_set import DOUBLE, SINGLE
 from .kernel_types import kernel_types, state_types
 from .taichi_active_set import Kind, rotation_near
+from .taichi_covariances import covariance, drawn, with_capture
 from .taichi_faces import rotation_on_faces
+from .taichi_lanes import make_local_step as in_lanes
 
 
-def make_kernels(real, width, is_captured=False):
+def make_kernels(real, width, is_captured=False, has_lanes=False):
     """Return the kernels `local_step` and `right_hand_side`.
 
     Parameters
@@ -36,6 +38,8 @@ def make_kernels(real, width, is_captured=False):
         Of the states of vertices: 3 for the cube, 4 for polytopes.
     is_captured : bool
         Whether normals are drawn to captured ones; else `captured` is not read.
+    has_lanes : bool
+        Whether the processor computes a few vertices at once; for the cube, and not on a GPU.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     vec4, vectors4 = state_types(real, 4)
@@ -69,21 +73,10 @@ def make_kernels(real, width, is_captured=False):
         facet_start: ti.i32,
     ):
         for i in range(lam.shape[0]):
-            here = U[i]
-            S = mat3(0.0)
-            quadratic = real(0.0)
-            for entry in range(indptr[i], indptr[i + 1]):
-                j = indices[entry]
-                if j < 0:
-                    break
-                edge = U[j] - here
-                S += mat3(ti.static(outer(*gather[entry], *edge)))
-                quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
+            S, quadratic = covariance(kind, i, U, indptr, indices, gather, weights)
             S /= area_scale[i]
             if ti.static(is_captured):
-                wanted = captured[i]
-                pull = vec3(wanted[0], wanted[1], wanted[2]) * wanted[3]
-                S += mat3(ti.static(outer(*normals[i], *pull)))
+                S = drawn(kind, S, normals[i], captured[i])
             present = R[i]
             last = mat3(ti.static(nearer_to_orthogonal(*present)))
             if ti.static(is_cube):
@@ -116,14 +109,8 @@ def make_kernels(real, width, is_captured=False):
                 energies[i] = vec3(quadratic, fit * area_scale[i], cost)
                 certified[i] = ti.cast(is_certified, ti.i32)
             if ti.static(is_captured):
-                terms, strength = energies[i], captured[i][3]
-                target = vec3(captured[i][0], captured[i][1], captured[i][2])
-                rotated = vec3(ti.static(times(*R[i], *normals[i])))
-                off = target - rotated
-                energies[i] = vec3(
-                    terms[0],
-                    terms[1] - strength * target.dot(rotated) * area_scale[i],
-                    lam[i] * terms[2] + strength * off.dot(off) / 2,
+                energies[i] = with_capture(
+                    kind, energies[i], R[i], normals[i], captured[i], area_scale[i], lam[i]
                 )
 
     @ti.kernel
@@ -139,4 +126,6 @@ def make_kernels(real, width, is_captured=False):
                 total += vec3(ti.static(times(*R[j], *scatter[entry])))
             rhs[i] = total / 3
 
+    if is_cube and has_lanes:
+        local_step = in_lanes(kind, is_captured)
     return SimpleNamespace(local_step=local_step, right_hand_side=right_hand_side)

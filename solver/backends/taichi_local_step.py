@@ -83,7 +83,8 @@ class TaichiLocalStep:
             raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
-        self._kernels = _kernels(precision, form.width, captured is not None)
+        has_lanes = runtime.device == "taichi-cpu"
+        self._kernels = _kernels(precision, form.width, captured is not None, has_lanes)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
         n = len(rest.V)
@@ -259,8 +260,8 @@ class TaichiLocalStep:
 
 
 @cache
-def _kernels(precision, width, is_captured):
+def _kernels(precision, width, is_captured, has_lanes):
     from .taichi_kernels import make_kernels
 
     ti = taichi_runtime.import_taichi()
-    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, is_captured)
+    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, is_captured, has_lanes)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a local step reads of a vertex's neighbours, in Taichi: its covariance.
+
+Import this only after `taichi_runtime.import_taichi`. These functions are compiled into the kernels
+that call them. The loop over neighbours could end early, for an index that never comes: else LLVM
+makes a vector loop of it, which gains nothing with six neighbours and takes as long to load as all
+the rest.
+"""
+
+# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
+# pyright: reportIndexIssue=false
+
+import taichi as ti
+
+from ..algebra import dot, outer, times
+
+
+@ti.func
+def covariance(
+    kind: ti.template(),
+    i,
+    U: ti.template(),
+    indptr: ti.template(),
+    indices: ti.template(),
+    gather: ti.template(),
+    weights: ti.template(),
+):
+    """Return S_i of `spokes_and_rims.py`, and sum w |d|^2 over the edges d of vertex i."""
+    here = U[i]
+    S = kind.mat3(0.0)
+    quadratic = kind.real(0.0)
+    for entry in range(indptr[i], indptr[i + 1]):
+        j = indices[entry]
+        if j < 0:
+            break
+        edge = U[j] - here
+        S += kind.mat3(ti.static(outer(*gather[entry], *edge)))
+        quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
+    return S, quadratic
+
+
+@ti.func
+def drawn(kind: ti.template(), S, normal, captured):
+    """Return S with what draws the normal to a captured one, given with its strength (4,)."""
+    pull = kind.vec3(captured[0], captured[1], captured[2]) * captured[3]
+    return S + kind.mat3(ti.static(outer(*normal, *pull)))
+
+
+@ti.func
+def with_capture(kind: ti.template(), terms, R, normal, captured, area_scale, cubeness):
+    """Return the energies of a vertex with that of its captured normal, see `NormalCapture`."""
+    target = kind.vec3(captured[0], captured[1], captured[2])
+    rotated = kind.vec3(ti.static(times(*R, *normal)))
+    off = target - rotated
+    return kind.vec3(
+        terms[0],
+        terms[1] - captured[3] * target.dot(rotated) * area_scale,
+        cubeness * terms[2] + captured[3] * off.dot(off) / 2,
+    )

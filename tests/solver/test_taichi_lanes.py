@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The local step of a few vertices at once, beside that of one after the other."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapes
+from taichi_marks import needs_taichi
+
+from solver.rest import rest_mesh
+from solver.styles.admm import AdmmOptions
+
+ROOT = Path(__file__).parents[2]
+
+
+def local_steps(V, F, lam, Q, captured=None):
+    """Return the local step with lanes, and the same without."""
+    import taichi as ti
+
+    from solver.backends.taichi_kernels import make_kernels
+    from solver.backends.taichi_local_step import TaichiLocalStep
+
+    rest = rest_mesh(V, F)
+    both = [TaichiLocalStep(rest, lam, Q, AdmmOptions(), captured=captured) for _ in range(2)]
+    both[1]._kernels = make_kernels(ti.f64, 3, captured is not None, has_lanes=False)
+    return rest, both
+
+
+@needs_taichi
+@pytest.mark.parametrize("has_captured", [False, True], ids=["free", "captured"])
+@pytest.mark.parametrize("is_weighted", [False, True], ids=["one cubeness", "a map"])
+@pytest.mark.parametrize("count", [162, 161, 159])
+def test_lanes_change_nothing(has_captured, is_weighted, count):
+    """Also where some vertices are left out, turned inside out, or at the end of the mesh."""
+    V, F = shapes.blob(2)
+    F = F[F.max(axis=1) < count]  # so that the last lanes have no vertex
+    V = V[:count]
+    random = np.random.default_rng(1)
+    lam = np.where(random.random(count) < 0.3, 0.0, 0.4) if is_weighted else np.full(count, 0.4)
+    Q = np.stack([shapes.rotation(*angles) for angles in random.uniform(-90, 90, (count, 3))])
+    captured = np.column_stack([V, np.full(count, 0.2)]) if has_captured else None
+    rest, steps = local_steps(V, F, lam, Q, captured)
+    U, uncertified = rest.V.copy(), 0
+    for _ in range(4):
+        U += 0.05 * random.standard_normal(U.shape)
+        U[10:20] = -U[10:20]
+        energies = [step.update(U) for step in steps]
+        lanes, alone = (step._arguments for step in steps)
+        np.testing.assert_array_equal(lanes.certified, alone.certified)
+        np.testing.assert_allclose(lanes.R, alone.R, rtol=0, atol=1e-11)
+        np.testing.assert_allclose(energies[0], energies[1], rtol=1e-12)
+        uncertified += np.count_nonzero(lanes.certified == 0)
+    assert uncertified, "each vertex had an easy problem"
+
+
+@needs_taichi
+def test_lanes_are_vectors(tmp_path):
+    """LLVM makes vector instructions of the loops, or without a word it does not."""
+    code = f"""
+import sys
+sys.path[:0] = [{str(ROOT)!r}, {str(Path(__file__).parent)!r}]
+import shapes
+from solver import stylize
+from solver.backends.taichi_runtime import set_cache_folder
+set_cache_folder("cache")
+stylize(*shapes.blob(1), device="cpu", max_iterations=1)
+"""
+    environment = {**os.environ, "TI_PRINT_KERNEL_LLVM_IR_OPTIMIZED": "1"}
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=tmp_path, env=environment)
+    printed = [path.read_text() for path in tmp_path.glob("*.ll")]
+    (kernel,) = (text for text in printed if "local_step" in text)
+    products = [line for line in kernel.splitlines() if "fmul" in line]
+    assert sum(" x double>" in line for line in products) > 0.7 * len(products)
