@@ -96,7 +96,7 @@ def transposed(a, b, c, d, e, f, g, h, i):
 
 def transposed_times(a, b, c, d, e, f, g, h, i, x, y, z):
     """Return the transposed matrix applied to the vector."""
-    return times(*transposed(a, b, c, d, e, f, g, h, i), x, y, z)
+    return times(a, d, g, b, e, h, c, f, i, x, y, z)
 
 
 def product(*entries):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The local step as Taichi kernels: one thread per vertex, in 64 or 32 bit; `taichi_lanes.py` has it
-for several vertices at once.
+"""The local step as Taichi kernels: one thread per vertex, in 64 or 32 bit.
+
+A processor has that of `taichi_lanes.py` for the cube, of a few vertices at once.
 
 Import this only after `taichi_runtime.import_taichi`. All arrays are kernel arguments, because a
 foreign ``ti.init`` destroys fields; sums run in a fixed order and nothing is added atomically, so
