@@ -9,13 +9,15 @@ import scipy.sparse as sp
 
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
-from .no_turning import CYCLES, NoTurning
+from .no_turning import NoTurning
 from .proxy.samples import extents
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
 but a third more iterations are needed, so a run ends as soon; of 400 k it is four times faster."""
+_CYCLES = 4
+"""of multigrid, in place of the solution"""
 _POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
 
 
@@ -114,17 +116,29 @@ class GlobalStep:
         if not self.is_factorized:
             return self.no_turning_by_cycles
         is_whole = self._may_be_kept & ~self.upright_parts.is_kept
-        return NoTurning(self._rest, is_whole, self.solve)
-
-    @cached_property
-    def upright_parts(self):
-        """The UprightParts, created on first use; by a factorisation only."""
-        return UprightParts(self._rest, self._may_be_kept, self.solve)
+        return NoTurning(self._rest, is_whole, self.solution)
 
     @cached_property
     def no_turning_by_cycles(self):
         """The same by multigrid, for a GPU or where nothing is factorised."""
-        return NoTurning(self._rest, self._may_be_kept, self.multigrid.solve, CYCLES)
+        return NoTurning(self._rest, self._may_be_kept, self._by_cycles)
+
+    @cached_property
+    def upright_parts(self):
+        """The UprightParts, created on first use."""
+        return UprightParts(self._rest, self._may_be_kept, self.solution)
+
+    def solution(self, B):
+        """Return the solution X (n,3) of L X = B, or what is near it; 0 where vertices are held."""
+        if not self.is_factorized:
+            return self._by_cycles(B)
+        return self.solve(B, np.zeros_like(B))
+
+    def _by_cycles(self, B):
+        X = np.zeros_like(B)
+        for _ in range(_CYCLES):
+            X = self.multigrid.solve(B, X)
+        return X
 
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).
@@ -141,8 +155,7 @@ class GlobalStep:
         result = self.solve(rhs, near)
         if keep_rotation and self._floating is not None:
             result = self.no_turning.apply(result)
-            if self.is_factorized:
-                self.upright_parts.apply(result)
+            self.upright_parts.impose(result)
         if self._floating is not None:
             self._centre(result, self._floating)
         return result

@@ -13,7 +13,7 @@ components without a pinned vertex a translation as well, come from one small li
 
 import numpy as np
 
-from .no_turning import CYCLES, torque
+from .no_turning import torque
 from .rotation_fit import svd_rotations
 
 _SMALLEST = 1e-9  # relative; a group on a line may turn about it
@@ -59,14 +59,8 @@ class HoldFields:
 
     def _solve(self, K):
         """Return L^-1 K (n,4), with nothing where vertices are held."""
-        step = self.setup.global_step
-        solve, solves = (step.solve, 1) if step.is_factorized else (step.multigrid.solve, CYCLES)
-        columns = []
-        for part in (K[:, :3], np.column_stack([K[:, 3:], np.zeros((len(K), 2))])):
-            X = np.zeros_like(part)
-            for _ in range(solves):
-                X = solve(part.copy(), X)
-            columns.append(X)
+        parts = K[:, :3], np.column_stack([K[:, 3:], np.zeros((len(K), 2))])
+        columns = [self.setup.global_step.solution(part) for part in parts]
         return np.column_stack([columns[0], columns[1][:, :1]])
 
 

@@ -19,8 +19,6 @@ import numpy as np
 
 from .algebra import axial
 
-CYCLES = 4
-"""number of solves, if each is approximate"""
 SMALLEST = 1e-9
 """relative stiffness that still counts: what lies on a line may turn about it"""
 
@@ -34,9 +32,7 @@ class NoTurning:
     is_free : (component_count,) bool array
         Components without a pinned vertex; the others are left alone.
     solve : callable
-        Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X.
-    solves : int
-        How many of them; one, if it is the solution.
+        Maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it.
 
     Attributes
     ----------
@@ -44,17 +40,15 @@ class NoTurning:
         w x and P as above, zero in components with a pinned vertex.
     """
 
-    def __init__(self, rest, is_free, solve, solves=1):
+    def __init__(self, rest, is_free, solve):
         self._topology = topology = rest.topology
         weight = rest.standing
         share = weight / topology.sum_parts(weight)[topology.component]
         centre = topology.sum_parts(share[:, None] * rest.V)
         x = (rest.V - centre[topology.component]) * is_free[topology.component][:, None]
         self.pull = share[:, None] * x
-        P = np.zeros_like(x)
         self._is_idle = not is_free.any()
-        for _ in range(0 if self._is_idle else solves):
-            P = solve(self.pull.copy(), P)
+        P = np.zeros_like(x) if self._is_idle else solve(self.pull)
         weight = rest.areas + 1e-300  # so that the centroid stays where it is
         share = weight / topology.sum_parts(weight)[topology.component]
         P -= topology.sum_parts(share[:, None] * P)[topology.component]

@@ -39,7 +39,8 @@ class UprightParts:
     is_free : (component_count,) bool array
         Components without a pinned vertex; the others are left alone.
     solve : callable
-        Maps B (n,3) and X (n,3) to the solution X of L X = B.
+        Maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the constraints are
+        satisfied all the same, at a little more energy.
 
     Attributes
     ----------
@@ -63,7 +64,7 @@ class UprightParts:
                 vertices = groups[c][k]
                 share = rest.standing[vertices] / rest.standing[vertices].sum()
                 pull[vertices] = share[:, None] * (rest.V[vertices] - share @ rest.V[vertices])
-            P = solve(pull.copy(), np.zeros_like(pull))
+            P = solve(pull)
             for c in having:
                 rows = self._rows[c]
                 pulls[c].append(pull[rows])
@@ -72,7 +73,7 @@ class UprightParts:
         self._ways = {c: np.hstack(ways[c]) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
 
-    def apply(self, U):
+    def impose(self, U):
         """Move positions U (n,3), in place, to the nearest in which no such part has turned."""
         for c, rows in self._rows.items():
             S = (self._pulls[c].T @ U[rows]).reshape(-1, 3, 3)
@@ -105,8 +106,11 @@ def _large_parts(rest, is_free):
 def _linked_share(rest):
     """Return the share of the area of each part that is linked to other parts."""
     links, part = rest.to_neighbours, rest.topology.part
+    # those of a coarser mesh include links within parts
+    is_between = part[links.vertices[:, 0]] != part[links.vertices[:, 1]]
+    is_end = is_between[:, None] & (links.coefficients != 0.0)
     is_linked = np.zeros(len(rest.V), dtype=bool)
-    is_linked[links.vertices[links.coefficients != 0.0]] = True
+    is_linked[links.vertices[is_end]] = True
     area = np.bincount(part, rest.areas)
     return np.bincount(part, rest.areas * is_linked) / np.where(area > 0.0, area, 1.0)
 

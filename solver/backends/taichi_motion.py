@@ -89,7 +89,8 @@ class TaichiMotion:
 
     def step(self, momentum, overshoot, keep_rotation):
         """Do one global step; see `Motion.step`."""
-        before = self.positions.copy() if self._constraints else None
+        constraints = self._all_constraints(keep_rotation)
+        before = self.positions.copy() if constraints else None
         self._local.start_device()
         arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
         self._kernels.residual(*arguments)
@@ -97,11 +98,18 @@ class TaichiMotion:
         motion = np.column_stack([*self._whole(keep_rotation), momentum, overshoot])
         self._kernels.move(*self._move_arguments(motion))
         if before is not None:
-            return self._impose(before)
+            return self._impose(constraints, before)
         displacement, distance, _ = self._largest[1].max(axis=0)
         return float(displacement), float(distance)
 
-    def _impose(self, before):
+    def _all_constraints(self, keep_rotation):
+        """Return the constraints of a step, with those of the parts that do not turn."""
+        if not keep_rotation or self._is_anchored.all():
+            return self._constraints
+        parts = self._setup.global_step.upright_parts
+        return [parts, *self._constraints] if parts.is_kept.any() else self._constraints
+
+    def _impose(self, constraints, before):
         """Make the positions obey the constraints, and with them where the next local step looks.
 
         In NumPy: it takes the arrays from a GPU and back, but only those who ask for them wait.
@@ -110,7 +118,7 @@ class TaichiMotion:
         arrays = self._local.arrays
         for kept in (self._U, self.point):
             values = np.array(arrays.fetch(kept))
-            for constraint in self._constraints:
+            for constraint in constraints:
                 constraint.impose(values)
             arrays.put(kept, values)
         now = self.positions
