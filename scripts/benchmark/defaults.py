@@ -8,8 +8,9 @@ from solver import Run as SlicedRun
 
 from .machine import peak_memory
 from .meshes import read
-from .our_solver import load_kernels, solve
+from .our_solver import load_kernels, over, solve
 from .phases import put_under_clock
+from .race import LONG_ITERATIONS, LONG_SECONDS, LONG_TOLERANCE
 
 SETTINGS = {
     "paper": {"proxy": PAPER, "keep_rotation": False},
@@ -26,7 +27,14 @@ FIRST_TICKS = 5
 
 
 def side_by_side(path, cubeness, runs):
-    """Run both settings in alternation, each to its own stop; return {name: runs}."""
+    """Run both settings in alternation, each to its own stop.
+
+    Returns
+    -------
+    dict
+        The runs of each, by name, and ``bounds``: by name, the energy at rest and the lowest, also
+        of a run that goes on beyond the stop. Each of the settings has an energy of its own.
+    """
     V, F = read(path)
     load_kernels()
     for settings in SETTINGS.values():  # imports, and cold caches
@@ -36,7 +44,8 @@ def side_by_side(path, cubeness, runs):
     for _ in range(runs):
         for name in SETTINGS:
             results[name].append(_figures(V, F, cubeness, name, link_seconds))
-    return results
+    bounds = {name: _bounds(V, F, cubeness, name, runs) for name, runs in results.items()}
+    return results | {"bounds": bounds}
 
 
 def alone(path, cubeness, name):
@@ -45,6 +54,7 @@ def alone(path, cubeness, name):
     link_seconds = put_under_clock(LINKS)
     with peak_memory() as memory:
         figures = _figures(*read(path), cubeness, name, link_seconds)
+    del figures["curve"]
     return figures | memory
 
 
@@ -73,14 +83,22 @@ def ticks(path, cubeness):
 
 
 def _figures(V, F, cubeness, name, link_seconds):
-    """Return the figures of a run without its curve, seconds of finding ``links``, and ``solved``.
+    """Return the figures of a run, seconds of finding ``links``, and ``solved``.
 
     ``solved`` is the number of vertices that are solved: more than are given where a mesh is
     refined, fewer where it is welded.
     """
     link_seconds.clear()
     run = solve(V, F, cubeness, **SETTINGS[name])
-    return run.figures_without_curve() | {
+    return run.figures | {
         "links": link_seconds.total(),
         "solved": len(run.setup.rest.V),
     }
+
+
+def _bounds(V, F, cubeness, name, runs):
+    """Return the energy at rest and the lowest one that these runs or a long one have seen."""
+    stop = {"max_iterations": LONG_ITERATIONS, "tolerance": LONG_TOLERANCE}
+    long = solve(V, F, cubeness, over(LONG_SECONDS), **SETTINGS[name], **stop).figures
+    seen = [energy for run in (*runs, long) for _, energy in run["curve"]]
+    return max(seen), min(seen)

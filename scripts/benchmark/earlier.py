@@ -21,10 +21,15 @@ cubeness, runs = float(sys.argv[2]), int(sys.argv[3])
 stylize(V, F, cubeness, max_iterations=3)  # imports, and cold caches
 results = []
 for _ in range(runs):
-    begin = time.perf_counter()
-    result = stylize(V, F, cubeness)
+    curve, begin = [], time.perf_counter()
+
+    def note(state):
+        curve.append([time.perf_counter() - begin, state.energy.total])
+
+    result = stylize(V, F, cubeness, on_iteration=note)
     seconds = time.perf_counter() - begin
-    results.append({"seconds": seconds, "iterations": result.iterations, "reason": result.reason})
+    figures = {"seconds": seconds, "iterations": result.iterations, "reason": result.reason}
+    results.append(figures | {"curve": curve})
 print(json.dumps(results))
 """
 

@@ -41,6 +41,7 @@ def _sections(results):
         ("## Where the time goes, and memory", _PHASES, map(tables.phases, results["phases"])),
         ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
         ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
+        ("### To the shape of the defaults", _LINKED, tables.gaps_of_defaults(results["defaults"])),
         ("### Memory of the largest", _MEMORY, tables.memory_of_defaults(results["defaults"])),
         ("## Without Taichi", _NUMPY, map(tables.without_taichi, results["numpy"])),
         ("## More cores", _CORES, map(tables.cores, results["cores"])),
@@ -76,6 +77,9 @@ _DEFAULTS = """\
 The artist's defaults beside the paper's settings and beside version 0.1.0, which had no others;
 each to its own stop. "Ticks per second" is how
 often Live could show a coarse mesh anew, without what Blender takes to draw."""
+_LINKED = """\
+The defaults have an energy of their own, with links. Gaps of either energy, between rest and the
+lowest that any of the runs or a long one has seen, as in the paper and with the defaults."""
 _MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
 _NUMPY = """\
 The artist's defaults beside those without Taichi, as in a Blender whose Python it has no wheel for;

@@ -7,8 +7,10 @@ from .cores import serial_share
 from .solver_alone import PAPER_SECONDS
 from .summary import (
     GAPS,
+    energy_at_gap,
     gap_of,
     median_of,
+    median_seconds_to,
     milliseconds_per_iteration,
     seconds_to_end_of,
     seconds_to_fitted_gap,
@@ -129,6 +131,22 @@ def defaults(case):
     }
 
 
+def gaps_of_defaults(cases):
+    """Give the times to a gap of either energy, where it has been measured.
+
+    Version 0.1.0 has that of the paper.
+    """
+    for case in cases:
+        if "bounds" in case:
+            row = _case(case)
+            for name, program, energy in _ENERGIES:
+                for gap in GAPS[:2]:
+                    level = energy_at_gap(gap, *case["bounds"][energy])
+                    seconds = median_seconds_to(case, program, level)
+                    row[f"{name}: to gap {100 * gap:g} %, s"] = seconds
+            yield row
+
+
 def memory_of_defaults(cases):
     """Give the memory of both, where it has been measured."""
     for case in cases:
@@ -174,6 +192,11 @@ def startup(results):
 
 
 _BOTH = {"as in the paper": "paper", "defaults": "defaults"}
+_ENERGIES = (
+    *((name, program, program) for name, program in _BOTH.items()),
+    ("0.1.0", "earlier", "paper"),
+)
+"""what a program is called, which it is, and whose energy it lowers"""
 
 
 def _case(case):

@@ -13,8 +13,10 @@ from solver import ProxyOptions, rest_mesh
 OLD_SOLVER = """
 from types import SimpleNamespace
 
-def stylize(V, F, cubeness, max_iterations=1000):
+def stylize(V, F, cubeness, max_iterations=1000, on_iteration=None):
     print("[Taichi] a greeting")
+    if on_iteration is not None:
+        on_iteration(SimpleNamespace(energy=SimpleNamespace(total=0.5)))
     return SimpleNamespace(iterations=len(V), reason="of old")
 """
 
@@ -42,6 +44,10 @@ def test_both_settings_side_by_side(path):
     assert 0.0 < ours["links"] < ours["setup"] < ours["seconds"]
     assert paper["solved"] == 34
     assert ours["solved"] > 1000
+    for name, (rest, best) in results["bounds"].items():
+        energies = [energy for _, energy in results[name][0]["curve"]]
+        assert rest == energies[0] > best
+        assert 0.0 <= min(energies) - best < 0.02 * (rest - best)
 
 
 def test_both_devices_side_by_side(path):
@@ -70,7 +76,8 @@ def repository(tmp_path, monkeypatch):
 def test_the_solver_of_an_earlier_commit(path, repository):
     first, second = earlier.earlier(path, 0.4, runs=2)
     assert first["iterations"] == 34  # vertices
-    assert first["seconds"] > 0.0
+    ((seconds, energy),) = first["curve"]
+    assert 0.0 < seconds < first["seconds"] and energy == 0.5
     assert second["reason"] == "of old"
 
 
@@ -82,6 +89,7 @@ def test_without_its_history_there_is_nothing_earlier(path, repository):
 def test_memory_of_one_setting(path):
     figures = isolated(defaults.alone, path=path, cubeness=0.4, name="defaults")
     assert figures["peak"] > figures["above"] > 0
+    assert "curve" not in figures  # a million vertices, many iterations
 
 
 def test_ticks_go_on_after_the_restart(path):

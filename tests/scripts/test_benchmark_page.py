@@ -37,6 +37,7 @@ def results(case):
         "defaults": [run(0.24, solved=51_000, links=0.25) | MEBIBYTES],
         "ticks": [0.025] * 4,
         "earlier": [run(0.12)],
+        "bounds": {"paper": [2.0, 1.0], "defaults": [2.0, 1.0]},
     }
     phases = {
         "setup": {"rest mesh": 0.3, "factorisation": 0.4, "solve": 0.1, "remainder": 0.2},
@@ -91,6 +92,10 @@ def rows_of(results):
             "horse | 48,485 | 0.4 | 51,000 | 1 | 4 | 0.02 | 1.2 | 4 | 0.024 | 0.25 | 1.2 | 0.6 | 2"
             " | 40",
         ),
+        (
+            "To the shape of the defaults",
+            "horse | 48,485 | 0.4 | 0.2 | 0.4 | 0.24 | 0.48 | 0.12 | 0.24",
+        ),
         ("Memory of the largest", "horse | 48,485 | 0.4 | defaults | 300 | 100"),
         ("Without Taichi", "horse | 48,485 | 0.4 | 1 | 2.5 | 2.5"),
         (
@@ -126,7 +131,7 @@ def test_a_gap_beyond_our_stop_is_in_brackets(results, case):
 def test_the_page_says_which_settings_its_rows_have(results):
     sections = page.page(results).split("\n#")
     measured = [s for s in sections if "\n| mesh |" in s or "\n| vertices |" in s]
-    assert len(measured) == 10
+    assert len(measured) == 11
     assert all("paper" in section.partition("\n|")[0] for section in measured)
 
 
