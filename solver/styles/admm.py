@@ -24,6 +24,9 @@ class AdmmOptions:
     """Tolerances and penalty of the ADMM. Penalties are in units of the vertex area."""
 
     max_iterations: int = 100
+    trial: int = 4
+    """iterations after which a rotation will do that is better than the one before: the next local
+    step goes on from there, and by then the others have moved"""
     absolute: float = 1e-7
     """absolute part of the tolerance of either residual"""
     relative: float = 1e-5
@@ -51,7 +54,7 @@ def admm_rotations(problem, R, states, options):
     R : (n,3,3) float array
     states : (n,w) float array
     """
-    R, states = R.copy(), states.copy()
+    last, R, states = R, R.copy(), states.copy()
     plain = problem.lam == 0.0
     R[plain] = fit_rotations(problem.S[plain], R[plain])
     todo = np.flatnonzero(~plain)
@@ -59,13 +62,15 @@ def admm_rotations(problem, R, states, options):
     rho = np.full(len(todo), options.rho_start)
     z = problem.form.split(problem.form_normals(R[todo]), states[todo])
     u = states[todo, :3] * (problem.lam / rho)[:, None]
-    for _ in range(options.max_iterations):
+    for number in range(options.max_iterations):
         if not len(todo):
             break
         R[todo], z, u, states[todo], is_done, rho_new = _iteration(
             problem, R[todo], z, u, rho, options
         )
         u *= (rho / rho_new)[:, None]
+        if number + 1 >= options.trial:
+            is_done |= problem.is_better(R[todo], last[todo])
         more = np.flatnonzero(~is_done)
         todo, problem = todo[more], problem.part(more)
         z, u, rho = z[more], u[more], rho_new[more]

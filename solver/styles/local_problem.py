@@ -9,6 +9,9 @@ import numpy as np
 from ..algebra import columns, from_columns, product, take, times, trace
 from .cube import CUBE
 
+BETTER = 1e-9
+"""of the energy of a vertex with the cubeness 1, divided by its area"""
+
 
 @dataclass(frozen=True)
 class LocalProblem:
@@ -61,8 +64,15 @@ class LocalProblem:
 
     def is_worse(self, R, last):
         """Return where R (n,3,3) costs more than `last`: taking it would raise the energy."""
+        return self._gain(R, last) < 0.0
+
+    def is_better(self, R, last):
+        """Return where R (n,3,3) costs less than `last`, and not by rounding alone."""
+        return self._gain(R, last) > BETTER * (1.0 + self.lam)
+
+    def _gain(self, R, last):
         (fit, now), (last_fit, before) = self.costs(R), self.costs(last)
-        return self.lam * now - fit > self.lam * before - last_fit
+        return (self.lam * before - last_fit) - (self.lam * now - fit)
 
     def energy_terms(self, R):
         """Return tr(R S) of the covariances alone, and what the normals cost, both (n,).

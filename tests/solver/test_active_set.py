@@ -9,11 +9,12 @@ from taichi_marks import needs_taichi
 from solver.backends import local_step_class
 from solver.rest import rest_mesh
 from solver.rotation_fit import svd_rotations
+from solver.styles import admm
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.local_problem import LocalProblem
 
-TIGHT = AdmmOptions(max_iterations=3000, absolute=1e-13, relative=1e-11)
+TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 Q = shapes.rotation(25, -10, 40)
 
 
@@ -85,6 +86,29 @@ def test_a_maximum_is_not_taken_for_a_minimum():
     np.testing.assert_allclose(R[is_done], best[is_done], atol=1e-8)
     R, _ = admm_rotations(problem, R, s, AdmmOptions())
     np.testing.assert_allclose(R, best, atol=1e-8)
+
+
+def test_the_admm_goes_on_only_where_it_has_not_lowered_the_energy(monkeypatch):
+    rest = rest_mesh(*shapes.blob(2))
+    problem = problem_of(deformed(rest.V, 0.08), rest, 0.4)
+    last, states = start(problem)
+    sizes = []
+    iteration = admm._iteration
+
+    def spy(problem, *arguments):
+        sizes.append(len(problem.lam))
+        return iteration(problem, *arguments)
+
+    monkeypatch.setattr(admm, "_iteration", spy)
+    exact, _ = admm_rotations(problem, last, states, AdmmOptions(trial=100))
+    until, sizes[:] = len(sizes), []
+    near, near_states = admm_rotations(problem, last, states, AdmmOptions())
+    assert problem.is_better(near, last).all()
+    assert len(sizes) < until / 3 and sizes[3] == len(last)
+    again = near
+    for _ in range(60):
+        again, near_states = admm_rotations(problem, again, near_states, AdmmOptions())
+    assert (objective(problem, again) - objective(problem, exact)).max() < 1e-4
 
 
 @needs_taichi

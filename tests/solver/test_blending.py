@@ -16,7 +16,7 @@ from solver.styles.local_problem import LocalProblem
 from solver.styles.polytope import minkowski_sum
 from solver.styles.polytopes import polytopes
 
-TIGHT = AdmmOptions(max_iterations=3000, absolute=1e-13, relative=1e-11)
+TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 FORMS = {
     "cube": None,
     "octahedron": octahedron(),

@@ -25,7 +25,7 @@ from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.forms import dodecahedron
 from solver.styles.local_problem import LocalProblem
 
-TIGHT = AdmmOptions(max_iterations=3000, absolute=1e-13, relative=1e-11)
+TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 Q = shapes.rotation(25, -10, 40)
 
 
