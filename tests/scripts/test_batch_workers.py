@@ -21,6 +21,8 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not
 COUNT = int(os.environ.get("CUBIC_CRAFT_BATCH", "12"))
 WORKERS, BROKEN, KILLS = (4, 10, 2) if COUNT >= 200 else (2, 1, 1)
 CRASHES = "crashes.obj"
+PATIENCE = 20
+"""seconds"""
 
 
 @pytest.fixture
@@ -75,6 +77,9 @@ def watch(process, cluster, out):
             pass  # it has just ended
         for path in out.glob("good_*.obj"):
             written.setdefault(path.name, path.stat().st_mtime_ns)
+        time.sleep(0.05)
+    until = time.monotonic() + PATIENCE  # the last ones are on their way out
+    while any(map(is_there, files)) and time.monotonic() < until:
         time.sleep(0.05)
     assert not any(map(is_there, files))
     return killed, written
