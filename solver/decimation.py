@@ -5,6 +5,9 @@ import numpy as np
 
 from .optional_packages import optional_package
 
+MOST_LEFT = 0.7
+"""of the vertices; more, and levels without end would follow each other"""
+
 
 def decimate(V, F, ratio):
     """Collapse edges by their quadric error (Garland and Heckbert, 1997).
@@ -25,7 +28,8 @@ def decimate(V, F, ratio):
     cluster : (n,) int array
         The vertex of the result that each vertex has been merged into, one that a triangle uses.
 
-    None where the package fast-simplification is missing, or nothing is left of the mesh.
+    None where the package fast-simplification is missing, nothing is left of the mesh, or almost
+    all of it is, because it cannot get coarser.
     """
     package = optional_package("fast_simplification")
     if package is None:
@@ -36,6 +40,8 @@ def decimate(V, F, ratio):
         target_count=max(int(len(F) / ratio), 4),
         return_collapses=True,
     )
+    if len(coarse_V) > MOST_LEFT * len(V):
+        return None
     cluster = _clusters(F, len(V), collapses)
     if cluster is None or cluster.max() >= len(coarse_V):
         return None

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Coarser meshes, and where the vertices have gone."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
@@ -34,6 +36,19 @@ def test_vertices_go_into_near_ones():
     edges = np.linalg.norm(V[F[:, 0]] - V[F[:, 1]], axis=1)
     assert distance.max() < 6 * np.median(edges)
     np.testing.assert_array_equal(np.unique(cluster), np.arange(len(coarse_V)))
+
+
+def test_what_cannot_get_coarser_has_no_coarser_mesh(monkeypatch):
+    """As a lamp of long flat slivers: each level would have as many vertices as the one before."""
+    V, F = in_unit_box(*shapes.blob(2))
+
+    def simplify(V, F, **_):
+        return V, F, np.empty((0, 2), np.int64)
+
+    monkeypatch.setattr(
+        decimation, "optional_package", lambda _: SimpleNamespace(simplify=simplify)
+    )
+    assert decimate(V, F, 16) is None
 
 
 def test_parts_stay_apart():
