@@ -113,14 +113,12 @@ class GlobalStep:
     @cached_property
     def no_turning(self):
         """The NoTurning, created on first use."""
-        if not self.is_factorized:
-            return self.no_turning_by_cycles
         is_whole = self._may_be_kept & ~self.upright_parts.is_kept
         return NoTurning(self._rest, is_whole, self.solution)
 
     @cached_property
     def no_turning_by_cycles(self):
-        """The same by multigrid, for a GPU or where nothing is factorised."""
+        """Of all components, by multigrid: `TaichiMotion` has the parts obey after its kernels."""
         return NoTurning(self._rest, self._may_be_kept, self._by_cycles)
 
     @cached_property

@@ -32,12 +32,15 @@ from ..algebra import (
 )
 from ..rotation_fit import MIN_CURVATURE, is_definite
 from ..styles.active_set import (
+    DOUBLE,
     MAX_STEPS,
     NEAREST_TARGET,
+    SINGLE,
     SMALLEST_TURN,
     Tolerances,
     curvature_on_tangent,
 )
+from .kernel_types import kernel_types, state_types
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,13 @@ class Kind:
     vec4: Any
     mat3: Any
     tolerances: Tolerances
+
+
+def kind_of(real):
+    """Return the Kind of ti.f64 or ti.f32."""
+    vec3, mat3, *_ = kernel_types(real)
+    vec4, _ = state_types(real, 4)
+    return Kind(real, vec3, vec4, mat3, DOUBLE if real == ti.f64 else SINGLE)
 
 
 @ti.func

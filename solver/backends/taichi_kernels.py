@@ -17,13 +17,13 @@ loop over neighbours could end early, as that of `taichi_covariances.py`.
 # pyright: reportIndexIssue=false
 
 from types import SimpleNamespace
+from typing import Any
 
 import taichi as ti
 
 from ..algebra import nearer_to_orthogonal, times
-from ..styles.active_set import DOUBLE, SINGLE
 from .kernel_types import kernel_types, state_types
-from .taichi_active_set import Kind, rotation_near
+from .taichi_active_set import kind_of, rotation_near
 from .taichi_covariances import covariance, drawn, with_capture
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes
@@ -40,12 +40,13 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
     is_captured : bool
         Whether normals are drawn to captured ones; else `captured` is not read.
     has_lanes : bool
-        Whether the processor computes a few vertices at once; for the cube, and not on a GPU.
+        Whether the processor computes a few vertices at once; for the cube, and not on a GPU. The
+        kernel is then not given `FaceTables`.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
-    vec4, vectors4 = state_types(real, 4)
+    _, vectors4 = state_types(real, 4)
     _, states = state_types(real, width)
-    kind = Kind(real, vec3, vec4, mat3, DOUBLE if real == ti.f64 else SINGLE)
+    kind = kind_of(real)
     is_cube = width == 3
 
     @ti.kernel
@@ -127,6 +128,5 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
                 total += vec3(ti.static(times(*R[j], *scatter[entry])))
             rhs[i] = total / 3
 
-    if is_cube and has_lanes:
-        local_step = in_lanes(kind, is_captured)
-    return SimpleNamespace(local_step=local_step, right_hand_side=right_hand_side)
+    of_rotations: Any = in_lanes(kind, is_captured) if has_lanes else local_step
+    return SimpleNamespace(local_step=of_rotations, right_hand_side=right_hand_side)

@@ -24,7 +24,7 @@ LANES = 4
 
 
 def make_local_step(kind, is_captured):
-    """Return the kernel `local_step` as `make_kernels` does."""
+    """Return the kernel `local_step` as `make_kernels` does, without `FaceTables`."""
     real = kind.real
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     _, vectors4 = state_types(real, 4)
@@ -72,13 +72,6 @@ def make_local_step(kind, is_captured):
         energies: vectors,
         certified: integers,
         captured: vectors4,
-        frames: matrices,  # these are for other forms
-        numbers: integers,
-        targets: integers,
-        ways: vectors,
-        between: integers,
-        edge_start: ti.i32,
-        facet_start: ti.i32,
     ):
         count = lam.shape[0]
         for block in range((count + LANES - 1) // LANES):

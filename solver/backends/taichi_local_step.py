@@ -83,7 +83,7 @@ class TaichiLocalStep:
             raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
-        has_lanes = runtime.device == "taichi-cpu"
+        has_lanes = runtime.device == "taichi-cpu" and form.width == CUBE.width
         self._kernels = _kernels(precision, form.width, captured is not None, has_lanes)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
@@ -97,7 +97,9 @@ class TaichiLocalStep:
         self._rest_problem = LocalProblem(nothing, rest.normals, all_Q, lam, form, captured)
         self._normal_weight = self._rest_problem.weights(rest.areas)
         self._arguments = self._make_arguments(Q)
-        self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
+        self._tables = ()
+        if not has_lanes:
+            self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
         self._rows = self._make_rows()
@@ -140,7 +142,7 @@ class TaichiLocalStep:
             return HostRows(self._rest.matrices, area_scale(self._rest.areas), *outputs)
         from .taichi_rows import DeviceRows
 
-        edges = of.indptr, of.indices, of.gather
+        edges = of.indptr, of.indices, of.gather, of.weights
         width = self._rest_problem.form.width
         return DeviceRows(self.precision, width, *edges, of.area_scale, *outputs)
 

@@ -14,6 +14,8 @@ import numpy as np
 import taichi as ti
 
 from .kernel_types import kernel_types, state_types
+from .taichi_active_set import kind_of
+from .taichi_covariances import covariance
 
 
 class DeviceRows:
@@ -24,15 +26,17 @@ class DeviceRows:
     precision : {"f64", "f32"}
     width : {3, 4}
         Of the states s.
-    indptr, indices, gather, area_scale, R, s, energies : arrays of Taichi
+    indptr, indices, gather, weights, area_scale, R, s, energies : arrays of Taichi
         As in `local_step` of `taichi_kernels.py`.
     """
 
-    def __init__(self, precision, width, indptr, indices, gather, area_scale, R, s, energies):
+    def __init__(
+        self, precision, width, indptr, indices, gather, weights, area_scale, R, s, energies
+    ):
         self._width = width
         self._kernels = _kernels(precision, width)
         self._real = np.float64 if precision == "f64" else np.float32
-        self._edges = indptr, indices, gather, area_scale
+        self._edges = indptr, indices, gather, weights, area_scale
         self._R, self._s, self._energies = R, s, energies
 
     def take(self, U, rows):
@@ -53,7 +57,8 @@ class DeviceRows:
 @cache
 def _kernels(precision, width):
     real = ti.f64 if precision == "f64" else ti.f32
-    vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
+    kind = kind_of(real)
+    vec3, _, scalars, integers, vectors, matrices = kernel_types(real)
     _, states = state_types(real, width)
 
     @ti.kernel
@@ -62,6 +67,7 @@ def _kernels(precision, width):
         indptr: integers,
         indices: integers,
         gather: vectors,
+        weights: scalars,
         area_scale: scalars,
         U: vectors,
         R: matrices,
@@ -72,9 +78,7 @@ def _kernels(precision, width):
     ):
         for k in range(rows.shape[0]):
             i = rows[k]
-            S = mat3(0.0)
-            for entry in range(indptr[i], indptr[i + 1]):
-                S += gather[entry].outer_product(U[indices[entry]] - U[i])
+            S, _ = covariance(kind, i, U, indptr, indices, gather, weights)
             S_few[k] = S / area_scale[i]
             R_few[k] = R[i]
             s_few[k] = subgradients[i]

@@ -104,6 +104,14 @@ def is_there(number):
     return True
 
 
+def wait_until_gone(numbers, seconds=PATIENCE):
+    """Wait until none of these processes runs any more."""
+    end = time.monotonic() + seconds
+    while any(map(is_there, numbers)):
+        assert time.monotonic() < end, "a worker goes on without its batch"
+        time.sleep(0.05)
+
+
 def files_in(folder):
     """Return the names of all files in a folder and below, but for the records of batches."""
     found = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())

@@ -4,7 +4,6 @@
 import os
 import signal
 import sys
-import time
 
 import pytest
 from batch_kit import (
@@ -17,6 +16,7 @@ from batch_kit import (
     start,
     statuses,
     wait_for_files,
+    wait_until_gone,
     wait_until_they_solve,
     waves,
 )
@@ -74,7 +74,7 @@ def test_stopped_in_the_middle(folder, number):
     _, errors = process.communicate(timeout=PATIENCE)
     if number == signal.SIGKILL:
         assert process.returncode == -number
-        wait_until_gone(worker)
+        wait_until_gone([worker])
     else:
         assert process.returncode == 128 + number
         assert errors == f"headless_render.py: {CALM[number]}\n"
@@ -82,13 +82,6 @@ def test_stopped_in_the_middle(folder, number):
     assert set(files_in(folder / "out")) <= set(NAMES), "something half-written is left"
     assert run(folder) == {"a.obj": "kept", "b.obj": "done"}
     assert files_in(folder / "out") == NAMES
-
-
-def wait_until_gone(number):
-    end = time.monotonic() + PATIENCE
-    while is_there(number):
-        assert time.monotonic() < end, "the worker goes on without its batch"
-        time.sleep(0.05)
 
 
 @on_posix

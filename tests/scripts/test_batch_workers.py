@@ -14,15 +14,13 @@ import time
 import numpy as np
 import psutil
 import pytest
-from batch_kit import CUBE, cluster_of, files_in, files_of, is_there, start, statuses
+from batch_kit import CUBE, cluster_of, files_in, files_of, start, statuses, wait_until_gone
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 
 COUNT = int(os.environ.get("CUBIC_CRAFT_BATCH", "12"))
 WORKERS, BROKEN, KILLS = (4, 10, 2) if COUNT >= 200 else (2, 1, 1)
 CRASHES = "crashes.obj"
-PATIENCE = 20
-"""seconds"""
 
 
 @pytest.fixture
@@ -78,10 +76,7 @@ def watch(process, cluster, out):
         for path in out.glob("good_*.obj"):
             written.setdefault(path.name, path.stat().st_mtime_ns)
         time.sleep(0.05)
-    until = time.monotonic() + PATIENCE  # the last ones are on their way out
-    while any(map(is_there, files)) and time.monotonic() < until:
-        time.sleep(0.05)
-    assert not any(map(is_there, files))
+    wait_until_gone(files, 20)  # the last ones may be on their way out
     return killed, written
 
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from taichi_marks import needs_taichi
+from tight_admm import TIGHT
 
 from solver.backends import local_step_class
 from solver.rest import rest_mesh
@@ -14,7 +15,6 @@ from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.local_problem import LocalProblem
 
-TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 Q = shapes.rotation(25, -10, 40)
 
 

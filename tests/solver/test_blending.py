@@ -6,17 +6,17 @@ import pytest
 import shapes
 from devices import by_device
 from scipy.spatial.transform import Rotation
+from tight_admm import TIGHT
 
 from solver import Setup, Stylization, rest_mesh
 from solver.styles.active_set import active_set_rotations
-from solver.styles.admm import AdmmOptions, admm_rotations
+from solver.styles.admm import admm_rotations
 from solver.styles.blending import LEVELS, Style, blended
 from solver.styles.forms import cone, cube, cylinder, icosahedron, octahedron, prism, tetrahedron
 from solver.styles.local_problem import LocalProblem
 from solver.styles.polytope import minkowski_sum
 from solver.styles.polytopes import polytopes
 
-TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 FORMS = {
     "cube": None,
     "octahedron": octahedron(),

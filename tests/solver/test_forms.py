@@ -8,6 +8,7 @@ from devices import by_device
 from named_forms import POLYTOPES
 from scipy.spatial.transform import Rotation
 from taichi_marks import needs_taichi
+from tight_admm import TIGHT
 
 from solver import Setup, Stylization, rest_mesh, run, stylize
 from solver.backends import local_step_class
@@ -17,7 +18,6 @@ from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.local_problem import LocalProblem
 from solver.styles.polytopes import polytopes
 
-TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 # Sides that reach far beyond the ball are harmonic surfaces that droop toward their corners.
 LEAST_FLAT = {"tetrahedron": 0.7, "octahedron": 0.8, "pyramid": 0.8}
 Q = shapes.rotation(25, -10, 40)

@@ -7,6 +7,7 @@ import shapes
 from devices import by_device
 from scipy.spatial.transform import Rotation
 from taichi_marks import needs_taichi
+from tight_admm import TIGHT
 
 from solver import (
     CubicCraftError,
@@ -21,11 +22,10 @@ from solver import (
 from solver.normal_capture import MOST, targets_for
 from solver.rest_measures import areas_and_normals
 from solver.styles.active_set import active_set_rotations
-from solver.styles.admm import AdmmOptions, admm_rotations
+from solver.styles.admm import admm_rotations
 from solver.styles.forms import dodecahedron
 from solver.styles.local_problem import LocalProblem
 
-TIGHT = AdmmOptions(max_iterations=3000, trial=3000, absolute=1e-13, relative=1e-11)
 Q = shapes.rotation(25, -10, 40)
 
 

@@ -13,6 +13,7 @@ from taichi_marks import needs_taichi
 
 from solver.rest import rest_mesh
 from solver.styles.admm import AdmmOptions
+from solver.styles.cube import CUBE
 
 ROOT = Path(__file__).parents[2]
 
@@ -21,12 +22,14 @@ def local_steps(V, F, lam, Q, captured=None):
     """Return the local step with lanes, and the same without."""
     import taichi as ti
 
+    from solver.backends.face_tables import face_tables
     from solver.backends.taichi_kernels import make_kernels
     from solver.backends.taichi_local_step import TaichiLocalStep
 
     rest = rest_mesh(V, F)
     both = [TaichiLocalStep(rest, lam, Q, AdmmOptions(), captured=captured) for _ in range(2)]
     both[1]._kernels = make_kernels(ti.f64, 3, captured is not None, has_lanes=False)
+    both[1]._tables = face_tables(CUBE.faces, both[1]._keep, both[1].arrays.keep)
     return rest, both
 
 
