@@ -71,4 +71,5 @@ class ProgressBar:
 
     def warn(self, line: str) -> None:
         """Print one line that must be read."""
-        print(line, file=sys.stderr, flush=True)
+        # at once with its end: else a signal in between puts its own words into the same line
+        print(f"{line}\n", end="", file=sys.stderr, flush=True)
