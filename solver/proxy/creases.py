@@ -49,16 +49,19 @@ def smoothness(V, F, C):
     The normals of the triangles are weighted by their angles at the vertex, so that the result does
     not depend on how the sides of a box are triangulated.
     """
-    sums, total = np.zeros((len(V), 3)), np.zeros(len(V))
+    unit, angles = np.empty((3, len(F))), np.empty((3, len(F)))
     for block, edges in edge_vectors(V, F):
         vectors = double_area_vectors(edges)
         lengths = np.linalg.norm(vectors, axis=0)
-        unit = vectors / np.where(lengths > 0.0, lengths, 1.0)
-        for k in range(3):
-            corner, angle = F[block, k], _angles(C[block, k]) * (lengths > 0.0)
-            total += np.bincount(corner, angle, len(V))
-            for c in range(3):
-                sums[:, c] += np.bincount(corner, angle * unit[c], len(V))
+        unit[:, block] = vectors / np.where(lengths > 0.0, lengths, 1.0)
+        angles[:, block] = _angles(C[block].T) * (lengths > 0.0)
+    corners = F.T.astype(np.intp, order="C")
+
+    def at_vertices(values):
+        return sum(np.bincount(at, x, len(V)) for at, x in zip(corners, values, strict=True))
+
+    total = at_vertices(angles)
+    sums = np.stack([at_vertices(angles * x) for x in unit], axis=1)
     coherence = np.linalg.norm(sums, axis=1) / np.where(total > 0.0, total, 1.0)
     t = np.clip((coherence - NONE) / (FULL - NONE), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
