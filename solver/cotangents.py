@@ -34,7 +34,7 @@ def cotangents(V, F):
     -----
     Pinkall and Polthier, "Computing discrete minimal surfaces and their conjugates", 1993.
     """
-    C = np.empty((len(F), 3))
+    C = np.empty((3, len(F))).T  # as `algebra.columns` wants it
     for block, e in edge_vectors(V, F):
         dot = -np.stack([(e[k - 2] * e[k - 1]).sum(axis=0) for k in range(3)])
         double_area = np.linalg.norm(double_area_vectors(e), axis=0)

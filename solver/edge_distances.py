@@ -6,7 +6,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
-from .proxy.edges import edges_of
+from .edges import edges_of
 
 
 def edge_distances(V, F, seeds, limit=np.inf):

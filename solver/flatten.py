@@ -11,10 +11,10 @@ import numpy as np
 
 from .components import components
 from .edge_vectors import double_area_vectors, edge_vectors
+from .edges import Edges
 from .errors import CubicCraftError
 from .mesh_checks import check_mesh
 from .nearest_on_planes import MOST, nearest_on_planes
-from .proxy.edges import faces_at_edges
 from .proxy.weld import weld
 from .unit_box import unit_box
 
@@ -172,7 +172,7 @@ class _Patches:
 
     def __init__(self, V, F, directions, angle, tolerance, counts):
         areas, centroids, nearest = _facing(V, F, directions, np.cos(angle), counts)
-        one, other = faces_at_edges(F, len(V))
+        one, other = Edges(F, len(V)).triangles()
         is_same = (nearest[one] == nearest[other]) & (nearest[one] >= 0)
         pairs = np.stack([one[is_same], other[is_same]], axis=1)
         _, label = components(np.empty((0, 3), np.int64), len(F), pairs)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that is computed once per mesh, regardless of cubeness, orientation and pins."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -20,6 +21,7 @@ from .proxy.thickness import outward_sign, thickness_links
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .topology import Topology, topology
+from .triangles import Triangles
 from .unit_box import UnitBox
 
 COARSENING = 16
@@ -96,8 +98,9 @@ class RestMesh:
 
         The cube does not care; a pyramid would come out upside down.
         """
-        inward = outward_sign(self.V, self.F, self.topology.part)[self.topology.part] < 0.0
-        return replace(self, normals=np.where(inward[:, None], -self.normals, self.normals))
+        sign = outward_sign(Triangles(self.V, self.F), self.topology.part)
+        is_inward = (sign < 0.0)[self.topology.part]
+        return replace(self, normals=np.where(is_inward[:, None], -self.normals, self.normals))
 
     @cached_property
     def standing(self):
@@ -122,8 +125,8 @@ class RestMesh:
             return self
         to_other_side = self.to_other_side
         if to_other_side is None:
-            part = self.topology.part
-            to_other_side = thickness_links(self.V, self.F, self.normals, self.areas, part)
+            triangles, part = Triangles(self.V, self.F), self.topology.part
+            to_other_side = thickness_links(triangles, self.normals, self.areas, part)
         changed = replace(self, to_other_side=to_other_side, solidity=solidity)
         return replace(changed, matrices=changed.skin.with_links(self.V, changed.links))
 
@@ -241,19 +244,22 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
     check_memory(len(input_positions), len(F))
     surface = surface_of(input_positions, F, proxy)
     V, F = surface.V, surface.F
-    areas, normals = areas_and_normals(V, F)
+    triangles = Triangles(V, F)
+    areas, normals = areas_and_normals(V, F, triangles.measures)
     C = cotangents(V, F)
     parts = topology(F, len(V))
-    to_neighbours, to_other_side = no_links(), None
-    if proxy.together:
-        to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
-    if proxy.solidity > 0.0:
-        to_other_side = thickness_links(V, F, normals, areas, parts.part)
-    shares = np.ones(len(V))
-    if proxy.refine:
-        shares = cubic_shares(V, F, C, areas)
-        C = C * stiffness(V, F, parts.part)[:, None]
-    skin = spokes_and_rims(V, F, C)
+    with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
+        to_neighbours, search = no_links(), None
+        if proxy.solidity > 0.0:
+            search = beside.submit(thickness_links, triangles, normals, areas, parts.part)
+        if proxy.together:
+            to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
+        shares = np.ones(len(V))
+        if proxy.refine:
+            shares = cubic_shares(triangles, C, areas)
+            C = C * stiffness(triangles, parts.part)[:, None]
+        skin = spokes_and_rims(V, F, C, triangles.edges)
+        to_other_side = search.result() if search else None
     rest = RestMesh(
         input_positions,
         surface.input_map,

@@ -35,7 +35,7 @@ def triangle_areas_and_normals(V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray
     >>> areas, np.abs(normals)
     (array([2.]), array([[0., 0., 1.]]))
     """
-    areas, normals = np.empty(len(F)), np.empty((len(F), 3))
+    areas, normals = np.empty(len(F)), np.empty((3, len(F))).T  # as `algebra.columns` wants it
     for block, edges in edge_vectors(V, F):
         vectors = double_area_vectors(edges)
         lengths = np.linalg.norm(vectors, axis=0)
@@ -44,7 +44,7 @@ def triangle_areas_and_normals(V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray
     return areas, normals
 
 
-def areas_and_normals(V, F):
+def areas_and_normals(V, F, of_triangles=None):
     """Return barycentric vertex areas and area-weighted unit vertex normals.
 
     Parameters
@@ -53,6 +53,8 @@ def areas_and_normals(V, F):
         Rest positions.
     F : (m,3) numpy int array
         Triangles.
+    of_triangles : optional
+        What `triangle_areas_and_normals` returns for them.
 
     Returns
     -------
@@ -62,18 +64,14 @@ def areas_and_normals(V, F):
         Unit normals; zero where the triangles around a vertex cancel out or have no area, which
         disables the cubic term there.
     """
-    vectors = np.empty((3, len(F)))
-    thirds = np.empty(len(F))
-    for block, edges in edge_vectors(V, F):
-        vectors[:, block] = double_area_vectors(edges)
-        thirds[block] = np.linalg.norm(vectors[:, block], axis=0) / 6.0
+    face_areas, face_normals = of_triangles or triangle_areas_and_normals(V, F)
     corners = F.T.astype(np.intp, order="C")
 
     def at_corners(values):
         return np.sum([np.bincount(corner, values, len(V)) for corner in corners], axis=0)
 
-    areas = at_corners(thirds)
-    sums = np.stack([at_corners(x) for x in vectors], axis=1)
+    areas = at_corners(face_areas) / 3.0
+    sums = np.stack([at_corners(face_areas * x) for x in face_normals.T], axis=1)
     lengths = np.linalg.norm(sums, axis=1)
     is_defined = lengths > 1e-12 * areas  # otherwise rounding alone would choose the direction
     normals = np.where(is_defined[:, None], sums, 0.0) / np.where(is_defined, lengths, 1.0)[:, None]

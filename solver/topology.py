@@ -31,7 +31,9 @@ class Topology:
         """Return the Topology with further pairs (p,2) of vertices connected."""
         if not len(pairs):
             return self
-        return Topology(self.F, self.part, *components(self.F, len(self.part), pairs))
+        no_triangle, parts = np.empty((0, 3), np.int64), int(self.part.max()) + 1
+        count, of_part = components(no_triangle, parts, self.part[pairs])
+        return Topology(self.F, self.part, count, of_part[self.part])
 
     @cached_property
     def chunks(self):

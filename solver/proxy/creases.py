@@ -9,9 +9,9 @@ ignored, and its area is given to the vertices beside it, which each have the no
 import numpy as np
 
 from ..cotangents import cotangents
-from ..edge_vectors import double_area_vectors, edge_vectors
+from ..edge_vectors import BLOCK
+from ..edges import edges_of
 from ..rest_measures import triangle_areas_and_normals
-from .edges import edges_of
 
 FULL = np.cos(np.radians(25.0))
 """the normal counts where those of the faces around are within 25 degrees of it, on average..."""
@@ -23,45 +23,40 @@ FLAT = np.cos(np.radians(30.0))
 _LEAST = 0.5  # smoothness of the corners of a triangle, together, that can speak for all of it
 
 
-def cubic_shares(V, F, C, areas):
+def cubic_shares(triangles, C, areas):
     """Return the area (n,) represented by the normal of each vertex, relative to its own area.
 
     Parameters
     ----------
-    V : (n,3) float array
-    F : (m,3) int array
+    triangles : Triangles
     C : (m,3) float array
         Cotangents of the corner angles.
     areas : (n,) float array
         Barycentric areas.
     """
-    smooth = smoothness(V, F, C)
-    at_corners = smooth[F]
-    total = np.maximum(at_corners.sum(axis=1), _LEAST)
-    shares = at_corners * (triangle_areas_and_normals(V, F)[0] / total)[:, None]
-    given = np.bincount(F.ravel(), shares.ravel(), len(V))
+    corners = _corners(triangles.F)
+    at_corners = smoothness(triangles.F, C, triangles.measures, len(areas)).take(corners)
+    total = np.maximum(at_corners.sum(axis=0), _LEAST)
+    given = _at_vertices(corners, at_corners * (triangles.areas / total), len(areas))
     return given / np.where(areas > 0.0, areas, 1.0)
 
 
-def smoothness(V, F, C):
-    """Return how meaningful the normal of each vertex is, (n,), from 0 in a crease to 1.
+def smoothness(F, C, measures, n):
+    """Return how meaningful the normal of each of n vertices is, (n,), from 0 in a crease to 1.
 
     The normals of the triangles are weighted by their angles at the vertex, so that the result does
     not depend on how the sides of a box are triangulated.
+
+    measures : as of `triangle_areas_and_normals`
     """
-    unit, angles = np.empty((3, len(F))), np.empty((3, len(F)))
-    for block, edges in edge_vectors(V, F):
-        vectors = double_area_vectors(edges)
-        lengths = np.linalg.norm(vectors, axis=0)
-        unit[:, block] = vectors / np.where(lengths > 0.0, lengths, 1.0)
-        angles[:, block] = _angles(C[block].T) * (lengths > 0.0)
-    corners = F.T.astype(np.intp, order="C")
-
-    def at_vertices(values):
-        return sum(np.bincount(at, x, len(V)) for at, x in zip(corners, values, strict=True))
-
-    total = at_vertices(angles)
-    sums = np.stack([at_vertices(angles * x) for x in unit], axis=1)
+    areas, normals = measures
+    corners = _corners(F)
+    angles = np.empty(corners.shape)
+    for begin in range(0, corners.shape[1], BLOCK):
+        block = slice(begin, begin + BLOCK)
+        angles[:, block] = _angles(C[block].T) * (areas[block] > 0.0)
+    total = _at_vertices(corners, angles, n)
+    sums = np.stack([_at_vertices(corners, angles * x, n) for x in normals.T], axis=1)
     coherence = np.linalg.norm(sums, axis=1) / np.where(total > 0.0, total, 1.0)
     t = np.clip((coherence - NONE) / (FULL - NONE), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
@@ -73,19 +68,30 @@ def mute_sides(V, F):
     Only those within a flat side of the surface: if it is narrow and all its vertices are in its
     creases, none of them has its normal.
     """
-    is_silent = (smoothness(V, F, cotangents(V, F)) < _LEAST)[F]
-    joins = is_silent[:, [1, 2, 0]] & is_silent[:, [2, 0, 1]]
-    rows = np.flatnonzero(joins.any(axis=1))  # of a smooth mesh next to none
+    measures = triangle_areas_and_normals(V, F)
+    is_silent = smoothness(F, cotangents(V, F), measures, len(V)) < _LEAST
+    a, b, c = is_silent.take(_corners(F))
+    joins = np.stack([b & c, c & a, a & b], axis=1)
+    rows = np.flatnonzero((a & b) | (c & (a | b)))  # of a smooth mesh next to none
     corners = F[rows]
     edges, edge = edges_of(corners[:, [1, 2, 0]].ravel(), corners[:, [2, 0, 1]].ravel(), len(V))
-    _, normals = triangle_areas_and_normals(V, corners)
-    count = len(edges)
+    count, normals = len(edges), measures[1][rows]
     sums = np.stack([np.bincount(edge, np.repeat(x, 3), count) for x in normals.T], axis=1)
     is_flat = (sums * sums).sum(axis=1) > 2.0 + 2.0 * FLAT
     is_flat &= np.bincount(edge, minlength=count) == 2
     result = np.zeros(F.shape, dtype=bool)
     result[rows] = joins[rows] & is_flat[edge].reshape(-1, 3)
     return result
+
+
+def _corners(F):
+    """Return the corners of the triangles, (3,m), as NumPy's indices."""
+    return F.T.astype(np.intp, order="C")
+
+
+def _at_vertices(corners, values, n):
+    """Return the sums (n,) of values (3,m) at corners (3,m)."""
+    return np.bincount(corners.ravel(), values.ravel(), n)
 
 
 def _angles(cotangents):

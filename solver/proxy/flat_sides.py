@@ -8,9 +8,8 @@ a flat side holds everything around it, as strongly as if it were full of detail
 
 import numpy as np
 
+from ..algebra import columns, dot, take
 from ..components import components
-from ..rest_measures import triangle_areas_and_normals
-from .edges import faces_at_edges
 
 STIFFNESS = 0.15
 """weight of the triangles of a flat side"""
@@ -19,22 +18,22 @@ LEAST_SHARE = 0.03
 COPLANAR = np.cos(np.radians(0.5))
 
 
-def stiffness(V, F, part):
+def stiffness(triangles, part):
     """Return the factors (m,) of the weights of the triangles: less than 1 in flat sides.
 
     Parameters
     ----------
-    V : (n,3) float array
-    F : (m,3) int array
+    triangles : Triangles
     part : (n,) int array
         Connected part of each vertex.
     """
-    areas, normals = triangle_areas_and_normals(V, F)
-    one, other = faces_at_edges(F, len(V))
-    is_flat = (normals[one] * normals[other]).sum(axis=1) > COPLANAR
+    areas, normals = triangles.areas, triangles.normals
+    one, other = triangles.edges.triangles()
+    is_flat = dot(*columns(take(normals, one)), *columns(take(normals, other))) > COPLANAR
     no_triangle = np.empty((0, 3), np.int64)
     pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
-    count, side = components(no_triangle, len(F), pairs)
-    of_part = np.bincount(part[F[:, 0]], areas)
-    share = np.bincount(side, areas, count)[side] / np.maximum(of_part[part[F[:, 0]]], 1e-300)
+    count, side = components(no_triangle, len(areas), pairs)
+    of_face = triangles.parts(part)
+    of_part = np.bincount(of_face, areas)
+    share = np.bincount(side, areas, count)[side] / np.maximum(of_part[of_face], 1e-300)
     return np.where(share >= LEAST_SHARE, STIFFNESS, 1.0)

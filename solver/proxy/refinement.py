@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from ..algebra import columns, dot
+from ..edge_vectors import edge_vectors
+from ..edges import edges_of
 from .creases import mute_sides
-from .edges import edges_of
 from .samples import extents
 
 FINENESS = 40
@@ -71,9 +71,9 @@ def refine(V, F, bound, parts=1):
     budget = max(min(BUDGET + FOR_EACH_PART * (parts - 1), MOST), int(GROWTH * len(V)))
     parents, rounds = [np.empty((0, 2), np.int64)], [0]
     F, bound = F.astype(np.int64), bound.astype(np.float64)
+    ratio = _ratios(V, F, bound)
     is_fine = False
     while not is_fine:
-        ratio = _lengths(V, F) / bound[F[:, :1]]
         longest = ratio.max(initial=0.0)
         rows, new, middle = _midpoints(F, ratio > max(1.0, _STEP * longest), len(V))
         is_fine = not len(new) or len(V) + len(new) > budget
@@ -83,17 +83,20 @@ def refine(V, F, bound, parts=1):
                 break
         V = np.concatenate([V, 0.5 * (V[new[:, 0]] + V[new[:, 1]])])
         bound = np.concatenate([bound, bound[new[:, 0]]])
-        F = np.concatenate([F[~rows], _split(F[rows], middle, ratio[rows])])
+        pieces = _split(F[rows], middle, ratio[rows])
+        F = np.concatenate([F[~rows], pieces])
+        ratio = np.concatenate([ratio[~rows], _ratios(V, pieces, bound)])
         parents.append(new)
         rounds.append(rounds[-1] + len(new))
     return V, F.astype(np.int32), np.concatenate(parents), np.array(rounds)
 
 
-def _lengths(V, F):
-    """Return the length (m,3) of the side opposite each corner."""
-    corners = [columns(V).take(F[:, k], axis=1) for k in range(3)]
-    sides = [corners[k - 1] - corners[k - 2] for k in range(3)]
-    return np.sqrt(np.stack([dot(*side, *side) for side in sides], axis=1))
+def _ratios(V, F, bound):
+    """Return the length (m,3) of the side opposite each corner, relative to its bound."""
+    lengths = np.empty(F.shape)
+    for block, sides in edge_vectors(V, F):
+        lengths[block] = np.sqrt((sides * sides).sum(axis=1)).T
+    return lengths / bound[F[:, :1]]
 
 
 def _midpoints(F, is_split, n):
@@ -110,7 +113,7 @@ def _midpoints(F, is_split, n):
     middle : (k,3) int array
         Midpoint of the side opposite each corner, or -1.
     """
-    rows = is_split.any(axis=1)
+    rows = is_split[:, 0] | is_split[:, 1] | is_split[:, 2]  # `any` takes four times as long
     sides, is_split = F[rows], is_split[rows].ravel()
     start, end = sides[:, [1, 2, 0]].ravel(), sides[:, [2, 0, 1]].ravel()
     new, number = edges_of(start[is_split], end[is_split], n)

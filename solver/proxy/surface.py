@@ -34,12 +34,14 @@ def surface_of(V, F, options):
     box = unit_box(V[used])
     at = box.to_unit(V[used])
     group, first = np.arange(len(used)), np.arange(len(used))
+    count, part = components(F, len(at)) if options.together or options.refine else (0, None)
     if options.together:
-        group, first, F = _welded(at, F)
-    at = at[first]
+        group, first, F = _welded(at, F, part)
+        if len(first) < len(at):
+            at = at[first]
+            count, part = components(F, len(at))
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
     if options.refine:
-        count, part = components(F, len(at))
         at, F, parents, rounds = refine(at, F, longest_edges(at, F, part)[part], count)
     of_input = np.full(len(V), -1)
     of_input[used] = group
@@ -52,9 +54,9 @@ def surface_of(V, F, options):
     return Surface(input_map, box, at, F)
 
 
-def _welded(V, F):
+def _welded(V, F, part):
     """Weld, unless nothing would be left of the triangles."""
-    group, first, triangles = weld(V, F)
+    group, first, triangles = weld(V, F, part)
     if not len(triangles):
         return np.arange(len(V)), np.arange(len(V)), F
     return group, first, triangles

@@ -21,7 +21,7 @@ As next to no vertex of the part lies inside the ball, a link does not cross ano
 
 import numpy as np
 
-from .edges import edges_of
+from ..algebra import columns, dot
 from .links import links_between, no_links
 from .nearest import Nearest
 from .samples import surface_samples
@@ -45,21 +45,20 @@ _FACING = 0.9  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
-def thickness_links(V, F, normals, areas, part):
+def thickness_links(triangles, normals, areas, part):
     """Return links of solidity 1 to the opposite side.
 
     Parameters
     ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    F : (m,3) int array
+    triangles : Triangles
     normals : (n,3) float array
         Unit normals, or zero.
     areas : (n,) float array
     part : (n,) int array
         Connected part of each vertex.
     """
-    outward = outward_sign(V, F, part)[part]
+    V = triangles.V
+    outward = outward_sign(triangles, part)[part]
     is_solid = (outward != 0.0) & normals.any(axis=1)
     points = np.flatnonzero(is_solid)
     if len(points) < 4:
@@ -123,33 +122,38 @@ def _are_facing(V, normals, i, j):
     return ((normals[j] * d).sum(axis=1) > least) & (-(normals[i] * d).sum(axis=1) > least)
 
 
-def outward_sign(V, F, part):
+def outward_sign(triangles, part):
     """Return for each part 1 if its normals point outward, -1 if inward, 0 if it has no inside.
 
     Holes are closed by triangles to the center of their borders. Parts that are mostly hole, or
     whose triangles are inconsistent, have no inside.
     """
     count = int(part.max(initial=-1)) + 1
-    corners = F.astype(np.int64)
-    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
-    edges, number = edges_of(start, end, len(V))
+    V, edges = triangles.V, triangles.edges
+    number = edges.number.ravel()
     uses = np.bincount(number)
-    balance = np.bincount(number, np.where(start < end, 1.0, -1.0))
-    owner = part[edges[:, 0]]
+    balance = np.bincount(number, np.where(edges.is_backward.ravel(), -1.0, 1.0))
+    owner = part[edges.lower]
     is_border = uses == 1
     is_fault = ~is_border & ((uses > 2) | (balance != 0.0))
     faults = np.bincount(owner, is_fault, count) / np.maximum(
         np.bincount(owner, minlength=count), 1
     )
-    is_open = is_border[number]
-    holes, volume_of_holes = _holes(V, start[is_open], end[is_open], part, count)
-    a, b, c = V[corners[:, 0]], V[corners[:, 1]], V[corners[:, 2]]
-    normal = np.cross(b - a, c - a)
-    of_face = part[corners[:, 0]]
-    area = np.bincount(of_face, np.linalg.norm(normal, axis=1), count) / 2.0
-    volume = np.bincount(of_face, (a * np.cross(b, c)).sum(axis=1), count) / 6.0 + volume_of_holes
+    holes, volume_of_holes = _holes(V, *_border(edges, is_border), part, count)
+    of_face, face_areas = triangles.parts(part), triangles.areas
+    area = np.bincount(of_face, face_areas, count)
+    height = dot(*columns(V).take(triangles.F[:, 0], axis=1), *triangles.normals.T)
+    volume = np.bincount(of_face, face_areas * height, count) / 3.0 + volume_of_holes
     is_solid = (holes < MOST_HOLES * area) & (faults < MOST_FAULTS) & (area > 0.0)
     return np.where(is_solid, np.sign(volume), 0.0)
+
+
+def _border(edges, is_border):
+    """Return the ends (b,) of edges (e,) in the direction of their triangles."""
+    is_open = is_border[edges.number]
+    number, is_backward = edges.number[is_open], edges.is_backward[is_open]
+    lower, upper = edges.lower[number], edges.upper[number]
+    return np.where(is_backward, upper, lower), np.where(is_backward, lower, upper)
 
 
 def _holes(V, start, end, part, count):

@@ -3,8 +3,9 @@
 
 import numpy as np
 
+from ..algebra import columns, dot
 from ..components import components
-from .edges import faces_at_edges
+from ..edges import Edges
 
 TOLERANCE = 1e-6
 """of the largest extent; closer vertices are at the same place..."""
@@ -13,7 +14,7 @@ OF_EDGES = 0.01
 _BITS = 21  # for each coordinate in a key; the tolerance of 1e-6 needs 20
 
 
-def weld(V, F):
+def weld(V, F, part=None):
     """Return which vertices are merged, and the triangles between them.
 
     Parameters
@@ -22,6 +23,8 @@ def weld(V, F):
         Positions in the unit box.
     F : (m,3) int array
         Triangles.
+    part : (n,) int array, optional
+        Connected part of each vertex.
 
     Returns
     -------
@@ -35,7 +38,7 @@ def weld(V, F):
         the same corners, only one is kept: otherwise the normals of a leaf modelled as two
         coincident sheets would cancel out.
     """
-    tolerance = _tolerance(V, F)
+    tolerance = _tolerance(V, F, components(F, len(V))[1] if part is None else part)
     label = _joined(_least_of_cell(V / tolerance + 0.5), _least_of_cell(V / tolerance))
     is_first = label == np.arange(len(V))
     first = np.flatnonzero(is_first)
@@ -49,7 +52,7 @@ def weld(V, F):
 
 def _of_one_part(label, F):
     """Split vertices at one place by the parts that share edges; return new indices (n,)."""
-    one, other = faces_at_edges(label[F], len(label))
+    one, other = Edges(label[F], len(label)).triangles()
     # triangles that share an edge belong to one part, and so do those that shared a vertex before
     nodes = len(F) + len(label)
     at = np.stack([np.repeat(np.arange(len(F)), 3), len(F) + F.ravel()], axis=1)
@@ -60,12 +63,11 @@ def _of_one_part(label, F):
     return np.argsort(np.argsort(first))[group.ravel()]
 
 
-def _tolerance(V, F):
+def _tolerance(V, F, part):
     """Return the largest distance of vertices to be merged."""
-    count, part = components(F, len(V))
-    length = np.linalg.norm(V[F[:, 1]] - V[F[:, 0]], axis=1)
-    owner = part[F[:, 0]]
-    mean = np.bincount(owner, length, count) / np.maximum(np.bincount(owner, minlength=count), 1)
+    side = columns(V).take(F[:, 1], axis=1) - columns(V).take(F[:, 0], axis=1)
+    length, owner = np.sqrt(dot(*side, *side)), part[F[:, 0]]
+    mean = np.bincount(owner, length) / np.maximum(np.bincount(owner), 1)
     return min(TOLERANCE, OF_EDGES * mean[mean > 1e-12].min(initial=1.0))
 
 

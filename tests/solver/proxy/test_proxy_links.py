@@ -16,6 +16,7 @@ from solver.proxy.neighbours import neighbour_links
 from solver.proxy.thickness import outward_sign, thickness_links
 from solver.rest_measures import areas_and_normals
 from solver.spokes_and_rims import spokes_and_rims
+from solver.triangles import Triangles
 
 
 def mixed_links(V):
@@ -113,7 +114,7 @@ def thickness_of(V, F):
     V = (V - V.min(axis=0)) / np.ptp(V, axis=0).max()
     areas, normals = areas_and_normals(V, F)
     _, part = components(F, len(V))
-    return thickness_links(V, F, normals, areas, part), V
+    return thickness_links(Triangles(V, F), normals, areas, part), V
 
 
 def test_a_slab_is_linked_straight_across():
@@ -148,8 +149,8 @@ def test_a_small_hole_does_not_open_a_part():
     V, F = shapes.sphere(3)
     F = F[V[F].mean(axis=1)[:, 2] < 0.95]
     _, part = components(F, len(V))
-    assert outward_sign(V, F, part)[part[F[0, 0]]] == 1.0
-    assert outward_sign(V, F[:, ::-1], part)[part[F[0, 0]]] == -1.0
+    assert outward_sign(Triangles(V, F), part)[part[F[0, 0]]] == 1.0
+    assert outward_sign(Triangles(V, F[:, ::-1]), part)[part[F[0, 0]]] == -1.0
 
 
 def test_solidity_can_be_changed_without_another_search(monkeypatch):

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The edges of triangles, and which triangles share them."""
+
+import numpy as np
+import scipy.sparse as sp
+
+
+class Edges:
+    """The edges of triangles between n vertices.
+
+    Parameters
+    ----------
+    F : (m,3) int array
+    n : int
+
+    Attributes
+    ----------
+    lower, upper : (e,) int32 arrays
+        The ends of each edge, in ascending order; both are the same for the side of a collapsed
+        triangle.
+    number : (3,m) int array
+        The edge opposite each corner.
+    is_backward : (3,m) bool array
+        Where it runs from its upper to its lower end, in the direction of the triangle.
+    """
+
+    def __init__(self, F, n):
+        corners = F.T.astype(np.int32, order="C")
+        start, end = corners[[1, 2, 0]], corners[[2, 0, 1]]
+        self.is_backward = start > end
+        lower, upper = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()
+        self._order, is_new, self.number = _numbered(lower, upper, n)
+        self.number = self.number.reshape(start.shape)
+        self._is_new = is_new
+        first = self._order[is_new]
+        self.lower, self.upper = lower[first], upper[first]
+
+    def triangles(self):
+        """Return pairs (k,) and (k,) of triangles that have an edge in common.
+
+        If an edge has more than two triangles, each is paired with the next.
+        """
+        is_edge = self.lower != self.upper
+        is_same = ~self._is_new
+        is_same[is_same] = is_edge[self.number.ravel()[self._order[is_same]]]
+        other = np.flatnonzero(is_same)
+        m = self.number.shape[1]
+        return self._order[other - 1] % m, self._order[other] % m
+
+
+def edges_of(start, end, n):
+    """Find which of many edges between n vertices are the same, in either direction.
+
+    Parameters
+    ----------
+    start, end : (h,) int arrays
+
+    Returns
+    -------
+    edges : (e,2) int array
+        Each edge once, the lower end first, in ascending order.
+    number : (h,) int array
+        The index of each given edge among them.
+    """
+    lower, upper = np.minimum(start, end), np.maximum(start, end)
+    order, is_new, number = _numbered(lower, upper, n)
+    first = order[is_new]
+    return np.stack([lower[first], upper[first]], axis=1), number
+
+
+def _numbered(lower, upper, n):
+    """Return numbers of pairs below n, in ascending order.
+
+    Returns
+    -------
+    order : (h,) int array
+        Their stable order.
+    is_new : (h,) bool array
+        Which are not as the one before in it.
+    number : (h,) int array
+        Of each pair; the same if they are.
+    """
+    order = stable_order(upper, n)
+    order = order[stable_order(lower[order], n)].astype(np.intp)
+    lower, upper = lower[order], upper[order]
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (lower[1:] != lower[:-1]) | (upper[1:] != upper[:-1])
+    number = np.empty(len(order), dtype=np.intp)
+    number[order] = np.cumsum(is_new) - 1
+    return order, is_new, number
+
+
+def stable_order(keys, count):
+    """Return the stable order of integer keys below count, by counting instead of comparing."""
+    rows = np.arange(len(keys) + 1, dtype=np.int32)
+    one_per_row = sp.csr_matrix((keys, keys, rows), shape=(len(keys), count))
+    return one_per_row.tocsc().indices
