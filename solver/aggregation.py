@@ -14,6 +14,26 @@ from .optional_packages import optional_package
 _SMOOTHING = 4.0 / 3.0  # of the prolongation, in parts of Gershgorin's bound of each row
 
 
+def aggregates(A):
+    """Return disjoint groups of coupled unknowns: the number (n,) of each one's group.
+
+    A : (n,n) csr_matrix
+        Symmetric; only its pattern counts. What is coupled to nothing is a group of its own.
+    """
+    members = _members(A)
+    is_member = np.diff(members.indptr) > 0
+    group = np.full(A.shape[0], -1)
+    group[is_member] = members.indices
+    group[~is_member] = members.shape[1] + np.arange(np.count_nonzero(~is_member))
+    return group
+
+
+def _members(A):
+    """Return the (n,k) csr_array of which unknown is in which aggregate."""
+    pyamg = optional_package("pyamg")
+    return pyamg.aggregation.aggregate.standard_aggregation(sp.csr_array(A))[0]
+
+
 def aggregated(A):
     """Return a prolongation from a coarser level, and the matrix of that level.
 
@@ -29,8 +49,7 @@ def aggregated(A):
     coarse : (k,k) csr_matrix
         P'AP. With no aggregate at all, a single row that P leaves alone.
     """
-    pyamg = optional_package("pyamg")
-    members, _ = pyamg.aggregation.aggregate.standard_aggregation(sp.csr_array(A))
+    members = _members(A)
     if not members.nnz:
         return sp.csr_matrix((A.shape[0], 1)), sp.identity(1, format="csr")
     T = sp.csr_matrix(members, dtype=np.float64)

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .contraction import contract
 from .cotangents import cotangents
-from .decimation import decimate
 from .memory import check_memory
 from .mesh_checks import check_mesh
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
@@ -23,9 +23,6 @@ from .spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .topology import Topology, topology
 from .triangles import Triangles
 from .unit_box import UnitBox
-
-COARSENING = 16
-"""number of triangles of a mesh per triangle of its coarser mesh"""
 
 
 @dataclass(frozen=True)
@@ -174,10 +171,11 @@ class RestMesh:
     @cached_property
     def coarse(self):
         """The Coarsening, or None if it is not available."""
-        decimated = decimate(self.V, self.F, COARSENING)
-        if decimated is None:
+        neighbours = self.skin.matrix(self.skin.laplacian)
+        contracted = contract(self.V, self.F, neighbours, self.topology.part)
+        if contracted is None:
             return None
-        V, F, cluster = decimated
+        V, F, cluster = contracted
         coarse = rest_mesh(V, F)
         at = cluster if coarse.input_map.order is None else coarse.place[1][cluster]
         return Coarsening(coarse._linked(self.links.mapped(at)), cluster)

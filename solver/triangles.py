@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What several steps of the set-up need of the triangles of a surface, computed once."""
 
+import numpy as np
+
 from .edges import Edges
 from .rest_measures import triangle_areas_and_normals
 
@@ -41,3 +43,14 @@ class Triangles:
     def parts(self, part):
         """Return the part (m,) of each triangle from those of the vertices (n,)."""
         return part[self.F[:, 0]]
+
+
+def distinct(F):
+    """Return the triangles with three different corners, one of each set of corners."""
+    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
+    corners = np.sort(F.astype(np.int64), axis=1)
+    order = np.lexsort(corners.T[::-1])
+    ordered = corners[order]
+    is_new = np.ones(len(F), dtype=bool)
+    is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    return F[np.sort(order[is_new])]

@@ -22,7 +22,7 @@ SETTINGS = (
     *("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
     "with_modifiers",
 )
-OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg", "fast-simplification")
+OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg")
 
 
 def write_report(

@@ -6,6 +6,7 @@ import numpy as np
 from ..algebra import columns, dot
 from ..components import components
 from ..edges import Edges
+from ..triangles import distinct
 
 TOLERANCE = 1e-6
 """of the largest extent; closer vertices are at the same place..."""
@@ -47,7 +48,7 @@ def weld(V, F, part=None):
     group = _of_one_part(label, F)
     first = np.full(int(group.max()) + 1, len(V))
     np.minimum.at(first, group, np.arange(len(V)))
-    return group, first, _distinct(group[F].astype(F.dtype))
+    return group, first, distinct(group[F].astype(F.dtype))
 
 
 def _of_one_part(label, F):
@@ -98,14 +99,3 @@ def _joined(one, other):
         if np.array_equal(lower, label):
             return label
         label = lower
-
-
-def _distinct(F):
-    """Return the triangles with three different corners, one of each set of corners."""
-    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
-    corners = np.sort(F.astype(np.int64), axis=1)
-    order = np.lexsort(corners.T[::-1])
-    ordered = corners[order]
-    is_new = np.ones(len(F), dtype=bool)
-    is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    return F[np.sort(order[is_new])]

@@ -22,7 +22,7 @@ for name in ("create_connection", "getaddrinfo"):
 import bpy  # noqa: E402
 
 NAME = "bl_ext.user_default.cubic_craft"
-BROUGHT = ("taichi", "scipy", "cholespy", "pyamg", "fast_simplification", "rich")
+BROUGHT = ("taichi", "scipy", "cholespy", "pyamg", "rich")
 FOLDER = Path(os.environ["BLENDER_USER_RESOURCES"])
 
 
@@ -61,7 +61,7 @@ def cubify_monkey():
 
 
 def cubify_large():
-    """More than 60,000 vertices, from which on pyamg and fast-simplification are used."""
+    """More than 60,000 vertices, from which on pyamg is used."""
     bpy.ops.mesh.primitive_uv_sphere_add(segments=320, ring_count=200)
     cubify(max_iterations=3)
 
@@ -92,7 +92,7 @@ def first(archive):
     install(archive)
     cubify_monkey()
     cubify_large()
-    check_imports("taichi", "scipy", "cholespy", "pyamg", "fast_simplification")
+    check_imports("taichi", "scipy", "cholespy", "pyamg")
     check(bpy.ops.preferences.addon_disable(module=NAME))
     assert not hasattr(bpy.types.Object, "cubic_craft")
     check(bpy.ops.preferences.addon_enable(module=NAME))

@@ -144,7 +144,7 @@ def test_rotations_that_the_kernel_does_not_certify_are_found_too(
 
 
 def test_it_starts_from_a_coarser_mesh_and_can_be_looked_at(monkeypatch, on_a_device):
-    pytest.importorskip("fast_simplification")
+    pytest.importorskip("pyamg")
     monkeypatch.setattr("solver.coarse_start.LEAST_VERTICES", 600)
     monkeypatch.setattr("solver.coarse_start.COARSEST_VERTICES", 300)
 
