@@ -15,7 +15,9 @@ tubes may become flatter. So only meshes that would take too long from rest are 
 """
 
 import numpy as np
+import scipy.sparse as sp
 
+from .algebra import columns, cross, dot
 from .rotation_fit import orthonormalize
 
 LEAST_VERTICES = 60_000
@@ -27,7 +29,6 @@ TOLERANCE = 1e-2
 MAX_ITERATIONS = 40
 """More of them come no nearer to the end of the fine mesh: the minima of both differ by more."""
 
-_AVERAGINGS = 2  # over the neighbours: clusters would leave a step at each of their borders
 _ORTHONORMALIZATIONS = 4
 _LEAST_DETERMINANT = 0.9  # less was no average of similar rotations
 
@@ -50,8 +51,7 @@ def coarse_stylization(fine):
 def prolongate(coarse, fine):
     """Start a new Stylization from the current state of a coarser one."""
     positions, R = coarse.placed()
-    merged = R[fine.rest.coarse.cluster]
-    fine.start_from(*_prolongate(fine.rest, positions, _smoothed(fine.rest, merged)))
+    fine.start_from(*_prolongate(fine.rest, positions, _smoothed(fine.rest, R)))
 
 
 def preview_on_fine(positions, R, rest):
@@ -67,12 +67,17 @@ def _prolongate(rest, positions, R):
 
 
 def _smoothed(rest, R):
-    """Average rotations (n,3,3) over the neighbours of each vertex."""
-    neighbours = rest.matrices.matrix(np.ones(len(rest.matrices.indices)))
-    counts = np.diff(rest.matrices.indptr)[:, None]
-    average = R.reshape(-1, 9)
-    for _ in range(_AVERAGINGS):
-        average = (neighbours @ average) / counts
+    """Return rotations (n,3,3): those of the coarser mesh (k,3,3), averaged over neighbours twice.
+
+    Clusters would leave a step at each of their borders.
+    """
+    cluster, counts = rest.coarse.cluster, np.diff(rest.matrices.indptr)
+    neighbours = rest.matrices.matrix(np.repeat(1.0 / counts, counts))
+    of_clusters = (neighbours.data, cluster[neighbours.indices], neighbours.indptr)
+    average = neighbours @ (sp.csr_matrix(of_clusters, shape=(len(counts), len(R))) @ columns(R).T)
     average = orthonormalize(average.reshape(-1, 3, 3), _ORTHONORMALIZATIONS)
-    is_rotation = np.linalg.det(average) > _LEAST_DETERMINANT
-    return np.where(is_rotation[:, None, None], average, R)
+    entries = columns(average)
+    determinant = dot(*entries[:3], *cross(*entries[3:6], *entries[6:]))
+    others = np.flatnonzero(determinant <= _LEAST_DETERMINANT)
+    average[others] = R[cluster[others]]
+    return average

@@ -170,8 +170,31 @@ def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
 
 
 def test_where_neighbours_differ_too_much_to_be_averaged_they_keep_their_rotations():
-    V, F = shapes.blob(2)
+    V, F = shapes.blob(4)
+    rest = rest_mesh(V, F)
     R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0]), np.diag([-1.0, 1.0, -1.0])])
-    R = R[np.arange(len(V)) % 3]
-    smoothed = _smoothed(rest_mesh(V, F), R)
+    R = R[np.arange(len(rest.coarse.rest.V)) % 3]
+    smoothed = _smoothed(rest, R)
     assert (np.linalg.det(smoothed) > 0.9).all()  # the iteration does the rest
+    np.testing.assert_allclose(
+        smoothed @ smoothed.swapaxes(1, 2), np.eye(3) + 0 * smoothed, atol=0.2
+    )
+
+
+def test_rotations_are_averaged_over_the_neighbours():
+    V, F = shapes.blob(4)
+    rest = rest_mesh(V, F)
+    one = shapes.rotation(10.0, 20.0, 30.0)
+    np.testing.assert_allclose(
+        _smoothed(rest, np.tile(one, (len(rest.coarse.rest.V), 1, 1))),
+        one + np.zeros((len(rest.V), 3, 3)),
+    )
+    angles = 20.0 * rest.coarse.rest.V[:, 0]
+    R = np.stack([shapes.rotation(0.0, 0.0, angle) for angle in angles])
+    smoothed = _smoothed(rest, R)
+    i, j = rest.F[:, 0], rest.F[:, 1]
+
+    def steps(R):
+        return np.linalg.norm(R[i] - R[j], axis=(1, 2)).max()
+
+    assert steps(smoothed) < 0.7 * steps(R[rest.coarse.cluster])
