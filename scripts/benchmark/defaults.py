@@ -9,7 +9,7 @@ from solver import Run as SlicedRun
 from .machine import peak_memory
 from .meshes import read
 from .our_solver import load_kernels, over, solve
-from .phases import put_under_clock
+from .phases import WhileAnyRuns
 from .race import LONG_ITERATIONS, LONG_SECONDS, LONG_TOLERANCE
 
 SETTINGS = {
@@ -17,7 +17,7 @@ SETTINGS = {
     "defaults": {"proxy": ProxyOptions(), "keep_rotation": True},
 }
 LINKS = {"neighbours": (rest, "neighbour_links"), "other side": (rest, "thickness_links")}
-"""what looks for links"""
+"""what looks for links, side by side"""
 SLICE = 0.02
 """seconds that Live computes in a tick, the last phase of the solver on top"""
 DRAGGED = 0.3
@@ -39,11 +39,11 @@ def side_by_side(path, cubeness, runs):
     load_kernels()
     for settings in SETTINGS.values():  # imports, and cold caches
         solve(V, F, cubeness, max_iterations=3, **settings)
-    link_seconds = put_under_clock(LINKS)
+    finding_links = WhileAnyRuns(LINKS)
     results = {name: [] for name in SETTINGS}
     for _ in range(runs):
         for name in SETTINGS:
-            results[name].append(_figures(V, F, cubeness, name, link_seconds))
+            results[name].append(_figures(V, F, cubeness, name, finding_links))
     bounds = {name: _bounds(V, F, cubeness, name, runs) for name, runs in results.items()}
     return results | {"bounds": bounds}
 
@@ -51,9 +51,9 @@ def side_by_side(path, cubeness, runs):
 def alone(path, cubeness, name):
     """Run one of `SETTINGS`, as the first of its process; return its memory too."""
     load_kernels()
-    link_seconds = put_under_clock(LINKS)
+    finding_links = WhileAnyRuns(LINKS)
     with peak_memory() as memory:
-        figures = _figures(*read(path), cubeness, name, link_seconds)
+        figures = _figures(*read(path), cubeness, name, finding_links)
     del figures["curve"]
     return figures | memory
 
@@ -82,16 +82,16 @@ def ticks(path, cubeness):
     return seconds
 
 
-def _figures(V, F, cubeness, name, link_seconds):
+def _figures(V, F, cubeness, name, finding_links):
     """Return the figures of a run, seconds of finding ``links``, and ``solved``.
 
     ``solved`` is the number of vertices that are solved: more than are given where a mesh is
     refined, fewer where it is welded.
     """
-    link_seconds.clear()
+    finding_links.seconds = 0.0
     run = solve(V, F, cubeness, **SETTINGS[name])
     return run.figures | {
-        "links": link_seconds.total(),
+        "links": finding_links.seconds,
         "solved": len(run.setup.rest.V),
     }
 

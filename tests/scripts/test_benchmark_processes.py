@@ -54,6 +54,25 @@ def test_clock_on_functions(monkeypatch):
     assert (seconds["working"], seconds["idling"]) == (5.0, 0)
 
 
+def test_clock_while_any_of_some_functions_runs(monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(phases.time, "perf_counter", lambda: clock[0])
+
+    def wait(seconds):
+        clock[0] += seconds
+
+    def begin_with(seconds, inner):
+        clock[0] += seconds
+        inner()
+
+    owner = types.SimpleNamespace(outer=begin_with, inner=wait)
+    both = phases.WhileAnyRuns({"one": (owner, "outer"), "other": (owner, "inner")})
+    owner.outer(2.0, lambda: owner.inner(3.0))  # the other runs while the one does
+    wait(10.0)
+    owner.inner(1.0)
+    assert both.seconds == 6.0
+
+
 def test_split_of_set_up_and_iteration():
     # set-up: 5 s of a, 2 s of what is not timed; each iteration: 1 s of a, 3 s of b, 0.5 s left
     marks = [(11.5 + 4.5 * k, {"a": 6.0 + k, "b": 3.0 + 3 * k}) for k in range(3)]
