@@ -77,4 +77,5 @@ stylize(*shapes.blob(1), device="cpu", max_iterations=1)
     printed = [path.read_text() for path in tmp_path.glob("*.ll")]
     (kernel,) = (text for text in printed if "local_step" in text)
     products = [line for line in kernel.splitlines() if "fmul" in line]
-    assert sum(" x double>" in line for line in products) > 0.7 * len(products)
+    # more than 0.7 with AVX2, fewer on a processor that is newer than Taichi's LLVM
+    assert sum(" x double>" in line for line in products) > 0.5 * len(products)
