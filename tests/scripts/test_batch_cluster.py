@@ -57,7 +57,7 @@ def test_a_batch_on_a_cluster(folder, cluster):
 def test_files_of_a_batch_that_is_stopped_are_given_up(folder, cluster, number):
     address, worker = cluster
     for name in NAMES:
-        (folder / "meshes" / name).write_text(waves(60))
+        (folder / "meshes" / name).write_text(waves(200))
     process = start("meshes", "--scheduler", address, cwd=folder, options=ENDLESS)
     wait_until_they_solve(wait_for_files(worker, 2))
     assert process.poll() is None

@@ -87,7 +87,7 @@ def test_stopped_in_the_middle(folder, number):
 @on_posix
 def test_all_workers_end_with_the_batch(folder):
     for name in NAMES:
-        (folder / "meshes" / name).write_text(waves(60))
+        (folder / "meshes" / name).write_text(waves(200))
     process = start("meshes", "--jobs", "2", cwd=folder, options=ENDLESS)
     workers = wait_for_files(process, 2)
     wait_until_they_solve(workers)
