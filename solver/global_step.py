@@ -11,6 +11,7 @@ from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import NoTurning
 from .proxy.samples import extents
+from .tall_products import transposed_product
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
@@ -161,7 +162,8 @@ class GlobalStep:
     def _centre(self, U, weight):
         rest = self._rest
         if rest.topology.component_count == 1:
-            shift = weight @ rest.V - weight @ U
+            share = weight[:, None]
+            (shift,) = transposed_product(share, rest.V) - transposed_product(share, U)
             for c in range(3):  # adding rows of three takes NumPy ten times as long
                 U[:, c] += shift[c]
             return

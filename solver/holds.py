@@ -15,6 +15,7 @@ import numpy as np
 
 from .no_turning import torque
 from .rotation_fit import svd_rotations
+from .tall_products import tall_product, transposed_product
 
 _SMALLEST = 1e-9  # relative; a group on a line may turn about it
 
@@ -94,7 +95,7 @@ class Holds:
         """Return the places and torques of the groups, (6g,)."""
         found = []
         for w, pull in zip(self._places, self._pulls, strict=True):
-            found += [w @ U, torque(pull, U)]
+            found += [transposed_product(w[:, None], U)[0], torque(pull, U)]
         return np.concatenate(found)
 
     def _system(self):
@@ -119,7 +120,7 @@ class Holds:
         change = np.zeros((len(self._component), 3))
         for g, (P, T) in enumerate(self._moves):
             a, b = unknown[6 * g : 6 * g + 3], unknown[6 * g + 3 : 6 * g + 6]
-            change += P[:, None] * a + T @ _cross(b).T
+            change += P[:, None] * a + tall_product(T, _cross(b).T)
         begin = 6 * len(self._places)
         for j, component in enumerate(self._free):
             change[self._component == component] += unknown[begin + 3 * j : begin + 3 * j + 3]

@@ -18,6 +18,7 @@ component back after each step would cost energy, possibly more than the step ha
 import numpy as np
 
 from .algebra import axial
+from .tall_products import tall_product, transposed_product
 
 SMALLEST = 1e-9
 """relative stiffness that still counts: what lies on a line may turn about it"""
@@ -65,7 +66,7 @@ class NoTurning:
             return U
         if self._topology.component_count == 1:
             (mu,) = self.twist(torque(self.pull, U)[None])
-            return U + self.P @ np.cross(mu, np.eye(3))
+            return U + tall_product(self.P, np.cross(mu, np.eye(3)))
         mu = self.twist(self._topology.sum_parts(np.cross(self.pull, U)))
         return U + np.cross(mu[self._topology.component], self.P)
 
@@ -79,5 +80,4 @@ def torque(pull, U):
 
     By a product of matrices: the cross product of each row takes longer.
     """
-    S = pull.T @ U
-    return np.array(axial(*S.flat))
+    return np.array(axial(*transposed_product(pull, U).flat))

@@ -19,6 +19,7 @@ import numpy as np
 from .algebra import axial
 from .no_turning import SMALLEST
 from .proxy.samples import extents
+from .tall_products import tall_product, transposed_product
 
 LARGE = 0.25
 """extent of a part whose rotation is kept, relative to that of its component"""
@@ -76,10 +77,11 @@ class UprightParts:
     def impose(self, U):
         """Move positions U (n,3), in place, to the nearest in which no such part has turned."""
         for c, rows in self._rows.items():
-            S = (self._pulls[c].T @ U[rows]).reshape(-1, 3, 3)
+            S = transposed_product(self._pulls[c], U[rows]).reshape(-1, 3, 3)
             torques = np.stack(axial(*S.reshape(-1, 9).T), axis=1)
             mu = (self._inverses[c] @ -torques.ravel()).reshape(-1, 3)
-            U[rows] += self._ways[c] @ np.concatenate([np.cross(m, np.eye(3)) for m in mu])
+            turns = np.concatenate([np.cross(m, np.eye(3)) for m in mu])
+            U[rows] += tall_product(self._ways[c], turns)
 
 
 def _large_parts(rest, is_free):
