@@ -3,6 +3,7 @@
 
 import importlib
 import os
+import time
 
 import bpy
 import guidrive as gui
@@ -17,8 +18,13 @@ def solver_fails(original):
     def fail(*_args, **_options):
         raise RuntimeError("the solver is broken")
 
+    def work_for_long(*arguments, **options):
+        time.sleep(0.1)  # or a fast machine is done before the solver fails
+        return step(*arguments, **options)
+
     slider = yield from scene.cubeness_slider()
     for moment in ("working", "idle", "finishing"):
+        solver.Stylization.local_step = step if moment == "idle" else work_for_long
         yield from scene.start_live()
         if moment == "idle":
             yield from scene.wait_idle()
