@@ -11,7 +11,7 @@ from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import NoTurning
 from .proxy.samples import extents
-from .tall_products import transposed_product
+from .tall_products import weighted_sum
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
@@ -162,8 +162,7 @@ class GlobalStep:
     def _centre(self, U, weight):
         rest = self._rest
         if rest.topology.component_count == 1:
-            share = weight[:, None]
-            (shift,) = transposed_product(share, rest.V) - transposed_product(share, U)
+            shift = weighted_sum(weight, rest.V) - weighted_sum(weight, U)
             for c in range(3):  # adding rows of three takes NumPy ten times as long
                 U[:, c] += shift[c]
             return

@@ -15,7 +15,7 @@ import numpy as np
 
 from .no_turning import torque
 from .rotation_fit import svd_rotations
-from .tall_products import tall_product, transposed_product
+from .tall_products import tall_product, weighted_sum
 
 _SMALLEST = 1e-9  # relative; a group on a line may turn about it
 
@@ -95,7 +95,7 @@ class Holds:
         """Return the places and torques of the groups, (6g,)."""
         found = []
         for w, pull in zip(self._places, self._pulls, strict=True):
-            found += [transposed_product(w[:, None], U)[0], torque(pull, U)]
+            found += [weighted_sum(w, U), torque(pull, U)]
         return np.concatenate(found)
 
     def _system(self):

@@ -3,14 +3,20 @@
 
 OpenBLAS computes them on all cores. They have next to nothing to compute, and where another program
 uses a core, one of 0.03 ms waits 4 to 10 ms for it, in every iteration. It leaves small ones to one
-core, so here they are cut into blocks; that is never slower, and the result has the same bits on
-any number of cores.
+core, so here they are cut into blocks. With those, a result has the same bits on any number of
+cores.
 """
 
 import numpy as np
 
-_ROWS = 2048
-"""of a block; OpenBLAS takes more cores from 3,072 rows of 3 columns"""
+_ROWS = 1024
+"""of a block. OpenBLAS takes more cores where rows times columns of both exceed 2**18, so this is
+enough for the 51 columns that `upright_parts.py` may have with 3 others."""
+
+
+def weighted_sum(weights, U):
+    """Return the sum (q,) of the rows of a tall matrix (n,q), by weights (n,)."""
+    return transposed_product(weights[:, None], U)[0]
 
 
 def tall_product(A, X):

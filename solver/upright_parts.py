@@ -19,7 +19,7 @@ import numpy as np
 from .algebra import axial
 from .no_turning import SMALLEST
 from .proxy.samples import extents
-from .tall_products import tall_product, transposed_product
+from .tall_products import tall_product, transposed_product, weighted_sum
 
 LARGE = 0.25
 """extent of a part whose rotation is kept, relative to that of its component"""
@@ -64,7 +64,8 @@ class UprightParts:
             for c in having:
                 vertices = groups[c][k]
                 share = rest.standing[vertices] / rest.standing[vertices].sum()
-                pull[vertices] = share[:, None] * (rest.V[vertices] - share @ rest.V[vertices])
+                V = rest.V[vertices]
+                pull[vertices] = share[:, None] * (V - weighted_sum(share, V))
             P = solve(pull)
             for c in having:
                 rows = self._rows[c]
@@ -120,7 +121,7 @@ def _linked_share(rest):
 def _centroid(areas, P):
     """Return the centroid (3,), which is to stay where it is."""
     weight = areas + 1e-300
-    return P.T @ (weight / weight.sum())
+    return weighted_sum(weight / weight.sum(), P)
 
 
 def _inverse(pulls, ways):

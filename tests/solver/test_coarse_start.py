@@ -26,7 +26,7 @@ def large(monkeypatch):
 
 
 @pytest.mark.parametrize(("levels", "pins"), [(4, 0), (5, 800)])
-def test_it_ends_no_higher_and_is_sooner_on_the_way_there(levels, pins, large, device):
+def test_it_ends_no_higher_and_is_sooner_near_the_end(levels, pins, large, device):
     V, F = shapes.blob(levels)
     pinned = np.argsort(V[:, 2])[:pins]
     targets = V + np.where(V[:, 2:] < V[pinned, 2].max(initial=-9.0), 0.1, 0.0)
@@ -42,12 +42,12 @@ def test_it_ends_no_higher_and_is_sooner_on_the_way_there(levels, pins, large, d
     from_coarse, energies_from_coarse = solved(True)
     assert from_coarse.converged
     assert from_coarse.energy.total <= from_rest.energy.total * (1 + 1e-3)
-    ends = from_rest.energy.total * (1 + np.array([0.03, 0.01, 0.003, 0.001]))
+    near = from_rest.energy.total * (1 + 1e-3)
     sooner, later = (
-        sum(next(number for number, energy in enumerate(energies) if energy <= end) for end in ends)
+        next(number for number, energy in enumerate(energies) if energy <= near)
         for energies in (energies_from_coarse, energies_from_rest)
     )
-    assert sooner < 0.9 * later
+    assert sooner < by_device(device, 0.75, 0.9) * later
     np.testing.assert_array_equal(from_coarse.positions[pinned], targets[pinned])
 
 

@@ -77,5 +77,7 @@ stylize(*shapes.blob(1), device="cpu", max_iterations=1)
     printed = [path.read_text() for path in tmp_path.glob("*.ll")]
     (kernel,) = (text for text in printed if "local_step" in text)
     products = [line for line in kernel.splitlines() if "fmul" in line]
-    # more than 0.7 with AVX2, fewer on a processor that is newer than Taichi's LLVM
-    assert sum(" x double>" in line for line in products) > 0.5 * len(products)
+    in_vectors = [line for line in products if " x double>" in line]
+    # for a processor that Taichi's LLVM does not know: vectors of two, and more is left as it is
+    is_unknown = sum("<2 x double>" in line for line in in_vectors) > 0.5 * len(in_vectors)
+    assert len(in_vectors) > (0.5 if is_unknown else 0.7) * len(products)

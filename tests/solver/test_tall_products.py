@@ -9,37 +9,55 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solver.tall_products import tall_product, transposed_product
+from solver.tall_products import tall_product, transposed_product, weighted_sum
 
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("rows", [0, 1, 2047, 2048, 2049, 10_000])
-@pytest.mark.parametrize("columns", [1, 3, 18])
+@pytest.mark.parametrize("rows", [0, 1, 1023, 1024, 1025, 10_000])
+@pytest.mark.parametrize("columns", [1, 3, 51])
 def test_they_are_the_products(rows, columns):
     random = np.random.default_rng(rows)
     A, B, X = (random.random(shape) for shape in ((rows, columns), (rows, 3), (columns, 3)))
     np.testing.assert_allclose(tall_product(A, X), A @ X, rtol=1e-12)
     np.testing.assert_allclose(transposed_product(A, B), A.T @ B, rtol=1e-12)
+    np.testing.assert_allclose(weighted_sum(A[:, 0], B), A[:, 0] @ B, rtol=1e-12)
     strided = np.repeat(A, 2, axis=1)[:, ::2]
     np.testing.assert_allclose(tall_product(strided, X), A @ X, rtol=1e-12)
 
 
-def test_the_number_of_cores_changes_no_bit():
-    code = f"""
-import sys
+START = f"""
+import sys, time
 sys.path.insert(0, {str(ROOT)!r})
 import numpy as np
 from solver.tall_products import tall_product, transposed_product
-A = np.random.default_rng(0).random((100_003, 18))
-print(transposed_product(A, A[:, :3]).tobytes().hex(), hash(tall_product(A, A[:18, :3]).tobytes()))
+A = np.random.default_rng(0).random((100_003, 51))
 """
 
-    def with_cores(count):
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": count, "PYTHONHASHSEED": "0"}
-        command = [sys.executable, "-c", code]
-        return subprocess.run(
-            command, check=True, env=environment, capture_output=True, text=True
-        ).stdout
 
-    assert with_cores("1") == with_cores("2")
+def output_of(code, cores):
+    """Return what a process prints that may use so many cores, and starts with a matrix `A`."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": cores, "PYTHONHASHSEED": "0"}
+    command = [sys.executable, "-c", START + code]
+    done = subprocess.run(command, check=True, env=environment, capture_output=True, text=True)
+    return done.stdout
+
+
+def test_the_number_of_cores_changes_no_bit():
+    code = """
+print(transposed_product(A, A[:, :3].copy()).tobytes().hex())
+print(hash(tall_product(A, A[:51, :3].copy()).tobytes()))
+"""
+    assert output_of(code, "1") == output_of(code, "2")
+
+
+def test_they_keep_to_one_core():
+    """A second one would be busy too, and count in the time of the process."""
+    code = """
+U, X = A[:, :3].copy(), A[:51, :3].copy()
+of_process, passed = time.process_time(), time.perf_counter()
+for _ in range(20):
+    tall_product(A, X), transposed_product(A, U)
+print((time.process_time() - of_process) / (time.perf_counter() - passed))
+"""
+    assert float(output_of(code, "2")) < 1.3
