@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live when the solver fails in the middle of it, and when another add-on takes Taichi away."""
 
+import contextlib
 import importlib
 import os
 import time
@@ -10,26 +11,41 @@ import guidrive as gui
 import live_scene as scene
 
 
+def stylization():
+    return importlib.import_module(f"{scene.EXTENSION}.solver").Stylization
+
+
+@contextlib.contextmanager
+def slow_solver():
+    """Have Live still work once it has started, however fast the machine is."""
+    step = stylization().local_step
+
+    def after_a_while(*arguments, **options):
+        time.sleep(0.1)
+        return step(*arguments, **options)
+
+    stylization().local_step = after_a_while
+    try:
+        yield
+    finally:
+        stylization().local_step = step
+
+
 def solver_fails(original):
     """Live ends by itself, says why, and has lost nothing."""
-    solver = importlib.import_module(f"{scene.EXTENSION}.solver")
-    step = solver.Stylization.local_step
+    step = stylization().local_step
 
     def fail(*_args, **_options):
         raise RuntimeError("the solver is broken")
 
-    def work_for_long(*arguments, **options):
-        time.sleep(0.1)  # or a fast machine is done before the solver fails
-        return step(*arguments, **options)
-
     slider = yield from scene.cubeness_slider()
     for moment in ("working", "idle", "finishing"):
-        solver.Stylization.local_step = step if moment == "idle" else work_for_long
-        yield from scene.start_live()
+        with slow_solver():
+            yield from scene.start_live()
         if moment == "idle":
             yield from scene.wait_idle()
         session = scene.live().current()
-        solver.Stylization.local_step = fail
+        stylization().local_step = fail
         try:
             if moment == "idle":
                 yield from gui.drag_slider(slider, 0.5, 0.7)
@@ -37,7 +53,7 @@ def solver_fails(original):
                 session.on(scene.live().Event.CONFIRM)
             yield from scene.wait_over()
         finally:
-            solver.Stylization.local_step = step
+            stylization().local_step = step
         assert "the solver is broken" in session.error
         assert scene.positions() == original, moment
         assert gui.counts["undo"] == 0
@@ -57,7 +73,8 @@ def another_add_on_has_taichi():
 
     slider = yield from scene.cubeness_slider()
     for disturb in (lambda: ti.init(arch=ti.cpu, default_fp=ti.f32), ti.reset):
-        yield from scene.start_live()
+        with slow_solver():
+            yield from scene.start_live()
         disturb()
         before = scene.positions()
         yield from scene.wait_idle_with(lambda b=before: scene.positions() != b, "a change")
