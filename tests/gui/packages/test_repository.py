@@ -95,8 +95,8 @@ def install(version, picture):
             what="the download",
             timeout=30,
         )
-    except TimeoutError:  # a click on a list that is being drawn anew is lost
-        yield from gui.click(button)
+    except TimeoutError:  # a click on a list that still moves is lost: it was checking for updates
+        yield from gui.click((yield from gui.find_button("extensions.package_install", **WHERE)))
     yield from wait_installed(MODULE, version)
 
 
