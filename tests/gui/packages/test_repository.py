@@ -14,11 +14,11 @@ import urllib.request
 
 import bpy
 import guidrive as gui
+from bl_pkg.bl_extension_notify import update_in_progress
 from preferences_area import (
     WHERE,
     cubify,
     extensions,
-    manifest,
     open_entry,
     open_preferences,
     press,
@@ -82,6 +82,9 @@ def synchronise():
         assert bpy.ops.extensions.repo_sync_all() == {"FINISHED"}
     yield from gui.wait_until(lambda: not gui.running_operators(), what="the listing")
     yield from redraw()
+    # Until Blender has checked for updates, the list is greyed out; then it moves up.
+    yield from gui.wait_until(lambda: not update_in_progress(), what="the check for updates")
+    yield from redraw()
 
 
 def install(version, picture):
@@ -89,14 +92,6 @@ def install(version, picture):
     button = yield from gui.find_button("extensions.package_install", **WHERE)
     yield from gui.screenshot(picture)
     yield from gui.click(button)
-    try:
-        yield from gui.wait_until(
-            lambda: gui.running_operators() or manifest(MODULE).get("version") == version,
-            what="the download",
-            timeout=30,
-        )
-    except TimeoutError:  # a click on a list that still moves is lost: it was checking for updates
-        yield from gui.click((yield from gui.find_button("extensions.package_install", **WHERE)))
     yield from wait_installed(MODULE, version)
 
 
