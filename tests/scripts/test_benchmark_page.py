@@ -219,3 +219,14 @@ def test_targets_of_the_defaults(results, vertices, ticks, names):
     case = results["defaults"][0] | {"vertices": vertices, "ticks": ticks}
     found = targets(NOTHING | {"defaults": [case]})
     assert [row["target"].rpartition(", ")[2] for row in found] == names
+
+
+def test_a_mesh_is_judged_by_the_mean_over_its_cases(results):
+    case = results["defaults"][0]
+    slower = case | {
+        "cubeness": 1.0,
+        "paper": [{"seconds": 4.0}],
+        "defaults": [{"seconds": 19.2, "links": 0.35}],
+    }
+    found = targets(NOTHING | {"defaults": [case, slower]})
+    assert [row["measured"] for row in found[:2]] == ["2.40", "0.30"]
