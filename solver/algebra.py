@@ -74,6 +74,11 @@ def axial(a, b, c, d, e, f, g, h, i):
     return [f - h, g - c, b - d]
 
 
+AXIAL = np.array([axial(*entries) for entries in np.eye(9)])
+"""(9,3): matrices (k,9) times it are their axial vectors; its transpose makes of vectors m the
+matrices with the rows m x e_1, m x e_2, m x e_3. For few; of many, columns take less time"""
+
+
 def cross(a, b, c, x, y, z):
     """Return the vector product of two vectors."""
     return [b * z - c * y, c * x - a * z, a * y - b * x]

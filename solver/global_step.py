@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from .centring import Centring
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import NoTurning
 from .proxy.samples import extents
-from .tall_products import weighted_sum
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
@@ -63,7 +63,6 @@ class GlobalStep:
         else:
             self.solve = self.multigrid.solve
         self.is_anchored = has_pin
-        self._floating = self._centring_weights()
 
     @property
     def _laplacian(self):
@@ -80,7 +79,6 @@ class GlobalStep:
         other = copy(self)
         other._forget_constraints()
         other._rest = rest
-        other._floating = other._centring_weights()
         return other
 
     def anchored(self, components):
@@ -89,7 +87,6 @@ class GlobalStep:
         other._forget_constraints()
         other.is_anchored = self.is_anchored.copy()
         other.is_anchored[components] = True
-        other._floating = other._centring_weights()
         return other
 
     @cached_property
@@ -99,17 +96,19 @@ class GlobalStep:
         return ~self.is_anchored & (extents(rest.V, rest.topology.component) > _POINT)
 
     def _forget_constraints(self):
-        for name in ("_may_be_kept", "no_turning", "no_turning_by_cycles", "upright_parts"):
+        for name in (
+            "_may_be_kept",
+            "centring",
+            "no_turning",
+            "no_turning_by_cycles",
+            "upright_parts",
+        ):
             self.__dict__.pop(name, None)
 
-    def _centring_weights(self):
-        """Return the share of each vertex (n,) in its floating component's area, else 0."""
-        if self.is_anchored.all():
-            return None
-        rest = self._rest
-        weight = np.where(self.is_anchored[rest.topology.component], 0.0, rest.areas + 1e-300)
-        total = np.bincount(rest.topology.component, weight, rest.topology.component_count)
-        return weight / np.where(total > 0.0, total, 1.0)[rest.topology.component]
+    @cached_property
+    def centring(self):
+        """The Centring of what floats, created on first use."""
+        return Centring(self._rest, ~self.is_anchored)
 
     @cached_property
     def no_turning(self):
@@ -152,23 +151,13 @@ class GlobalStep:
             Keep each component without pins from turning as a whole, and its large parts, too.
         """
         result = self.solve(rhs, near)
-        if keep_rotation and self._floating is not None:
-            result = self.no_turning.apply(result)
+        if self.is_anchored.all():
+            return result
+        if keep_rotation:
+            self.no_turning.impose(result)
             self.upright_parts.impose(result)
-        if self._floating is not None:
-            self._centre(result, self._floating)
+        self.centring.impose(result)
         return result
-
-    def _centre(self, U, weight):
-        rest = self._rest
-        if rest.topology.component_count == 1:
-            shift = weighted_sum(weight, rest.V) - weighted_sum(weight, U)
-            for c in range(3):  # adding rows of three takes NumPy ten times as long
-                U[:, c] += shift[c]
-            return
-        shift = rest.topology.sum_parts(weight[:, None] * (rest.V - U))
-        moving = weight > 0.0
-        U[moving] += shift[rest.topology.component[moving]]
 
 
 def _solver(L, is_held):

@@ -17,8 +17,7 @@ component back after each step would cost energy, possibly more than the step ha
 
 import numpy as np
 
-from .algebra import axial
-from .tall_products import tall_product, transposed_product
+from .algebra import AXIAL
 
 SMALLEST = 1e-9
 """relative stiffness that still counts: what lies on a line may turn about it"""
@@ -42,7 +41,7 @@ class NoTurning:
     """
 
     def __init__(self, rest, is_free, solve):
-        self._topology = topology = rest.topology
+        topology = rest.topology
         weight = rest.standing
         share = weight / topology.sum_parts(weight)[topology.component]
         centre = topology.sum_parts(share[:, None] * rest.V)
@@ -59,25 +58,15 @@ class NoTurning:
         M = 0.5 * (M + M.swapaxes(1, 2))
         stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
         self._inverse = np.linalg.pinv(stiffness, rcond=SMALLEST, hermitian=True)
+        self._ways = topology.by_component(self.P)
+        self._pulls = topology.by_component(self.pull).T
 
-    def apply(self, U):
-        """Return the nearest positions (n,3) in which nothing has turned."""
-        if self._is_idle:
-            return U
-        if self._topology.component_count == 1:
-            (mu,) = self.twist(torque(self.pull, U)[None])
-            return U + tall_product(self.P, np.cross(mu, np.eye(3)))
-        mu = self.twist(self._topology.sum_parts(np.cross(self.pull, U)))
-        return U + np.cross(mu[self._topology.component], self.P)
+    def impose(self, U):
+        """Move positions U (n,3), in place, to the nearest in which nothing has turned."""
+        if not self._is_idle:
+            mu = self.twist((self._pulls @ U).reshape(-1, 9) @ AXIAL)
+            U += self._ways @ (mu @ AXIAL.T).reshape(-1, 3)
 
     def twist(self, torques):
         """Return mu (component_count,3) for the torques (component_count,3)."""
         return -np.einsum("kij,kj->ki", self._inverse, torques)
-
-
-def torque(pull, U):
-    """Return sum_i y_i x u_i (3,) of two arrays (n,3).
-
-    By a product of matrices: the cross product of each row takes longer.
-    """
-    return np.array(axial(*transposed_product(pull, U).flat))

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 
 from .components import components
 
@@ -67,6 +68,19 @@ class Topology:
         if values.ndim == 2:
             return np.stack([self._sums(column) for column in values.T], axis=1)
         return self._sums(values)
+
+    def by_component(self, values):
+        """Return values (n,k) as a csr_matrix (n, k component_count), for products by component.
+
+        The row of a vertex has its values in the columns of its component: times
+        (k component_count, q) it is what each vertex gets of the small matrix (k,q) of its
+        component, and its transpose times (n,q) is the sum over each component.
+        """
+        n, k = values.shape
+        column = (k * self.component[:, None] + np.arange(k)).astype(np.int32).ravel()
+        start = np.arange(0, n * k + 1, k, dtype=np.int32)
+        shape = n, k * self.component_count
+        return sp.csr_matrix((np.ascontiguousarray(values).ravel(), column, start), shape=shape)
 
     def _sums(self, values):
         return np.bincount(self.component, values, self.component_count)

@@ -16,7 +16,7 @@ P_k = L^-1 (w_k x_k); the mu solve
 
 import numpy as np
 
-from .algebra import axial
+from .algebra import AXIAL
 from .no_turning import SMALLEST
 from .proxy.samples import extents
 from .tall_products import tall_product, transposed_product, weighted_sum
@@ -78,11 +78,9 @@ class UprightParts:
     def impose(self, U):
         """Move positions U (n,3), in place, to the nearest in which no such part has turned."""
         for c, rows in self._rows.items():
-            S = transposed_product(self._pulls[c], U[rows]).reshape(-1, 3, 3)
-            torques = np.stack(axial(*S.reshape(-1, 9).T), axis=1)
+            torques = transposed_product(self._pulls[c], U[rows]).reshape(-1, 9) @ AXIAL
             mu = (self._inverses[c] @ -torques.ravel()).reshape(-1, 3)
-            turns = np.concatenate([np.cross(m, np.eye(3)) for m in mu])
-            U[rows] += tall_product(self._ways[c], turns)
+            U[rows] += tall_product(self._ways[c], (mu @ AXIAL.T).reshape(-1, 3))
 
 
 def _large_parts(rest, is_free):

@@ -111,6 +111,13 @@ def test_the_axial_vector_is_that_of_the_skew_part(check):
     check(applied, [A, b], (A.swapaxes(1, 2) - A) @ b[:, :, None])
 
 
+def test_axial_vectors_and_the_turns_of_vectors_are_products_with_one_matrix():
+    axial = np.stack(algebra.axial(*A.reshape(-1, 9).T), axis=1)
+    np.testing.assert_allclose(A.reshape(-1, 9) @ algebra.AXIAL, axial)
+    turns = (b @ algebra.AXIAL.T).reshape(-1, 3, 3)
+    np.testing.assert_allclose(turns, np.cross(b[:, None], np.eye(3)))
+
+
 def test_symmetric_matrices_are_inverted_by_their_adjugates(check):
     def inverted(*entries):
         adjugate = algebra.adjugate(*entries)

@@ -12,6 +12,7 @@ from solver.components import components
 from solver.cotangents import MAX_COTANGENT, cotangents
 from solver.rest import rest_mesh
 from solver.rest_measures import areas_and_normals, triangle_areas_and_normals
+from solver.topology import topology
 from solver.unit_box import unit_box
 
 RIGHT = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
@@ -93,6 +94,18 @@ def test_components_are_those_of_scipy(vertices):
     count, labels = components(F, n)
     assert count == expected_count
     np.testing.assert_array_equal(labels, expected)
+
+
+def test_values_by_component_multiply_those_of_their_own():
+    V, F = shapes.two_blobs()
+    both = topology(F, len(V))
+    values, U, small = (np.random.default_rng(0).random(s) for s in ((len(V), 2), V.shape, (6, 3)))
+    spread = both.by_component(values)
+    for label in range(3):  # one is a loose vertex
+        part = both.component == label
+        own = slice(2 * label, 2 * label + 2)
+        np.testing.assert_allclose((spread @ small)[part], values[part] @ small[own])
+        np.testing.assert_allclose((spread.T @ U)[own], values[part].T @ U[part])
 
 
 def test_blocks_change_no_bit(monkeypatch):

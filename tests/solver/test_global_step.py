@@ -38,6 +38,22 @@ def test_centroids_of_free_components_stay():
         np.testing.assert_allclose(after, before, atol=1e-12)
 
 
+@pytest.mark.parametrize("make", [shapes.two_blobs, lambda: shapes.blob(2)])
+def test_free_components_do_not_turn_where_their_rotation_is_kept(make):
+    rest = rest_mesh(*make())
+    tilted = rest.V @ shapes.rotation(10, 20, 5)
+    step = GlobalStep(rest, NO_PINS)
+    rhs = rest.matrices.matrix(rest.matrices.laplacian) @ tilted
+    for keep_rotation in (False, True):
+        U = step.positions(rhs, rest.V, keep_rotation)
+        for label in range(rest.topology.component_count):
+            part = rest.topology.component == label
+            weights = rest.standing[part]
+            x, u = (X[part] - np.average(X[part], axis=0, weights=weights) for X in (rest.V, U))
+            torque = np.average(np.cross(x, u), axis=0, weights=weights)
+            assert (float(np.abs(torque).max()) < 1e-12) is keep_rotation
+
+
 def test_pinned_vertices_keep_their_bits_and_their_component_is_not_centred():
     rest = rest_mesh(*shapes.two_blobs())
     pins = np.array([0, 5, 17])
