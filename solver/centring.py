@@ -19,8 +19,7 @@ class Centring:
     def __init__(self, rest, is_floating):
         topology = rest.topology
         self._is_whole = topology.component_count == 1
-        areas = rest.areas + 1e-300
-        share = areas / topology.sum_parts(areas)[topology.component]
+        share = topology.shares(rest.areas + 1e-300)
         if self._is_whole:
             self._share = share
         else:

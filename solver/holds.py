@@ -112,7 +112,7 @@ class Holds:
                 share = w[self._component == component].sum()
                 A[6 * groups + 3 * j :, 6 * g : 6 * g + 3][:3] += share * np.eye(3)
                 pull = self._pulls[g][self._component == component].sum(axis=0)
-                A[6 * groups + 3 * j :, 6 * g + 3 : 6 * g + 6][:3] += -_cross(pull)
+                A[6 * groups + 3 * j :, 6 * g + 3 : 6 * g + 6][:3] += _turn(pull)
         return A
 
     def _change(self, unknown):
@@ -120,7 +120,7 @@ class Holds:
         change = np.zeros((len(self._component), 3))
         for g, (P, T) in enumerate(self._moves):
             a, b = unknown[6 * g : 6 * g + 3], unknown[6 * g + 3 : 6 * g + 6]
-            change += P[:, None] * a + tall_product(T, _cross(b).T)
+            change += P[:, None] * a + tall_product(T, _turn(b))
         begin = 6 * len(self._places)
         for j, component in enumerate(self._free):
             change[self._component == component] += unknown[begin + 3 * j : begin + 3 * j + 3]
@@ -133,14 +133,14 @@ class Holds:
         U += self._change(self._inverse @ wrong)
 
 
-def _cross(b):
-    """Return the matrix C with C v = b x v."""
-    return np.array([[0, -b[2], b[1]], [b[2], 0, -b[0]], [-b[1], b[0], 0]])
-
-
 def _torque(pull, U):
     """Return sum_i y_i x u_i (3,) of two arrays (n,3).
 
     By a product of matrices: the cross product of each row takes longer.
     """
     return transposed_product(pull, U).ravel() @ AXIAL
+
+
+def _turn(b):
+    """Return the matrix (3,3) with the rows b x e_k: times it, a vector v is b x v."""
+    return (b @ AXIAL.T).reshape(3, 3)

@@ -15,6 +15,8 @@ The iteration is therefore a descent as without the constraint, among fewer posi
 component back after each step would cost energy, possibly more than the step has gained.
 """
 
+from functools import cached_property
+
 import numpy as np
 
 from .algebra import AXIAL
@@ -41,16 +43,14 @@ class NoTurning:
     """
 
     def __init__(self, rest, is_free, solve):
-        topology = rest.topology
-        weight = rest.standing
-        share = weight / topology.sum_parts(weight)[topology.component]
+        self._topology = topology = rest.topology
+        share = topology.shares(rest.standing)
         centre = topology.sum_parts(share[:, None] * rest.V)
         x = (rest.V - centre[topology.component]) * is_free[topology.component][:, None]
         self.pull = share[:, None] * x
         self._is_idle = not is_free.any()
         P = np.zeros_like(x) if self._is_idle else solve(self.pull)
-        weight = rest.areas + 1e-300  # so that the centroid stays where it is
-        share = weight / topology.sum_parts(weight)[topology.component]
+        share = topology.shares(rest.areas + 1e-300)  # so that the centroid stays where it is
         P -= topology.sum_parts(share[:, None] * P)[topology.component]
         self.P = P * is_free[topology.component][:, None]
         M = topology.sum_parts((self.P[:, :, None] * self.pull[:, None, :]).reshape(-1, 9))
@@ -58,14 +58,19 @@ class NoTurning:
         M = 0.5 * (M + M.swapaxes(1, 2))
         stiffness = np.trace(M, axis1=1, axis2=2)[:, None, None] * np.eye(3) - M
         self._inverse = np.linalg.pinv(stiffness, rcond=SMALLEST, hermitian=True)
-        self._ways = topology.by_component(self.P)
-        self._pulls = topology.by_component(self.pull).T
+
+    @cached_property
+    def _sparse(self):
+        """P and the transpose of pull by component; a GPU has kernels instead."""
+        by_component = self._topology.by_component
+        return by_component(self.P), by_component(self.pull).T
 
     def impose(self, U):
         """Move positions U (n,3), in place, to the nearest in which nothing has turned."""
         if not self._is_idle:
-            mu = self.twist((self._pulls @ U).reshape(-1, 9) @ AXIAL)
-            U += self._ways @ (mu @ AXIAL.T).reshape(-1, 3)
+            ways, pulls = self._sparse
+            mu = self.twist((pulls @ U).reshape(-1, 9) @ AXIAL)
+            U += ways @ (mu @ AXIAL.T).reshape(-1, 3)
 
     def twist(self, torques):
         """Return mu (component_count,3) for the torques (component_count,3)."""

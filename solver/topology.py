@@ -69,6 +69,10 @@ class Topology:
             return np.stack([self._sums(column) for column in values.T], axis=1)
         return self._sums(values)
 
+    def shares(self, weights):
+        """Return the share (n,) of each vertex in its component, by positive weights (n,)."""
+        return weights / self.sum_parts(weights)[self.component]
+
     def by_component(self, values):
         """Return values (n,k) as a csr_matrix (n, k component_count), for products by component.
 
