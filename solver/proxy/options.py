@@ -17,7 +17,7 @@ class ProxyOptions:
     Raises
     ------
     CubicCraftError
-        The solidity is negative or not finite.
+        The solidity or the detail is negative or not finite.
 
     See Also
     --------
@@ -27,9 +27,9 @@ class ProxyOptions:
     --------
     >>> from solver import PAPER, ProxyOptions
     >>> ProxyOptions()
-    ProxyOptions(solidity=0.1, together=True, refine=True)
-    >>> ProxyOptions(solidity=0.0, together=False, refine=False) == PAPER
-    True
+    ProxyOptions(solidity=0.1, together=True, refine=True, keep_pose=True, detail=0.05, keep_apart=True)
+    >>> PAPER.solidity, PAPER.refine, PAPER.detail
+    (0.0, False, 0.0)
     """
 
     solidity: float = 0.1
@@ -38,11 +38,22 @@ class ProxyOptions:
     """whether to merge vertices at the same place and to link parts that are close together"""
     refine: bool = True
     """whether to split coarse meshes, ignore the normals of creases and preserve boxes"""
+    keep_pose: bool = True
+    """whether limbs become boxes along themselves, so that they keep their direction"""
+    detail: float = 0.05
+    """size of the features that ride along instead of being flattened, as a share of the largest
+    extent; 0 flattens all"""
+    keep_apart: bool = True
+    """whether surfaces that do not cross at rest are kept from crossing"""
 
     def __post_init__(self):
-        if not (np.isfinite(self.solidity) and self.solidity >= 0.0):
-            raise CubicCraftError(f"solidity must be finite and not negative, not {self.solidity}")
+        for name in ("solidity", "detail"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value >= 0.0):
+                raise CubicCraftError(f"{name} must be finite and not negative, not {value}")
 
 
-PAPER = ProxyOptions(solidity=0.0, together=False, refine=False)
+PAPER = ProxyOptions(
+    solidity=0.0, together=False, refine=False, keep_pose=False, detail=0.0, keep_apart=False
+)
 """the energy of the paper, on the surface exactly as it is given"""
