@@ -19,7 +19,10 @@ SUBFOLDER = "cubic_craft"
 INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 """folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
-SETTINGS = ("cubeness", "solidity", "together", "refine", "rotation", "hold_rest")
+SETTINGS = (
+    *("cubeness", "solidity", "keep_pose", "detail", "keep_apart"),
+    *("together", "refine", "rotation", "hold_rest"),
+)
 """the settings of a look; the orientation belongs to a mesh, the device to a machine"""
 
 _ORDER = ("Soft", "Rounded", DEFAULT, "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper")

@@ -198,6 +198,33 @@ class RunProperties:
         precision=3,
         options=_OPTIONS,
     )
+    keep_pose: BoolProperty(
+        name="Keep Pose",
+        description="Turn limbs into boxes along themselves, so that a raised arm stays raised."
+        " When off, limbs turn toward the sides of the form too",
+        default=Settings.keep_pose,
+        options=_OPTIONS,
+    )
+    detail: FloatProperty(
+        name="Detail",
+        description="Features smaller than this, such as noses and toes, ride along instead of"
+        " being flattened. It is a share of the largest dimension: 0.05 is a twentieth, and 0"
+        " flattens everything",
+        default=Settings.detail,
+        min=0.0,
+        max=1.0,
+        soft_max=0.2,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
+    keep_apart: BoolProperty(
+        name="Keep Apart",
+        description="Keep surfaces from growing into each other, such as fingers side by side."
+        " Those that already cross are not changed by this",
+        default=Settings.keep_apart,
+        options=_OPTIONS,
+    )
     together: EnumProperty(
         name="Keep Together",
         description="What moves along with the parts it touches: eyes with the head, buttons with"

@@ -53,6 +53,13 @@ class Settings:
     """whether the NEW_OBJECT is made with the modifiers applied"""
     solidity: float = 0.1
     """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
+    keep_pose: bool = True
+    """whether limbs become boxes along themselves"""
+    detail: float = 0.05
+    """size of the features that ride along instead of being flattened, as a share of the largest
+    extent; 0 flattens all"""
+    keep_apart: bool = True
+    """whether surfaces that do not cross are kept from crossing"""
     together: str = "SELECTION"
     """what follows its neighbours: OFF nothing, PARTS those of a mesh, SELECTION those of all"""
     refine: str = "AUTO"
@@ -77,6 +84,9 @@ class Settings:
             solidity=self.solidity,
             together=self.together != "OFF",
             refine=self.refine == "AUTO",
+            keep_pose=self.keep_pose,
+            detail=self.detail,
+            keep_apart=self.keep_apart,
         )
 
     def of_region(self, region: Region) -> Settings:

@@ -31,6 +31,7 @@ from . import regions_panel as regions_panel
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
+_ADVANCED = "CUBIC_PT_shape_advanced"
 _BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
@@ -127,13 +128,19 @@ def _draw_orientation(layout, obj):
 def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
     form_panel.draw(layout, properties)
-    form_panel.draw_capture(layout, properties)
-    layout.prop(properties, "together")
+    layout.prop(properties, "keep_pose")
+    layout.prop(properties, "detail", slider=True)
     layout.prop(properties, "solidity", slider=True)
-    layout.prop(properties, "refine")
-    layout.prop(properties, "rotation")
+    layout.prop(properties, "keep_apart")
+    layout.prop(properties, "together")
     draw_symmetry(layout, obj, properties)
     layout.prop(properties, "floor")
+    header, body = layout.panel(_ADVANCED, default_closed=True)
+    header.label(text="Advanced")
+    if body is not None:
+        form_panel.draw_capture(body, properties)
+        body.prop(properties, "refine")
+        body.prop(properties, "rotation")
 
 
 def _draw_map(layout, obj):

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators as the artist and a script use them, on the installed extension."""
 
+import dataclasses
+import importlib
+
 import bpy
 import numpy as np
 import pytest
@@ -344,6 +347,41 @@ def test_the_redo_panel_shows_what_holds_together():
         assert obj.cubic_craft.bl_rna.properties[name] and getattr(obj.cubic_craft, name) == value
         assert np.abs(position_of(obj.data) - first).max() > 1e-4
         first = position_of(obj.data)
+
+
+OF_THE_PROXY = {"keep_pose": False, "detail": 0.125, "keep_apart": False}
+
+
+@pytest.mark.parametrize("name", OF_THE_PROXY)
+@pytest.mark.parametrize("way", ["operator", "object", "Live"])
+def test_each_option_of_the_proxy_reaches_the_solver(
+    extension, live, begin, monkeypatch, way, name
+):
+    tasks = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.tasks")
+    seen, prepare, value = [], tasks.prepare, OF_THE_PROXY[name]
+
+    def watched(members, *arguments):
+        seen.append(members[0].settings.proxy)
+        return prepare(members, *arguments)
+
+    monkeypatch.setattr(tasks, "prepare", watched)
+    obj = add_monkey()
+    if way == "Live":
+        session = begin(obj)
+        for other in (getattr(obj.cubic_craft, name), value):
+            setattr(live.live_properties(), name, other)
+            for _ in range(10):
+                session.tick(bpy.context)
+        session.on(live.Event.CANCEL)
+    elif way == "operator":
+        assert cubify(**{name: value}) == {"FINISHED"}
+        assert getattr(obj.cubic_craft, name) == value, "the object keeps what it was told"
+    else:
+        setattr(obj.cubic_craft, name, value)
+        assert cubify() == {"FINISHED"}
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+    expected = dataclasses.asdict(solver.ProxyOptions()) | {name: value}
+    assert dataclasses.asdict(seen[-1]) == pytest.approx(expected)
 
 
 def test_a_value_of_an_older_file_is_the_default():

@@ -42,8 +42,8 @@ def save(name, **settings):
 
 def shape_of(obj):
     p = obj.cubic_craft
-    look = round(p.cubeness, 6), round(p.solidity, 6), p.together, p.refine, p.rotation
-    return *look, p.hold_rest
+    sizes = (round(value, 6) for value in (p.cubeness, p.solidity, p.detail))
+    return *sizes, p.keep_pose, p.keep_apart, p.together, p.refine, p.rotation, p.hold_rest
 
 
 def test_ours_are_there_without_a_user_folder(files, monkey):
@@ -147,6 +147,9 @@ def test_what_a_file_has_beside_a_look_is_neither_run_nor_set(files, monkey, tmp
 open({str(trap)!r}, "w").close()
 bpy.context.object.cubic_craft.cubeness = 0.7
 bpy.context.object.cubic_craft.solidity = 1e400
+bpy.context.object.cubic_craft.keep_pose = "OFF"
+bpy.context.object.cubic_craft.detail = 5.0
+bpy.context.object.cubic_craft.keep_apart = 0.0
 bpy.context.object.cubic_craft.together = "EVERYTHING"
 bpy.context.object.cubic_craft.refine = 3
 bpy.context.object.cubic_craft.hold_rest = 0
@@ -160,10 +163,27 @@ bpy.context.object.location = (1, 2, 3)
     (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
-    assert shape_of(monkey) == (0.7, 0.1, "SELECTION", "AUTO", "KEEP", True)
+    assert shape_of(monkey) == (0.7, 0.1, 0.05, True, True, "SELECTION", "AUTO", "KEEP", True)
     assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
     for name in ("broken.py", "empty.py"):
         (path.parent / name).unlink()
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("keep_pose", False), ("detail", 0.125), ("keep_apart", False)]
+)
+def test_each_setting_of_a_look_is_saved_and_brought_back(files, monkey, name, value):
+    assert save("Mine", **{name: value}) == {"FINISHED"}
+    monkey.cubic_craft.preset = "Cubic"
+    assert getattr(monkey.cubic_craft, name) != value
+    monkey.cubic_craft.preset = "Mine"
+    assert getattr(monkey.cubic_craft, name) == value
+
+
+def test_each_of_ours_sets_all_of_a_look_but_the_paper_leaves_the_cubeness(files):
+    for preset in files.presets():
+        left = {"cubeness"} if preset.identifier == "As_in_the_Paper" else set()
+        assert set(preset.values) == set(files.SETTINGS) - left
 
 
 def test_as_in_the_paper(files, rooms, monkey):
@@ -201,6 +221,10 @@ def test_live_takes_presets_and_reset(files, live, begin, monkey):
     assert monkey.cubic_craft.cubeness == pytest.approx(0.3), "until Live is confirmed"
     session.tick(bpy.context)
     assert session.tasks[0].settings.solidity == 1.0
+    settings.preset = "Monolith"
+    session.tick(bpy.context)
+    proxy = session.tasks[0].settings.proxy
+    assert (proxy.keep_pose, proxy.detail, proxy.keep_apart) == (False, 0.0, True)
     settings.cubeness = 0.55
     assert bpy.ops.cubic_craft.preset_add(name="From Live") == {"FINISHED"}
     settings.preset = "Soft"
