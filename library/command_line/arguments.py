@@ -18,6 +18,9 @@ FORMS = (
 )
 DEFAULTS = {
     "solidity": (0.1, 0.0),
+    "keep_pose": ("on", "off"),
+    "detail": (0.05, 0.0),
+    "keep_apart": ("on", "off"),
     "together": ("parts", "off"),
     "refine": ("auto", "off"),
     "rotation": ("keep", "free"),
@@ -34,13 +37,18 @@ HELP = {
     "--orientation": "Euler angles of the form in degrees: about X, then Y, then Z",
     "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
     "(default: 0.1)",
+    "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "
+    "(default: on)",
+    "--detail": "features smaller than this share of the largest extent ride along instead of "
+    "being flattened; 0 flattens all (default: 0.05)",
+    "--keep-apart": "whether surfaces that do not cross are kept from crossing (default: on)",
     "--together": "parts: parts that touch stay on each other, and seams stay closed "
     "(default: parts)",
     "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
     "--rotation": "whether each part is held in its orientation, or may turn as a whole "
     "(default: keep)",
-    "--paper": "as in the paper: solidity 0, together off, refine off, rotation free; each of them "
-    "can be given beside it and counts then",
+    "--paper": "as in the paper: solidity 0, keep-pose off, detail 0, keep-apart off, together "
+    "off, refine off, rotation free; each of them can be given beside it and counts then",
     "--max-iterations": "(default: 1000)",
     "--tolerance": "(default: 0.001)",
     "--device": "(default: auto)",
@@ -101,6 +109,9 @@ def _parser() -> argparse.ArgumentParser:
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--solidity", type=_number(0, 10), metavar="S")
+    add("--keep-pose", choices=("on", "off"))
+    add("--detail", type=_number(0, 1), metavar="SIZE")
+    add("--keep-apart", choices=("on", "off"))
     add("--together", choices=("off", "parts"))
     add("--refine", choices=("auto", "off"))
     add("--rotation", choices=("keep", "free"))

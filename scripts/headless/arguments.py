@@ -25,6 +25,9 @@ OF_FILE = ("object", "directions")
 """forms that are made from a file"""
 DEFAULTS = {
     "solidity": (0.1, 0.0),
+    "keep_pose": ("on", "off"),
+    "detail": (0.05, 0.0),
+    "keep_apart": ("on", "off"),
     "together": ("selection", "off"),
     "refine": ("auto", "off"),
     "rotation": ("keep", "free"),
@@ -63,6 +66,11 @@ HELP = {
     "--tolerance": "(default: 0.001)",
     "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
     "(default: 0.1)",
+    "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "
+    "(default: on)",
+    "--detail": "features smaller than this share of the largest extent ride along instead of "
+    "being flattened; 0 flattens all (default: 0.05)",
+    "--keep-apart": "whether surfaces that do not cross are kept from crossing (default: on)",
     "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
     "file do (default: selection)",
     "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
@@ -75,8 +83,9 @@ HELP = {
     "surfaces and metaballs as meshes",
     "--hold-rest": "whether what is far from handles that are moved stays where it is "
     "(default: on)",
-    "--paper": "as in the paper: solidity 0, together off, refine off, rotation free, hold-rest "
-    "off; each of them can be given beside it and counts then",
+    "--paper": "as in the paper: solidity 0, keep-pose off, detail 0, keep-apart off, together "
+    "off, refine off, rotation free, hold-rest off; each of them can be given beside it and counts "
+    "then",
     "--output": "(default: cubic_craft.png)",
     "--no-render": "no picture",
     "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
@@ -230,6 +239,9 @@ def _add_method(add: Callable[..., argparse.Action]) -> None:
 
 def _add_shape(add: Callable[..., argparse.Action]) -> None:
     add("--solidity", type=_number(0, 10), metavar="S")
+    add("--keep-pose", choices=("on", "off"))
+    add("--detail", type=_number(0, 1), metavar="SIZE")
+    add("--keep-apart", choices=("on", "off"))
     add("--together", choices=("off", "parts", "selection"))
     add("--refine", choices=("auto", "off"))
     add("--rotation", choices=("keep", "free"))

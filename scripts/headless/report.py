@@ -19,8 +19,8 @@ __all__ = ("write_animation_report", "write_report")
 
 SETTINGS = (
     *("form", "form_sides", "form_weights", "form_directions", "region"),
-    *("space", "solidity", "together", "refine", "rotation", "symmetry", "floor", "hold_rest"),
-    "with_modifiers",
+    *("space", "solidity", "keep_pose", "detail", "keep_apart", "together", "refine", "rotation"),
+    *("symmetry", "floor", "hold_rest", "with_modifiers"),
 )
 OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg")
 

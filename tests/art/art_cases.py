@@ -19,7 +19,10 @@ import measures
 import numpy as np
 from art_objects import Surface, select, surface_of
 
-PAPER = {"solidity": 0.0, "together": "OFF", "refine": "OFF", "rotation": "FREE"}
+PAPER = {
+    **{"solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
+    **{"together": "OFF", "refine": "OFF", "rotation": "FREE"},
+}
 """the settings of the paper, as far as the operator knows them"""
 
 

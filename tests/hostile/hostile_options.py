@@ -16,6 +16,10 @@ PROXIES = {
     "default": ProxyOptions(),
     "solid": ProxyOptions(solidity=10.0),
     "hollow": ProxyOptions(solidity=0.0),
+    "turned": ProxyOptions(keep_pose=False),
+    "without details": ProxyOptions(detail=0.0),
+    "large details": ProxyOptions(detail=1.0),
+    "crossing": ProxyOptions(keep_apart=False),
     "each alone": ProxyOptions(together=False),
     "not refined": ProxyOptions(refine=False),
 }

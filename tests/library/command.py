@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the installed command ``cubic-craft``, as a user does."""
 
+import dataclasses
 import subprocess
 import sys
 from pathlib import Path
@@ -14,9 +15,9 @@ QUICK = ("--device", "numpy", "--refine", "off", "--tolerance", "0.01")
 
 def quick(V, F, cubeness=0.4, **options):
     """Return the Result that the command writes with the options `QUICK`."""
-    solidity, together = options.pop("solidity", 0.1), options.pop("together", True)
-    refine = options.pop("refine", False)
-    proxy = ProxyOptions(solidity=solidity, together=together, refine=refine)
+    of_proxy = [field.name for field in dataclasses.fields(ProxyOptions) if field.name in options]
+    given = {name: options.pop(name) for name in of_proxy}
+    proxy = ProxyOptions(**{"refine": False, **given})
     options = {"keep_rotation": True, "tolerance": 0.01, **options}
     return stylize(V, F, cubeness, device="numpy", proxy=proxy, **options)
 

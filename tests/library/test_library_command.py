@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The installed command reads, stylizes and writes, and keeps what a format can hold."""
 
+import dataclasses
+
 import meshio
 import numpy as np
 import pytest
 from command import QUICK, cubic_craft, quick
 from scipy.spatial.transform import Rotation
 
-from cubic_craft import stylize
+from cubic_craft import PAPER, CubicCraftError, ProxyOptions, stylize
+from cubic_craft.command_line import arguments, style
 from cubic_craft.styles import forms
 from scripts.benchmark.shapes import blob
 
@@ -45,6 +48,7 @@ def test_each_format_gives_what_the_library_gives(ending, tmp_path):
     assert np.array_equal(after.cells[0].data, before.cells[0].data)
 
 
+IN_PAPER = dataclasses.asdict(PAPER)
 OPTIONS = {
     "--cubeness 0.8": {"cubeness": 0.8},
     "--form octahedron": {"form": forms.octahedron()},
@@ -54,8 +58,8 @@ OPTIONS = {
     "--together off": {"together": False},
     "--refine auto --max-iterations 5": {"refine": True, "max_iterations": 5},
     "--rotation free": {"keep_rotation": False},
-    "--paper": {"solidity": 0.0, "together": False, "keep_rotation": False},
-    "--paper --rotation keep --solidity 0.5": {"solidity": 0.5, "together": False},
+    "--paper": {**IN_PAPER, "keep_rotation": False},
+    "--paper --rotation keep --solidity 0.5": {**IN_PAPER, "solidity": 0.5},
     "--max-iterations 3": {"max_iterations": 3},
     "--tolerance 0.0001": {"tolerance": 1e-4},
     "--orientation 10 20 30": {
@@ -80,6 +84,33 @@ def test_options_are_those_of_the_library(given, tmp_path):
     assert np.allclose(points, result.positions, atol=1e-9)
     is_other = np.abs(points - quick(V, F).positions).max() > 1e-4
     assert is_other == (given != "--together off"), "a blob has one part"
+
+
+PROXIES = {
+    "": ProxyOptions(),
+    "--paper": PAPER,
+    "--solidity 0.5": ProxyOptions(solidity=0.5),
+    "--keep-pose off": ProxyOptions(keep_pose=False),
+    "--detail 0.2": ProxyOptions(detail=0.2),
+    "--keep-apart off": ProxyOptions(keep_apart=False),
+    "--together off": ProxyOptions(together=False),
+    "--refine off": ProxyOptions(refine=False),
+    "--paper --keep-pose on --detail 0.1 --keep-apart on": dataclasses.replace(
+        PAPER, keep_pose=True, detail=0.1, keep_apart=True
+    ),
+}
+
+
+@pytest.mark.parametrize("given", PROXIES)
+def test_each_option_of_the_proxy_reaches_the_solver(given, monkeypatch):
+    def watched(*_, proxy, **__):
+        assert proxy == PROXIES[given]
+        raise CubicCraftError("as far as this")
+
+    monkeypatch.setattr(style, "stylize", watched)
+    surface = style.Surface(V, F)
+    with pytest.raises(style.InputError, match="as far as this"):
+        style.stylized(surface, arguments.parse(["in.obj", "out.obj", *given.split()]))
 
 
 def test_the_default_device_uses_what_is_installed(tmp_path):

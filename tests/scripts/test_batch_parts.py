@@ -17,8 +17,9 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --region top:prism5:0.3
     --capture other/b.ply --capture-strength 0.7
     --form-directions 0,0,1
-    --space object --solidity 0 --together parts --refine off --rotation free
-    --symmetry zx --floor --hold-rest off --with-modifiers
+    --space object --solidity 0 --keep-pose off --detail 0.2 --keep-apart off
+    --together parts --refine off --rotation free --symmetry zx --floor --hold-rest off
+    --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
     --object=-o --verbose"""
@@ -63,8 +64,14 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
     assert without.no_render and without.output is None
 
 
-IN_FULL = "--solidity 0 --together off --refine off --rotation free --hold-rest off"
-BY_DEFAULT = "--solidity 0.1 --together selection --refine auto --rotation keep --hold-rest on"
+IN_FULL = (
+    "--solidity 0 --keep-pose off --detail 0 --keep-apart off"
+    " --together off --refine off --rotation free --hold-rest off"
+)
+BY_DEFAULT = (
+    "--solidity 0.1 --keep-pose on --detail 0.05 --keep-apart on"
+    " --together selection --refine auto --rotation keep --hold-rest on"
+)
 
 
 def test_the_paper_is_its_options_in_full(folder, monkeypatch):
@@ -77,10 +84,11 @@ def test_the_paper_is_its_options_in_full(folder, monkeypatch):
     there = in_a_worker(batch_options("--paper"), monkeypatch)
     assert (there.solidity, there.together, there.refine) == (0.0, "off", "off")
     assert (there.rotation, there.hold_rest) == ("free", "off")
+    assert (there.keep_pose, there.detail, there.keep_apart) == ("off", 0.0, "off")
     beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
     assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
-    keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, 10, 2)}
-    assert len(keys | {key("--paper")}) == 6, "each of them decides about the result"
+    keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, len(in_full), 2)}
+    assert len(keys | {key("--paper")}) == 9, "each of them decides about the result"
 
 
 def names(*inputs, is_recursive=False):

@@ -145,7 +145,8 @@ def test_report(results):
     runs = entry.pop("runs")
     what = {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
     assert entry == what | {"solved_with": []}
-    by_default = {"solidity": 0.1, "together": "selection", "refine": "auto", "rotation": "keep"}
+    by_default = {"solidity": 0.1, "keep_pose": "on", "detail": 0.05, "keep_apart": "on"}
+    by_default |= {"together": "selection", "refine": "auto", "rotation": "keep"}
     off = {"symmetry": "", "floor": False, "hold_rest": "on", "with_modifiers": False}
     form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}
     form["capture_strength"] = None

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of what holds together reach the solver, each under its name."""
+
+import json
+import subprocess
+import sys
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import pytest
+from headless import PATIENCE
+
+from solver import PAPER, ProxyOptions
+
+GIVEN = {
+    "": ProxyOptions(),
+    "--paper": PAPER,
+    "--solidity 0.5": ProxyOptions(solidity=0.5),
+    "--keep-pose off": ProxyOptions(keep_pose=False),
+    "--detail 0.2": ProxyOptions(detail=0.2),
+    "--keep-apart off": ProxyOptions(keep_apart=False),
+    "--together off": ProxyOptions(together=False),
+    "--refine off": ProxyOptions(refine=False),
+    "--paper --keep-pose on --detail 0.1 --keep-apart on": replace(
+        PAPER, keep_pose=True, detail=0.1, keep_apart=True
+    ),
+}
+READ = """
+import json, sys
+from dataclasses import asdict
+from pathlib import Path
+
+import bpy
+import headless
+from headless.arguments import parse
+from headless.cubify_all import settings_of_object
+from headless.extension import registered
+from headless.load_meshes import Loaded
+
+bpy.ops.mesh.primitive_cube_add()
+obj = bpy.context.object
+loaded = Loaded([obj])
+with registered(Path(headless.__file__).parents[2]) as extension:
+    for given in sys.argv[1:]:
+        options = parse(["--no-render", "--report", "r.json", *given.split()])
+        print(json.dumps(asdict(settings_of_object(obj, (), options, extension, loaded).proxy)))
+"""
+
+
+@pytest.fixture(scope="module")
+def proxies(tmp_path_factory):
+    """Return what the script asks the solver for, by what it was given."""
+    process = subprocess.run(
+        [sys.executable, "-c", READ, *GIVEN],
+        cwd=tmp_path_factory.mktemp("settings"),
+        env={"PYTHONPATH": str(Path(__file__).parents[2] / "scripts")},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+    )
+    assert process.returncode == 0, process.stderr
+    return dict(zip(GIVEN, map(json.loads, process.stdout.splitlines()), strict=True))
+
+
+@pytest.mark.parametrize("given", GIVEN)
+def test_each_option_of_the_proxy_reaches_the_solver(proxies, given):
+    assert proxies[given] == pytest.approx(asdict(GIVEN[given]))
