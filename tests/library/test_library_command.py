@@ -108,7 +108,7 @@ def test_each_option_of_the_proxy_reaches_the_solver(given, monkeypatch):
         raise CubicCraftError("as far as this")
 
     monkeypatch.setattr(style, "stylize", watched)
-    surface = style.Surface(V, F)
+    surface = style.Surface(V, [F])
     with pytest.raises(style.InputError, match="as far as this"):
         style.stylized(surface, arguments.parse(["in.obj", "out.obj", *given.split()]))
 
