@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rounds in which surfaces that have come to cross are drawn apart again.
+
+At the end of a run, triangles that cross and did not cross at rest are found. Without any, that is
+all. Otherwise links are made across the gaps that are closed, the global step is factorized anew,
+and the iteration goes on from where it is; up to four times. The links only add to the energy, so it
+falls in every step of a round.
+"""
+
+import numpy as np
+
+from ..proxy.links import no_links
+from .crossings import crossings
+from .gaps import Gaps
+from .pairs import links_against, merged, mirrored
+from .push import pushed
+
+ROUNDS = 4
+
+
+class KeepApart:
+    """The rounds of one run.
+
+    Call `check` when the iteration has ended, then `renewed` if it asks for another round, else
+    `finish`. All of them take the Stylization.
+
+    Attributes
+    ----------
+    crossings : int
+        Number of triangles of the input that cross and did not at rest.
+    vertices : (k,) int array
+        Their vertices in the input.
+    """
+
+    def __init__(self, rest):
+        self._rest, self._shown = rest, rest.shown
+        self._links, self._gaps, self._rounds = no_links(), None, 0
+        self._pairs = np.empty((0, 2), np.intp)
+        self._best = None
+        self.crossings, self.vertices = 0, np.empty(0, np.intp)
+
+    def check(self, stylization):
+        """Find what crosses now; return whether another round is needed."""
+        U = stylization.positions
+        self._pairs = self._new(U)
+        count = len(np.unique(self._triangles(self._pairs)))
+        if self._best is None or count < self._best[0]:
+            self._best = count, U.copy(), stylization.rotations.copy()
+        return count > 0 and self._rounds < ROUNDS
+
+    def renewed(self, stylization):
+        """Return a Stylization with links against what crosses, from the same state."""
+        if self._gaps is None:
+            self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
+        U, R = stylization.positions, stylization.rotations
+        found = links_against(self._rest, self._gaps, self._shown, self._pairs, U, R)
+        found = mirrored(found, stylization.setup.mirrors)
+        self._links = merged(self._links, found)
+        self._rounds += 1
+        return stylization.continued(stylization.setup.linked(self._rest, self._links))
+
+    def finish(self, stylization):
+        """Go to the best state, and push apart what still crosses there."""
+        count, U, R = self._best
+        if count and self._rounds:
+            U = self._pushed(stylization, U, R)
+            stylization.go_to(R, U)
+        crossing = self._triangles(self._new(U))
+        self.crossings = len(np.unique(crossing))
+        self.vertices = np.unique(self._rest.triangles[crossing])
+
+    def _pushed(self, stylization, U, R):
+        if self._gaps is None:
+            self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
+        return pushed(self._rest, self._gaps, self._shown, self._new, stylization.setup, U, R)
+
+    def _new(self, U):
+        """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
+        pairs = crossings(U, self._shown)
+        if not len(pairs):
+            return pairs
+        crossed = self._rest.crossing_at_rest
+        return pairs[~crossed[pairs].all(axis=1)]
+
+    def _triangles(self, pairs):
+        """Return the triangles of pairs that crossed nothing at rest."""
+        triangles = pairs.ravel()
+        return triangles[~self._rest.crossing_at_rest[triangles]]

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pairs of boxes that overlap: what has to be looked at to find triangles that cross.
+
+The boxes are measured in whole steps of a grid of 2^20 per side, and sorted into the cells of an
+octree: cells of about twice the size of the usual box to begin with, coarser ones if large boxes
+would lie in too many, then every cell with many boxes is split as long as that helps. In each cell,
+all boxes are compared with all others, by shifting the sorted arrays against themselves: nothing is
+gathered, so a comparison takes about a nanosecond.
+"""
+
+import numpy as np
+
+BITS = 20
+"""of the coordinates, and levels of the octree"""
+MANY = 40
+"""boxes in a cell; more are split"""
+MOST = 4000
+"""boxes in a cell that cannot be split: more lie on top of each other, and are not compared"""
+
+_PER_BOX = 4.0  # cells for each box, to begin with
+_GAIN = 0.8  # of the comparisons; a split that saves less is none
+_BLOCK = 1 << 16  # boxes that are compared at once
+_ALL_AXES = np.uint8(7)
+
+
+def blocks_of_overlaps(low, high):
+    """Yield boxes that lie side by side in the cells of the octree.
+
+    low, high : (m,3) float arrays
+        Corners of the boxes, from 0 to 1.
+
+    Yields
+    ------
+    box : (e,) int array
+        Boxes, some of them several times.
+    first, second : (k,) int arrays
+        Places in it: pairs that overlap, each of them in one block only.
+    """
+    steps = float(1 << BITS) - 1.0
+    low, high = ((corner.T * steps).astype(np.int32, order="C") for corner in (low, high))
+    for cells in _leaves(low, high):
+        start, end = cells.bounds
+        at = 0
+        while at < len(start):
+            stop = max(int(np.searchsorted(end, start[at] + _BLOCK, "right")), at + 1)
+            yield _compared(low, high, cells, start[at], end[at:stop])
+            at = stop
+
+
+class _Cells:
+    """Boxes in cells of one level, those of a cell side by side.
+
+    box : (e,) int array
+    corner : (3,e) int32 array
+        The cell that each lies in.
+    """
+
+    def __init__(self, box, corner, level):
+        self.level = level
+        x, y, z = corner.astype(np.int64)
+        key = (x << 2 * BITS) | (y << BITS) | z
+        order = np.argsort(key, kind="stable")
+        self.box, self.corner, key = box[order], corner[:, order], key[order]
+        is_first = np.ones(len(key), dtype=bool)
+        is_first[1:] = key[1:] != key[:-1]
+        start = np.flatnonzero(is_first)
+        self.bounds = start, np.append(start[1:], len(key))
+
+    @property
+    def counts(self):
+        start, end = self.bounds
+        return end - start
+
+    def chosen(self, is_chosen):
+        """Return some of the cells (c,), those with the most boxes first."""
+        start, end = self.bounds
+        cells = np.flatnonzero(is_chosen)
+        cells = cells[np.argsort(-self.counts[cells], kind="stable")]
+        count = self.counts[cells]
+        begin = np.append(0, np.cumsum(count))
+        rows = np.arange(begin[-1]) + np.repeat(start[cells] - begin[:-1], count)
+        other = _Cells.__new__(_Cells)
+        other.level, other.box, other.corner = self.level, self.box[rows], self.corner[:, rows]
+        other.bounds = begin[:-1], begin[1:]
+        return other
+
+
+def _leaves(low, high):
+    """Yield the Cells of all levels in which boxes are to be compared."""
+    level = _first_level(low, high)
+    cells = _Cells(*_entries(low >> BITS - level, high >> BITS - level), level)
+    while True:
+        is_full = cells.counts > MANY
+        if level == BITS or not is_full.any():
+            yield cells.chosen((cells.counts > 1) & (cells.counts <= MOST))
+            return
+        yield cells.chosen((cells.counts > 1) & ~is_full)
+        level += 1
+        full = cells.chosen(is_full)
+        cells, stuck = _split(full, low, high)
+        yield stuck.chosen(stuck.counts <= MOST)
+        if not len(cells.box):
+            return
+
+
+def _first_level(low, high):
+    """Return the level with cells of about twice the size of the usual box, or a lower one."""
+    size = np.median((high - low).max(axis=0)) + 1.0
+    level = int(np.clip(BITS - 1 - np.ceil(np.log2(size)), 0, BITS))
+    while level > 0:
+        spans = (high >> BITS - level) - (low >> BITS - level) + 1
+        if spans.astype(float).prod(axis=0).sum() <= _PER_BOX * spans.shape[1] + 1000.0:
+            break
+        level -= 1
+    return level
+
+
+def _entries(first, last):
+    """Return the box (e,) and the cell (3,e) of every cell from first to last (3,m)."""
+    spans = last - first + 1
+    count = spans.prod(axis=0)
+    box = np.repeat(np.arange(len(count), dtype=np.int32), count)
+    number = np.arange(len(box)) - np.repeat(np.cumsum(count) - count, count)
+    number = number.astype(np.int32)
+    corner = np.empty((3, len(box)), dtype=np.int32)
+    for axis in (2, 1, 0):
+        number, corner[axis] = np.divmod(number, spans[axis].take(box))
+        corner[axis] += first[axis].take(box)
+    return box, corner
+
+
+def _split(cells, low, high):
+    """Return the halves along each axis of Cells, and those that are better left as they are."""
+    shift = BITS - cells.level - 1
+    first = np.maximum(low[:, cells.box] >> shift, 2 * cells.corner)
+    last = np.minimum(high[:, cells.box] >> shift, 2 * cells.corner + 1)
+    entry, corner = _entries(first, last)
+    halves = _Cells(entry, corner, cells.level + 1)
+    parent = np.repeat(np.arange(len(cells.counts)), cells.counts)
+    start, _ = halves.bounds
+    of_parent = parent[halves.box[start]]
+    work = np.bincount(of_parent, halves.counts.astype(float) ** 2, len(cells.counts))
+    is_stuck = work > _GAIN * cells.counts.astype(float) ** 2
+    halves.box = cells.box[halves.box]
+    return halves.chosen(~is_stuck[of_parent]), cells.chosen(is_stuck)
+
+
+def _compared(low, high, cells, begin, ends):
+    """Compare the boxes of consecutive cells, which begin at `begin` and end at `ends` (c,)."""
+    entries = slice(begin, ends[-1])
+    box, shift = cells.box[entries], BITS - cells.level
+    low, high = low[:, box], high[:, box]
+    # Of all cells in which two boxes lie, one has the larger of their lower ends on each axis.
+    is_low = (low >> shift) == cells.corner[:, entries]
+    lows = is_low[0].astype(np.uint8) | is_low[1].astype(np.uint8) * 2 | is_low[2] * np.uint8(4)
+    ends = ends - begin
+    counts = np.diff(ends, prepend=0)
+    left = (np.repeat(ends, counts) - np.arange(len(box))).astype(np.int16)
+    found = []
+    for by in range(1, int(counts.max())):
+        # the cells are in the order of their counts: those with few boxes come last
+        size = int(ends[np.searchsorted(-counts, -by, "left") - 1]) - by
+        here, there = slice(0, size), slice(by, size + by)
+        is_pair = left[here] > by
+        is_pair &= (lows[here] | lows[there]) == _ALL_AXES
+        for below, above in zip(low, high, strict=True):
+            is_pair &= below[here] <= above[there]
+            is_pair &= below[there] <= above[here]
+        first = np.flatnonzero(is_pair).astype(np.int32)
+        found.append((first, first + by))
+    first, second = (np.concatenate(ends) for ends in zip(*found, strict=True))
+    return box, first, second
