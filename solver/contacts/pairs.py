@@ -10,9 +10,9 @@ rest on the other triangle.
 
 import numpy as np
 
-from ..proxy.closest_point import closest_points
-from ..proxy.links import links_between, links_to_triangles, no_links
-from .gaps import REACH, are_near, grown
+from ..proxy.links import Links, links_between
+from .features import features
+from .gaps import REACH, grown
 
 STRENGTH = 2.0
 """of a link, in areas per squared distance"""
@@ -23,6 +23,8 @@ STRONGER = 4.0
 
 _RINGS = 2  # of vertices around those of crossing triangles, and around closed gaps
 _SPREADS = 20
+_NEAREST = 1.5  # times the least distance of two triangles: what else is linked between them
+_LEAST_GAP = 1e-6  # of less, the direction is rounding
 _LEAST_SHARE = 0.1  # of the length of edges: gaps of less are as strong as these
 
 
@@ -44,10 +46,8 @@ def links_against(rest, gaps, shown, pairs, U, R):
         Rotations.
     """
     i, j = _closed_gaps(rest, gaps, _inside(rest, shown[pairs.ravel()]), U, R)
-    across = links_between(i, j, _weights(rest, i, rest.V[j] - rest.V[i]))
-    is_linked = np.zeros(len(rest.V), dtype=bool)
-    is_linked[i] = is_linked[j] = True
-    return across.joined(_links_of_corners(rest, gaps, shown, pairs, is_linked))
+    across = links_between(i, j, _weights(rest.areas[i], rest.V[j] - rest.V[i]))
+    return across.joined(_links_between(rest, shown, pairs, U, R))
 
 
 def _inside(rest, triangles):
@@ -87,59 +87,52 @@ def _openness(V, U, R, i, j):
     return now / np.maximum(size, 1e-300)
 
 
-def _weights(rest, i, d):
-    """Return the weights (k,) of links from vertices i along d (k,3)."""
-    area = rest.areas[i]
+def _weights(area, d):
+    """Return the weights (k,) of links along d (k,3) that stand for an area (k,) each."""
     return STRENGTH * area / np.maximum((d * d).sum(axis=1), _LEAST_SHARE**2 * area + 1e-12)
 
 
-def _links_of_corners(rest, gaps, shown, pairs, is_linked):
-    """Return links from corners of crossing triangles, if not linked, to the other triangle."""
-    i = np.concatenate([shown[pairs[:, 0]].ravel(), shown[pairs[:, 1]].ravel()])
-    other = np.concatenate([np.repeat(pairs[:, 1], 3), np.repeat(pairs[:, 0], 3)])
-    is_free = ~is_linked[i]
-    i, corners = i[is_free], shown[other[is_free]].astype(np.int64)
-    if not len(i):
-        return no_links()
-    barycentric = closest_points(rest.V[i], *(rest.V[corners[:, k]] for k in range(3)))
-    d = np.einsum("kc,kcx->kx", barycentric, rest.V[corners]) - rest.V[i]
-    distance = np.linalg.norm(d, axis=1)
-    order = np.lexsort((distance, i))
-    is_first = np.ones(len(order), dtype=bool)
-    is_first[1:] = i[order][1:] != i[order][:-1]
-    best = order[is_first]
-    best = best[distance[best] < REACH]
-    best = best[~are_near(gaps.graph, i[best], corners[best, barycentric[best].argmax(axis=1)])]
-    i, corners, barycentric, d = i[best], corners[best], barycentric[best], d[best]
-    return links_to_triangles(i, corners, barycentric, _weights(rest, i, d))
+def _links_between(rest, shown, pairs, U, R):
+    """Return links along what is nearest between triangles that cross, where it is closed."""
+    A, B = (shown[triangles].astype(np.int64) for triangles in pairs.T)
+    vertices, c = features(rest.V, A, B)
+    d = np.einsum("kfc,kfcx->kfx", c, rest.V[vertices])
+    distance = np.linalg.norm(d, axis=2)
+    turned = np.einsum("kfc,kfcab,kfb->kfa", np.abs(c), R[vertices], d)
+    now = (np.einsum("kfc,kfcx->kfx", c, U[vertices]) * turned).sum(axis=2)
+    is_closed = now < CLOSED * distance * np.linalg.norm(turned, axis=2)
+    is_near = distance < np.minimum(_NEAREST * distance.min(axis=1, keepdims=True), REACH)
+    is_linked = is_closed & is_near & (distance > _LEAST_GAP)
+    vertices, c, d = vertices[is_linked], c[is_linked], d[is_linked]
+    share = 0.5 * np.abs(c)
+    weights = _weights((share * rest.areas[vertices]).sum(axis=1), d)
+    return Links(vertices, c, weights[:, None] * share)
 
 
 def merged(links, more):
     """Return links with others; what is in both becomes stronger."""
     both = links.joined(more)
-    _, first, place, count = np.unique(
-        both.vertices, axis=0, return_index=True, return_inverse=True, return_counts=True
-    )
+    _, first, place = np.unique(_keys(both), axis=0, return_index=True, return_inverse=True)
     place = place.ravel()
-    weights = both.weights[first].copy()
-    is_old = np.zeros(len(first), dtype=bool)
-    is_old[place[: len(links)]] = True
-    is_again = np.zeros(len(first), dtype=bool)
-    is_again[place[len(links) :]] = True
-    weights[is_old & is_again] *= STRONGER
-    return type(both)(both.vertices[first], both.coefficients[first], weights)
+    is_again = np.zeros((2, len(first)), dtype=bool)
+    is_again[0, place[: len(links)]] = is_again[1, place[len(links) :]] = True
+    weights = both.weights[first] * np.where(is_again.all(axis=0), STRONGER, 1.0)[:, None]
+    return Links(both.vertices[first], both.coefficients[first], weights)
 
 
 def mirrored(links, mirrors):
     """Return links with the mirror images of those that have one."""
     for mirror in mirrors:
         image = mirror.partner[links.vertices]
-        has_one = (image >= 0).all(axis=1)
-        images = type(links)(image, links.coefficients, links.weights)
-        chosen = np.flatnonzero(has_one)
-        images = type(links)(*(x[chosen] for x in (image, links.coefficients, links.weights)))
-        both = links.joined(images)
-        _, first = np.unique(both.vertices, axis=0, return_index=True)
-        first = np.sort(first)
-        links = type(links)(*(x[first] for x in (both.vertices, both.coefficients, both.weights)))
+        chosen = (image >= 0).all(axis=1)
+        images = (image[chosen], links.coefficients[chosen], links.weights[chosen])
+        both = links.joined(Links(*images))
+        first = np.sort(np.unique(_keys(both), axis=0, return_index=True)[1])
+        links = Links(both.vertices[first], both.coefficients[first], both.weights[first])
     return links
+
+
+def _keys(links):
+    """Return (k,5) ints that are the same for links between the same vertices."""
+    from_edges = links.coefficients[:, 1] < 0.0
+    return np.column_stack([links.vertices, from_edges])
