@@ -25,6 +25,7 @@ from .region_from_selection import CUBIC_CRAFT_OT_region_from_selection
 from .region_remove import CUBIC_CRAFT_OT_region_remove
 from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
+from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .send_to import CUBIC_CRAFT_OT_send_to
 
 register, unregister = bpy.utils.register_classes_factory(
@@ -38,6 +39,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_flatten,
+        CUBIC_CRAFT_OT_select_crossing,
         CUBIC_CRAFT_OT_auto_orient,
         CUBIC_CRAFT_OT_form_from_selection,
         CUBIC_CRAFT_OT_live,

@@ -10,8 +10,8 @@ from .access.carried import carried_attributes
 from .access.checks import check_editable, check_usable, mesh_of
 from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
-from .access.selected_faces import read_selected_faces
-from .access.triangulation import triangles
+from .access.selected_faces import not_hidden, read_selected_faces, select_faces
+from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
@@ -43,6 +43,7 @@ __all__ = (
     "discard_original",
     "end_all_previews",
     "end_preview",
+    "faces_of_triangles",
     "group_weights",
     "has_original",
     "has_preview",
@@ -53,6 +54,7 @@ __all__ = (
     "make_seen",
     "mesh_of",
     "move_seen",
+    "not_hidden",
     "original_positions",
     "plain_copy",
     "read_evaluated",
@@ -63,6 +65,7 @@ __all__ = (
     "remove_seen",
     "restore",
     "result_positions",
+    "select_faces",
     "select_instead",
     "set_groups_aside",
     "show_seen",

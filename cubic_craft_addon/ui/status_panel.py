@@ -69,9 +69,13 @@ def _draw_line(context, layout, obj, run, changes):
         layout.operator("object.mode_set", text=text, icon="OBJECT_DATAMODE").mode = "OBJECT"
         return
     texts, icon = _words(run, changes, is_edited=edited.is_edited(mesh_bridge.mesh_of(obj)))
+    has_crossings = run is not None and bool(run.crossings)
+    room -= _ICON * has_crossings
     layout.alert = icon == "ERROR"
     layout.active = run is not None
     layout.label(text=longest_that_fits(texts, room), icon=icon)
+    if has_crossings:
+        layout.operator("cubic_craft.select_crossing", text="", icon="FACESEL")
 
 
 def _words(run, changes, *, is_edited):
@@ -86,6 +90,8 @@ def _words(run, changes, *, is_edited):
     if not run.converged:
         iterations = f"{run.iterations} iterations"
         return (f"Not converged after {iterations}", f"Not converged: {iterations}"), "ERROR"
+    if run.crossings:
+        return (f"{_crossing(run)} still cross", f"{_crossing(run)} cross"), "ERROR"
     seconds = f"{run.seconds:.2f} s"
     return (
         f"Converged in {seconds}, {_vertices(run)}",
@@ -114,6 +120,12 @@ def _vertices(run, unit=" vertices"):
     return f"{run.vertices:,}{unit}{of_what}"
 
 
+def _crossing(run):
+    if run.crossings is None:
+        return "-"
+    return f"{run.crossings:,} faces" if run.crossings else "none"
+
+
 def _symmetry(run):
     return "-" if run.matching is None else f"{run.matching:,} of {run.own_vertices:,} match"
 
@@ -123,6 +135,7 @@ _NUMBERS = (
     ("Vertices", lambda run: _vertices(run, "")),
     ("Iterations", lambda run: f"{run.iterations:,}"),
     ("Symmetry", _symmetry),
+    ("Crossing", _crossing),
     ("Energy", lambda run: f"{run.energy:.5f}"),
     ("Time", lambda run: f"{run.seconds:.2f} s"),
     ("Device", lambda run: run.device),

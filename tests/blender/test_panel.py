@@ -129,12 +129,17 @@ def test_the_line_below_the_buttons_says_what_matters_most(extension):
     unfinished = dataclasses.replace(run, converged=False)
     assert line(unfinished) == ("Not converged after 40 iterations", "ERROR")
     assert line(unfinished, is_edited=True) == ("Edited since the last run", "INFO")
+    crossing = dataclasses.replace(run, crossings=1234)
+    assert line(crossing) == ("1,234 faces still cross", "ERROR")
+    assert crossing.status.endswith("converged, 1,234 faces still cross, 1.23 s on numpy")
+    assert line(dataclasses.replace(run, crossings=0)) == line(run)
     changed = line(run, ["Cubeness", "Handles"], is_edited=True)
     assert changed == ("Changed: Cubeness, Handles", "ERROR")
     assert [value(run) for _, value in panel._NUMBERS] == [
         "0.4",
         "12,345 of 3 objects",
         "40",
+        "-",
         "-",
         "0.10000",
         "1.23 s",

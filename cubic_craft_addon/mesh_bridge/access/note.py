@@ -44,6 +44,7 @@ _RUN_PART: dict[str, Any] = {
     "device": str,
     "matching": (int, NoneType),
     "own_vertices": int,
+    "crossings": (int, NoneType),
 }
 _KEY_PART = {"name": str, "fingerprint": str, "base": str, "offsets": list, "made_basis": bool}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces that are selected in Edit Mode; nothing is changed."""
+"""The faces that are selected in Edit Mode, and which of a mesh can be."""
 
 import bmesh
 import bpy
@@ -17,3 +17,19 @@ def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     faces = bmesh.from_edit_mesh(mesh).faces
     found = [(face.normal * face.calc_area())[:] for face in faces if face.select]
     return np.array(found, dtype=np.float64).reshape(-1, 3)
+
+
+def not_hidden(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """Return those of some faces, by their numbers, that can be seen in Edit Mode."""
+    is_hidden = np.empty(len(mesh.polygons), dtype=bool)
+    mesh.polygons.foreach_get("hide", is_hidden)
+    return faces[~is_hidden[faces]]
+
+
+def select_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
+    """Select faces of a mesh in Edit Mode, by their numbers, besides what is selected."""
+    edited = bmesh.from_edit_mesh(mesh)
+    edited.faces.ensure_lookup_table()
+    for number in faces.tolist():
+        edited.faces[number].select_set(True)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

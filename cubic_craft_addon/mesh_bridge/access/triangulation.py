@@ -56,3 +56,10 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     finally:
         bpy.data.meshes.remove(bare)
     return flat.reshape(-1, 3)
+
+
+def faces_of_triangles(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the face (m,) that each of the `triangles` is a part of, whatever the shape."""
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    return np.repeat(np.arange(len(sizes)), np.maximum(sizes - 2, 0))

@@ -33,6 +33,8 @@ class LastRun:
     """vertices of the mesh that have a mirror image, None without symmetry"""
     own_vertices: int = 0
     """of the mesh itself"""
+    crossings: int | None = None
+    """faces of all objects that cross others and did not at first, None if none were looked for"""
 
     @property
     def status(self) -> str:
@@ -41,6 +43,8 @@ class LastRun:
         if self.matching is not None:
             of_what += f", {self.matching:,} of {self.own_vertices:,} match"
         end = "converged" if self.converged else "not converged, raise Max Iterations"
+        if self.crossings:
+            end += f", {self.crossings:,} faces still cross"
         return (
             f"{self.vertices:,} vertices{of_what}, {self.iterations} iterations, energy"
             f" {self.energy:.5f}, {end}, {self.seconds:.2f} s on {self.device}"

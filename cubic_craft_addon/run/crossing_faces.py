@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faces that cross others in a result and did not in the original; this changes nothing."""
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+import bpy
+import numpy as np
+
+from ...solver.contacts.crossings import crossings
+from .. import mesh_bridge
+
+
+def crossing_faces(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, np.ndarray]:
+    """Find the faces of results that cross others of them, as the objects are placed now.
+
+    Parameters
+    ----------
+    objects : objects with results, none of which share a mesh
+
+    Returns
+    -------
+    dict of object to (k,) int array
+        Of each object with such faces their numbers, in ascending order.
+
+    Raises
+    ------
+    CubicCraftError
+        A result or its original cannot be read.
+    """
+    objects = list(objects)
+    shapes = [_shapes(obj) for obj in objects]
+    firsts = np.cumsum([0, *(len(now) for now, *_ in shapes)])
+    F = np.concatenate([F + first for (_, _, F, _), first in zip(shapes, firsts, strict=False)])
+    now, then = (np.concatenate([shape[k] for shape in shapes]) for k in (0, 1))
+    new = _codes(crossings(now, F), len(F))
+    new = new[~np.isin(new, _codes(crossings(then, F), len(F)))]
+    is_crossing = np.zeros(len(F), dtype=bool)
+    is_crossing[new // len(F)] = is_crossing[new % len(F)] = True
+    found = {}
+    ends = pairwise(np.cumsum([0, *(len(F) for _, _, F, _ in shapes)]))
+    for obj, (begin, end), (*_, faces) in zip(objects, ends, shapes, strict=True):
+        numbers = np.unique(faces[is_crossing[begin:end]])
+        if len(numbers):
+            found[obj] = numbers
+    return found
+
+
+def _shapes(obj):
+    """Return the result (n,3) and the original in the world, triangles (m,3) and their faces."""
+    mesh = mesh_bridge.mesh_of(obj)
+    now = mesh_bridge.result_positions(obj)
+    original = mesh_bridge.original_positions(mesh, "ORIGINAL")
+    matrix = np.array(obj.matrix_world)
+    now, then = (V.astype(float) @ matrix[:3, :3].T + matrix[:3, 3] for V in (now, original))
+    return now, then, mesh_bridge.triangles(mesh, original), mesh_bridge.faces_of_triangles(mesh)
+
+
+def _codes(pairs, count):
+    return pairs[:, 0] * count + pairs[:, 1]
