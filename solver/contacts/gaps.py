@@ -104,6 +104,8 @@ def grown(graph, mask, rings):
 
 def are_near(graph, i, j):
     """Return which vertices i and j (k,) are at most `NEAR_EDGES` apart."""
+    if not len(i):
+        return np.zeros(0, dtype=bool)
     starts, row = np.unique(i, return_inverse=True)
     reached = graph[starts]
     for _ in range(NEAR_EDGES - 1):

@@ -36,17 +36,20 @@ class KeepApart:
         self._rest, self._shown = rest, rest.shown
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._pairs = np.empty((0, 2), np.intp)
-        self._best = None
+        self._best, self._progress = None, (0, 0)
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
         U = stylization.positions
         self._pairs = self._new(U)
-        count = len(np.unique(self._triangles(self._pairs)))
+        count = self._count(self._pairs)
         if self._best is None or count < self._best[0]:
-            self._best = count, U.copy(), stylization.rotations.copy()
-        return count > 0 and self._rounds < ROUNDS
+            self._best = count, U.copy(), stylization.rotations.copy(), self._pairs
+        progress = len(self._links), -count
+        is_stuck = self._rounds > 0 and progress <= self._progress
+        self._progress = progress
+        return count > 0 and self._rounds < ROUNDS and not is_stuck
 
     def renewed(self, stylization):
         """Return a Stylization with links against what crosses, from the same state."""
@@ -61,26 +64,37 @@ class KeepApart:
 
     def finish(self, stylization):
         """Go to the best state, and push apart what still crosses there."""
-        count, U, R = self._best
-        if count and self._rounds:
-            U = self._pushed(stylization, U, R)
+        count, U, R, pairs = self._best
+        if count:
+            U = self._pushed(stylization, U, pairs)
             stylization.go_to(R, U)
-        crossing = self._triangles(self._new(U))
+            pairs = self._new(U)
+        crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
+        self._best = None
 
-    def _pushed(self, stylization, U, R):
-        if self._gaps is None:
-            self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
-        return pushed(self._rest, self._gaps, self._shown, self._new, stylization.setup, U, R)
+    def _pushed(self, stylization, U, pairs):
+        """Return positions (n,3) in which as few triangles cross as by pushing is reached."""
+        is_free = np.ones(len(U), dtype=bool)
+        is_free[stylization.setup.pinned] = False
+        V, shown, impose = self._rest.V, self._shown, stylization.impose
+        now = pushed(V, U, shown, pairs, self._counts, is_free, impose)
+        return now if self._count(self._new(now)) < self._count(pairs) else U
 
     def _new(self, U):
         """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
         pairs = crossings(U, self._shown)
+        return pairs[self._counts(pairs)]
+
+    def _counts(self, pairs):
+        """Return which pairs (k,2) count: not those of triangles that both crossed at rest."""
         if not len(pairs):
-            return pairs
-        crossed = self._rest.crossing_at_rest
-        return pairs[~crossed[pairs].all(axis=1)]
+            return np.zeros(0, dtype=bool)
+        return ~self._rest.crossing_at_rest[pairs].all(axis=1)
+
+    def _count(self, pairs):
+        return len(np.unique(self._triangles(pairs)))
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

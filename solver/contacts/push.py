@@ -1,7 +1,137 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Push apart the few triangles that still cross."""
+"""Push apart the few triangles that still cross, by moving their corners only.
+
+A corner that lies on the wrong side of the other triangle's plane is moved along the plane's normal,
+and the point below it the other way, as in Mueller et al., "Position Based Dynamics", 2007. Which
+side is the right one is known from the rest shape; where it is not, it is the nearer one.
+"""
+
+import numpy as np
+
+from ..proxy.closest_point import closest_points
+from .crossings import DEPTH, crossings
+
+STEPS = 40
+MARGIN = 20.0 * DEPTH
+"""between what has been pushed apart"""
+
+REACH = 1e-3
+"""that nothing is moved beyond"""
+MANY = 2000
+"""triangles that move; for more, all others are looked at"""
+
+_RINGS = 2  # of triangles around those that cross, as others may come to cross
 
 
-def pushed(rest, gaps, shown, new_crossings, setup, U, R):
-    """Return positions (n,3) in which no more triangles cross than in U."""
-    return U
+def pushed(V, U, triangles, pairs, is_new, is_free, impose):
+    """Return positions (n,3) in which no more triangles cross than in U.
+
+    Parameters
+    ----------
+    V, U : (n,3) float arrays
+        Positions at rest and now.
+    triangles : (m,3) int array
+    pairs : (k,2) int array
+        Those of them that newly cross.
+    is_new : callable
+        Maps pairs of triangles (k,2) to a mask (k,) of those that count.
+    is_free : (n,) bool array
+        Vertices that may move.
+    impose : callable
+        Moves positions (n,3) in place so that they satisfy all constraints.
+    """
+    best, fewest = U, len(pairs)
+    near = _near(U, triangles, pairs)
+    for _ in range(STEPS):
+        if not fewest:
+            break
+        U = U + _corrections(V, U, triangles, pairs, is_free)
+        impose(U)
+        pairs = near[crossings(U, triangles[near])]
+        pairs = pairs[is_new(pairs)]
+        if len(pairs) < fewest:
+            best, fewest = U, len(pairs)
+    return best
+
+
+def _near(U, triangles, pairs):
+    """Return the triangles (k,) that may come to cross others when those of pairs are moved."""
+    is_moved, of_pairs = np.zeros(len(U), dtype=bool), np.unique(pairs)
+    is_moved[triangles[of_pairs]] = True
+    for _ in range(_RINGS):
+        moved = is_moved[triangles].any(axis=1)
+        is_moved[triangles[moved]] = True
+    low, high = U[triangles].min(axis=1), U[triangles].max(axis=1)
+    moved = np.flatnonzero(moved)
+    if len(moved) > MANY:
+        return np.arange(len(triangles))
+    is_near = np.zeros(len(triangles), dtype=bool)
+    low, high = low.T.copy() - REACH, high.T.copy() + REACH
+    for k in moved:
+        is_beside = (low[0] < high[0, k]) & (high[0] > low[0, k])
+        rows = np.flatnonzero(is_beside)
+        for x in (1, 2):
+            rows = rows[(low[x, rows] < high[x, k]) & (high[x, rows] > low[x, k])]
+        is_near[rows] = True
+    return np.flatnonzero(is_near)
+
+
+def _corrections(V, U, triangles, pairs, is_free):
+    """Return how the vertices (n,3) are moved by one step."""
+    one, other = triangles[pairs[:, 0]].astype(np.int64), triangles[pairs[:, 1]].astype(np.int64)
+    A, B = np.concatenate([one, other]), np.concatenate([other, one])
+    normal, lift, depth = _lifts(V, U, A, B)
+    depth = depth.reshape(2, -1)
+    is_chosen = np.zeros(depth.shape, dtype=bool)
+    is_chosen[depth.argmin(axis=0), np.arange(len(one))] = True
+    chosen = np.flatnonzero(is_chosen.ravel())
+    row, corner = np.nonzero(lift[chosen])
+    row = chosen[row]
+    moves = lift[row, corner][:, None] * normal[row]
+    i, under = A[row, corner], B[row]
+    b = closest_points(U[i], *(U[under[:, k]] for k in range(3)))
+    vertices = np.column_stack([i, under])
+    shares = np.column_stack([np.ones(len(i)), -b]) * is_free[vertices]
+    weight = (shares * shares).sum(axis=1)
+    shares /= np.where(weight > 0.0, weight, 1.0)[:, None]
+    return _means(vertices, shares, moves, len(U))
+
+
+def _lifts(V, U, A, B):
+    """Return how far the corners of triangles A must go along the normals of B.
+
+    Returns
+    -------
+    normal : (k,3) array
+    lift : (k,3) array
+    depth : (k,) array
+        The largest of them; infinite where the normal has no direction.
+    """
+    at_rest = _heights(V, A, B)[1]
+    normal, height = _heights(U, A, B)
+    is_above = at_rest.min(axis=1) > -DEPTH
+    is_below = at_rest.max(axis=1) < DEPTH
+    up = np.maximum(MARGIN - height, 0.0)
+    down = np.minimum(-MARGIN - height, 0.0)
+    is_up = np.where(is_above == is_below, up.max(axis=1) < -down.min(axis=1), is_above)
+    lift = np.where(is_up[:, None], up, down)
+    return normal, lift, np.where(normal.any(axis=1), np.abs(lift).max(axis=1), np.inf)
+
+
+def _heights(places, A, B):
+    """Return unit normals (k,3) of triangles B, and heights (k,3) of the corners of A over them."""
+    a, b, c = (places[B[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = np.where(size > 0.0, normal / np.where(size > 0.0, size, 1.0), 0.0)
+    return normal, np.einsum("kcx,kx->kc", places[A] - a[:, None], normal)
+
+
+def _means(vertices, shares, moves, n):
+    """Return the mean of the moves (k,3) of each vertex (n,3), by shares (k,c) of vertices (k,c)."""
+    flat = vertices.ravel()
+    size = np.abs(shares).ravel()
+    total = np.bincount(flat, size, n)
+    # of several moves in the same direction the mean is enough, weighted by how much each moves it
+    sums = [np.bincount(flat, (shares * move[:, None]).ravel() * size, n) for move in moves.T]
+    return np.stack(sums, axis=1) / np.where(total > 0.0, total, 1.0)[:, None]
