@@ -6,6 +6,8 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 
+HEADER = 16  # pixels from the button above to the middle of the header
+
 
 def add_ball():
     """Add a ball with square sides beside the monkey, which stays active."""
@@ -29,7 +31,15 @@ def shape(ball, power):
     ball.data.update()
 
 
+def open_advanced():
+    """Click on the header below the last setting of Form and Volume."""
+    above = yield from gui.find_button("cubic_craft.floor")
+    yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
+    yield from gui.wait_redraw("UI")
+
+
 def by_click(original):
+    yield from open_advanced()
     yield from gui.click((yield from gui.find_button("cubic_craft.capture_object")))
     yield 0.5
     yield from gui.screenshot("list.png")

@@ -26,7 +26,7 @@ CLOTHED = ("Body", "Shirt", "Trousers")
 MAX_DRIFT = 0.01  # of the size, of neighbours of different parts
 MAX_TURN = 1.0  # degrees
 MAX_INSIDE = 0.005  # share of the clothes' vertices that end inside the body
-HEADER_ABOVE = 110  # pixels from the row to the middle of the header; the form is between
+HEADER_ABOVE = 84  # pixels from the row to the middle of the header; the form is between
 
 
 def set_the_stage():
@@ -172,7 +172,7 @@ def settings(rest, cubified):
 
 def close_and_open_section():
     """Click twice on the header of the section that the settings are in."""
-    first = yield from gui.find_button("cubic_craft.together")
+    first = yield from gui.find_button("cubic_craft.keep_pose")
     header = first.at(0.5)[0], first.top + HEADER_ABOVE
     for is_open in (False, True):
         yield from gui.click(header)

@@ -4,7 +4,7 @@
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
-# Window: 1300x3050
+# Window: 1300x3100
 
 import contextlib
 import importlib
@@ -26,7 +26,7 @@ PADDING = 4 * SCALE
 TABS = 24 * SCALE  # pixels at the right of the sidebar
 SECTIONS = {
     # first button of each, and pixels from there to the upper edge of the header
-    "shape": ("together", 120 * SCALE),  # also while Live runs; the form is above
+    "shape": ("keep_pose", 94 * SCALE),  # also while Live runs; the form is above
     "orientation": ("cubic_craft_overlay", 33 * SCALE),
     "handles": ("cubic_craft.handle_add", 33 * SCALE),
     "regions": ("cubic_craft.region_add", 33 * SCALE),
