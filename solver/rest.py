@@ -8,15 +8,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import details
+from .contacts.crossings import crossings
 from .contraction import contract
 from .cotangents import cotangents
+from .limbs import limbs_of_shape
 from .memory import check_memory
 from .mesh_checks import check_mesh
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
 from .proxy.boxes import box_frames
-from .proxy.creases import cubic_shares
+from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
+from .proxy.nearest import Nearest
 from .proxy.neighbours import neighbour_links
+from .proxy.samples import extents
 from .proxy.thickness import outward_sign, thickness_links
 from .rest_measures import areas_and_normals
 from .spokes_and_rims import SpokesAndRims, spokes_and_rims
@@ -55,19 +60,22 @@ class RestMesh:
     """(n,) barycentric areas a_i"""
     normals: np.ndarray
     """(n,3) unit normals n_i, zero where undefined"""
-    cubic_shares: np.ndarray
-    """(n,) factors of the cubeness: 0 in creases, more than 1 beside them"""
+    coupling: np.ndarray
+    """(n,) 1, but down to 0 in the sharp creases of flat sides, across which nothing is averaged"""
+    normal_shares: np.ndarray
+    """(n,) area that each normal stands for, relative to its own: 0 in creases, more beside them"""
     to_neighbours: Links
     to_other_side: Links | None
     """for a solidity of 1; None if they have not been computed"""
-    solidity: float
-    is_refined: bool
+    options: ProxyOptions
     cotangents: np.ndarray
     """(m,3) weight of the edge opposite each corner of the triangles"""
     skin: SpokesAndRims
     """of the triangles only"""
     matrices: SpokesAndRims
     """including the links"""
+    triangles: np.ndarray | None = None
+    """(k,3) int32 triangles of the input, as given"""
 
     @property
     def F(self):  # noqa: N802 - as everywhere
@@ -87,17 +95,26 @@ class RestMesh:
     @cached_property
     def box_frames(self):
         """(n,3,3) frames of parts that are already boxes, see `proxy/boxes.py`, or None."""
-        return box_frames(self.V, self.F, self.topology.part) if self.is_refined else None
+        return box_frames(self.V, self.F, self.topology.part) if self.options.refine else None
 
     @cached_property
-    def facing_outward(self):
-        """The same mesh with the normals of inside-out parts turned around.
+    def outward(self):
+        """(n,1) -1 for the normals of parts that are inside out, else 1.
 
         The cube does not care; a pyramid would come out upside down.
         """
         sign = outward_sign(Triangles(self.V, self.F), self.topology.part)
-        is_inward = (sign < 0.0)[self.topology.part]
-        return replace(self, normals=np.where(is_inward[:, None], -self.normals, self.normals))
+        return np.where(sign < 0.0, -1.0, 1.0)[self.topology.part][:, None]
+
+    @property
+    def cubic_normals(self):
+        """(n,3) unit normals that the cubic term sees, without their details; zero for none."""
+        return self._drawn[0]
+
+    @property
+    def cubic_shares(self):
+        """(n,) factors of the cubeness: 0 in creases, more than 1 beside them."""
+        return self._drawn[1]
 
     @cached_property
     def standing(self):
@@ -107,25 +124,100 @@ class RestMesh:
         nearly a count of vertices: a rotation is noticeable where an artist has put many vertices,
         as in a face, but the tiny triangles of a zip must not turn a coat.
         """
-        return (np.sqrt(np.sqrt(self.areas)) if self.is_refined else self.areas) + 1e-300
+        return (np.sqrt(np.sqrt(self.areas)) if self.options.refine else self.areas) + 1e-300
 
     @property
     def links(self):
         """All links, with their weights."""
         if self.to_other_side is None:
             return self.to_neighbours
-        return self.to_neighbours.joined(self.to_other_side.scaled(self.solidity))
+        return self.to_neighbours.joined(self.to_other_side.scaled(self.options.solidity))
 
-    def with_solidity(self, solidity):
-        """Return the RestMesh with another solidity, without a new search for links."""
-        if solidity == self.solidity:
+    def with_options(self, options):
+        """Return the RestMesh with other options, or None if its surface would be another one."""
+        now = self.options
+        if (options.together, options.refine) != (now.together, now.refine):
+            return None
+        if options == now:
             return self
         to_other_side = self.to_other_side
-        if to_other_side is None:
+        if to_other_side is None and _needs_other_side(options):
             triangles, part = Triangles(self.V, self.F), self.topology.part
             to_other_side = thickness_links(triangles, self.normals, self.areas, part)
-        changed = replace(self, to_other_side=to_other_side, solidity=solidity)
-        return replace(changed, matrices=changed.skin.with_links(self.V, changed.links))
+        changed = replace(self, to_other_side=to_other_side, options=options)
+        if options.solidity != now.solidity:
+            matrices = changed.skin.with_links(self.V, changed.links)
+            changed = replace(changed, matrices=matrices)
+        return changed
+
+    @cached_property
+    def thickness(self):
+        """(n,) of the surface, at the nearest vertex that is linked to its other side."""
+        links, n = self.to_other_side, len(self.V)
+        if links is None or not len(links):
+            return np.full(n, np.inf)
+        i, j = links.vertices[:, 0], links.vertices[:, 1]
+        part = 10.0 * self.topology.part[:, None]  # farther apart than any part is wide
+        place = np.hstack([self.V, part])
+        nearest = Nearest(place[i])(place, distance_upper_bound=5.0)
+        found = np.append(np.linalg.norm(self.V[j] - self.V[i], axis=1), np.inf)
+        return found[nearest]
+
+    @cached_property
+    def _drawn(self):
+        if not self.options.detail:
+            return self.normals, self.normal_shares
+        parts, component = self.topology.part, self.topology.component
+        radius = details.radii(
+            self.options.detail * extents(self.V, component)[component],
+            self.thickness,
+            extents(self.V, parts)[parts],
+            np.bincount(parts)[parts] == np.bincount(component)[component],
+        )
+        normals, length = self._smoothed(radius)
+        return normals, details.WEIGHT * length * length * self.normal_shares
+
+    @cached_property
+    def limbs(self):
+        """The Limbs of the shape, see `limbs/of_shape.py`."""
+        links = self.to_other_side if self.to_other_side is not None else no_links()
+        return limbs_of_shape(self.V, self.skin, links, self.topology.part)
+
+    def _smoothed(self, radius):
+        """Return what `details.smoothed` does for radii (n,), of many vertices with a start."""
+        start = None
+        if len(self.V) > details.MANY and self.coarse is not None:
+            cluster, coarse = self.coarse.cluster, self.coarse.rest
+            means = np.bincount(cluster, radius) / np.bincount(cluster)
+            unit, length = coarse._smoothed(means)
+            start = (length[:, None] * unit)[cluster]
+        return details.smoothed(self.skin, self.areas, self.normals, radius, self.coupling, start)
+
+    @cached_property
+    def shown(self):
+        """(k,3) int triangles of the input between solved vertices: what is seen of the result."""
+        assert self.triangles is not None
+        number = np.zeros(len(self.input_positions), dtype=np.int32)
+        used, place = self.place
+        number[used] = place
+        return number[self.triangles]
+
+    @cached_property
+    def crossing_at_rest(self):
+        """(k,) bool array, the triangles of the input that cross others at rest."""
+        is_crossing = np.zeros(len(self.shown), dtype=bool)
+        is_crossing[crossings(self.V, self.shown).ravel()] = True
+        return is_crossing
+
+    def linked(self, links):
+        """Return the mesh with further links."""
+        to_neighbours = self.to_neighbours.joined(links)
+        return replace(
+            self,
+            topology=self.topology.linked(to_neighbours.pairs()),
+            to_neighbours=to_neighbours,
+            matrices=self.matrices.with_links(self.V, links),
+        )
 
     def posed(self, input_positions):
         """Return the same mesh in another pose, with all weights and links of this one.
@@ -239,6 +331,7 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
     (3, True)
     """
     input_positions, F = check_mesh(V, F)
+    given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
     surface = surface_of(input_positions, F, proxy)
     V, F = surface.V, surface.F
@@ -248,14 +341,20 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
     parts = topology(F, len(V))
     with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
         to_neighbours, search = no_links(), None
-        if proxy.solidity > 0.0:
+        if _needs_other_side(proxy):
             search = beside.submit(thickness_links, triangles, normals, areas, parts.part)
         if proxy.together:
             to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
-        shares = np.ones(len(V))
+        coupling, shares = np.ones(len(V)), np.ones(len(V))
         if proxy.refine:
-            shares = cubic_shares(triangles, C, areas)
-            C = C * stiffness(triangles, parts.part)[:, None]
+            smooth, factors = (
+                smoothness(F, C, triangles.measures, len(V)),
+                stiffness(triangles, parts.part),
+            )
+            shares = cubic_shares(triangles, smooth, areas)
+            of_flat = F[factors < 1.0]
+            coupling[of_flat] = smooth[of_flat]
+            C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side = search.result() if search else None
     rest = RestMesh(
@@ -266,13 +365,17 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
         parts.linked(to_neighbours.pairs()),
         areas,
         normals,
+        coupling,
         shares,
         to_neighbours,
         to_other_side,
-        proxy.solidity,
-        proxy.refine,
+        proxy,
         C,
         skin,
         skin,
     )
-    return replace(rest, matrices=skin.with_links(V, rest.links))
+    return replace(rest, matrices=skin.with_links(V, rest.links), triangles=given)
+
+
+def _needs_other_side(options):
+    return options.solidity > 0.0 or options.detail > 0.0 or options.keep_pose

@@ -10,12 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .coarse_start import MAX_ITERATIONS, TOLERANCE, coarse_stylization, preview_on_fine, prolongate
+from .contacts.keep_apart import KeepApart
 from .errors import CubicCraftError
 from .proxy import PAPER, ProxyOptions
 from .rest import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
 from .stylization import Energy, Stylization
+
+LEAST_ROUND = 20
+"""iterations of a round of Keep Apart, at most; or half of those that led to it, if more"""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,10 @@ class Result:
     """time to compile the kernels or to load them from a cache"""
     solve_seconds: float
     """time of the iterations"""
+    crossings: int | None = None
+    """number of triangles that cross others and did not at rest; None where nobody has looked"""
+    crossing_vertices: np.ndarray | None = None
+    """(k,) int vertices of these triangles"""
 
     @property
     def converged(self) -> bool:
@@ -216,7 +224,11 @@ class Run:
     """
 
     def __init__(
-        self, stylization: Stylization, max_iterations: int = 1000, tolerance: float = 1e-3
+        self,
+        stylization: Stylization,
+        max_iterations: int = 1000,
+        tolerance: float = 1e-3,
+        keep_apart: bool = True,
     ):
         if not (np.isfinite(tolerance) and tolerance > 0.0):
             raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
@@ -224,13 +236,19 @@ class Run:
             raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
         self.stylization = stylization
         self.reason: str | None = None
-        self._max_iterations = max_iterations
+        self._last = max_iterations
+        self._tolerance = tolerance
         self._rule = StopRule(tolerance, stylization.resolution)
-        self._is_local_next = True
+        self._phase: Callable[[], None] = self._local_step
         self._seconds = 0.0
         self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
+        rest = stylization.rest
+        is_kept = keep_apart and rest.options.keep_apart and not stylization.is_coarse
+        self._apart = KeepApart(rest) if is_kept else None
+        self._end = "converged"
+        self._round = 0
 
     @property
     def is_on_coarser_mesh(self) -> bool:
@@ -249,7 +267,7 @@ class Run:
         if self._coarse is not None:
             self._advance_coarse()
         else:
-            self._advance_fine()
+            self._phase()
         self._seconds += time.perf_counter() - begin
 
     def _advance_coarse(self):
@@ -259,17 +277,41 @@ class Run:
             self._coarse_iterations = self._coarse.iterations
             self._coarse = None
 
-    def _advance_fine(self):
+    def _local_step(self):
+        self.stylization.local_step()
+        self._phase = self._global_step
+
+    def _global_step(self):
         state = self.stylization
-        if self._is_local_next:
-            state.local_step()
-        else:
-            state.global_step()
-            if self._rule.is_converged(state.energy.total, state.displacement, state.distance):
-                self.reason = "converged"
-            elif state.iteration >= self._max_iterations:
-                self.reason = "max_iterations"
-        self._is_local_next = not self._is_local_next
+        state.global_step()
+        self._phase = self._local_step
+        if self._rule.is_converged(state.energy.total, state.displacement, state.distance):
+            self._ended("converged")
+        elif state.iteration >= self._last:
+            self._ended("max_iterations")
+
+    def _ended(self, reason):
+        """Decide what follows when the iteration has come to its end."""
+        if self._apart is None:
+            self.reason = reason
+            return
+        if not self._round:
+            self._end, self._round = reason, max(self.stylization.iteration // 2, LEAST_ROUND)
+        self._phase = self._check
+
+    def _check(self):
+        needs_round = self._apart.check(self.stylization)
+        self._phase = self._renew if needs_round else self._finish
+
+    def _renew(self):
+        self.stylization = self._apart.renewed(self.stylization)
+        self._rule = StopRule(self._tolerance, self.stylization.resolution)
+        self._last = self.stylization.iteration + self._round
+        self._phase = self._local_step
+
+    def _finish(self):
+        self._apart.finish(self.stylization)
+        self.reason = self._end
 
     def complete(self, on_iteration: Callable[[Stylization], Any] | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
@@ -306,6 +348,7 @@ class Run:
         energy = state.finish()
         positions, rotations = self.placed()
         seconds = self._seconds + time.perf_counter() - begin
+        apart = None if self.reason in (None, "cancelled") else self._apart
         return Result(
             positions,
             rotations,
@@ -315,4 +358,6 @@ class Run:
             state.device,
             state.compile_seconds,
             seconds,
+            None if apart is None else apart.crossings,
+            None if apart is None else apart.vertices,
         )

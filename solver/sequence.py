@@ -142,9 +142,9 @@ class Sequence:
         """
         self._turns = np.tile(np.eye(3), (len(stylization.rest.V), 1, 1))
         if self.state is None:
-            return Run(stylization, max_iterations, tolerance)
+            return Run(stylization, max_iterations, tolerance, keep_apart=False)
         self._turns = self._start(stylization)
-        return Run(stylization, STEPS, tolerance)
+        return Run(stylization, STEPS, tolerance, keep_apart=False)
 
     def settle(self, run):
         """Make the first frame, once it is solved, like all others; yield after each step."""

@@ -136,6 +136,22 @@ class Setup:
         other.global_step = self.global_step.anchored(other.hold_fields.components)
         return other
 
+    def linked(self, rest: RestMesh, links) -> "Setup":
+        """Return the setup of a RestMesh of the same vertices with further Links, factorized anew.
+
+        Pins, held groups and mirrors stay in force.
+        """
+        other = copy(self)
+        other.__dict__.pop("coarse", None)
+        other.rest = rest.linked(links)
+        other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
+        other.has_pin[other.rest.topology.component[self.pinned]] = True
+        other.global_step = GlobalStep(other.rest, self.pinned)
+        if self.hold_fields is None:
+            return other
+        weights, other.hold_fields = self.hold_fields.weights, None
+        return other.with_holds(weights)
+
     def _solved(self, mirrors):
         """Return mirrors of the input as those of the solved vertices."""
         is_pinned = np.zeros(len(self.rest.V), dtype=bool)

@@ -2,6 +2,7 @@
 """The local-global iteration on one mesh, step by step."""
 
 from collections.abc import Sequence
+from copy import copy
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from .backends import local_step_class
 from .energy import Energy
 from .errors import CubicCraftError
 from .holds import Holds
+from .limbs import Limbs, turns
 from .mesh_checks import per_vertex
 from .normal_capture import NormalCapture, targets_for
 from .setup import Setup
@@ -118,6 +120,8 @@ class Stylization:
         capture: NormalCapture | Sequence[NormalCapture] | None = None,
         capture_strength: ArrayLike = 0.0,
         capture_of: ArrayLike | None = None,
+        limbs: Limbs | None = None,
+        drawn: np.ndarray | None = None,
     ):
         self.setup = setup
         self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
@@ -129,35 +133,68 @@ class Stylization:
         Q = _orientation(orientation, rest, may_mirror=not (form is None and capture is None))
         self._form, self._form_of = form, _numbers(form_of, rest)
         self._capture, self._capture_of = capture, _numbers(capture_of, rest)
-        faces = rest if form is None and capture is None else rest.facing_outward
+        if drawn is None:
+            drawn = rest.cubic_normals
+            if form is not None or capture is not None:
+                drawn = drawn * rest.outward
+        self._drawn = drawn
         captured, mu = None, np.zeros_like(lam)
         if capture is not None:
             mu = _spread(capture_strength, "capture_strength", setup)
-            captured = targets_for(capture, self._capture_of, mu, Q, faces.normals)
+            captured = targets_for(capture, self._capture_of, mu, Q, drawn)
         self._mu = mu
         frames = rest.box_frames if keep_rotation and form is None else None
-        self._Q = _with_boxes(Q, frames, mu == 0.0)
-        make_local_step = local_step_class(device, precision)
+        self._Q = _with_boxes(self._along_limbs(Q, limbs), frames, mu == 0.0)
+        self._captured = captured
         self._targets = _targets(targets, setup)
-        self._local = make_local_step(
-            faces,
-            lam,
-            self._Q,
-            admm or AdmmOptions(),
-            polytopes(form, self._form_of),
-            captured,
-        )
+        self._hold_matrices = hold_matrices
         U = rest.V.copy()
         U[setup.pinned] += _moved(setup, self._targets) / rest.box.size
-        self._hold_matrices = hold_matrices
-        constraints: list[Mirror | Holds] = list(setup.mirrors)
-        if setup.hold_fields is not None:
-            constraints.insert(0, Holds(setup.hold_fields, hold_matrices))
-        self._motion = self._local.motion(setup, U, constraints)
-        self._acceleration = self._momentum()
+        self._begin(U)
         self.iteration = 0
         self.energy: Energy | None = None
         self.displacement = self.distance = 0.0
+
+    def _begin(self, U):
+        """Make both steps for the setup, from positions U (n,3)."""
+        device, precision, admm = (self._options[x] for x in ("device", "precision", "admm"))
+        self._local = local_step_class(device, precision)(
+            self.rest,
+            self._lam,
+            self._Q,
+            admm or AdmmOptions(),
+            polytopes(self._form, self._form_of),
+            self._captured,
+            self._drawn,
+        )
+        constraints: list[Mirror | Holds] = list(self.setup.mirrors)
+        if self.setup.hold_fields is not None:
+            constraints.insert(0, Holds(self.setup.hold_fields, self._hold_matrices))
+        self._constraints = constraints
+        self._motion = self._local.motion(self.setup, U, constraints)
+        self._acceleration = self._momentum()
+
+    def continued(self, setup: Setup) -> "Stylization":
+        """Return a Stylization that goes on from here, with another setup of the same vertices."""
+        other = copy(self)
+        other.setup, other.rest, other.is_started = setup, setup.rest, True
+        other._begin(self.positions.copy())
+        other._local.start_from(self.rotations.copy())
+        still = np.zeros(other.rest.topology.component_count)
+        for _ in range(_FIRST_SOLVES):
+            other._motion.step(still, still, other._keep_rotation)
+        return other
+
+    def impose(self, U):
+        """Move positions (n,3) in the unit box so that mirrors and held groups are obeyed."""
+        for constraint in self._constraints:
+            constraint.impose(U)
+
+    def go_to(self, R, U):
+        """Go to rotations (n,3,3) and positions (n,3) in the unit box, as they are."""
+        self._local.start_from(R)
+        self._motion.put(U)
+        self._acceleration = self._momentum()
 
     @property
     def device(self):
@@ -217,7 +254,23 @@ class Stylization:
             capture=self._capture,
             capture_strength=means(self._mu, free),
             capture_of=self._capture_of[first],
+            drawn=_unit(np.stack([means(x, areas) for x in self._drawn.T], axis=1)),
         )
+
+    def _along_limbs(self, Q, limbs):
+        """Return the orientations (n,3,3) that limbs turn with them, or Q as it is."""
+        rest = self.rest
+        if not rest.options.keep_pose:
+            return Q
+        limbs = rest.limbs if limbs is None else limbs
+        if not len(limbs):
+            return Q
+        forms = () if self._form is None else self._form
+        forms = [forms] if isinstance(forms, Polytope) else forms
+        G = turns(limbs, Q, forms, self._form_of)
+        for mirror in self.setup.mirrors:
+            mirror.impose_rotations(G)
+        return Q @ G
 
     def _hold_matrices_of(self, coarse):
         """Return the matrices in the units of a coarser mesh, which are those of the unit box."""
@@ -369,6 +422,12 @@ def _moved(setup, targets):
     # of welded vertices, only the pinned ones count
     moved, share = (rest.input_map.spread(x)[setup.pinned] for x in (moved, share))
     return moved / share[:, None]
+
+
+def _unit(vectors):
+    """Return vectors (n,3) with the length 1, or zero."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.where(length > 1e-12, vectors, 0.0) / np.where(length > 1e-12, length, 1.0)
 
 
 def _with_boxes(Q, frames, is_free):

@@ -191,11 +191,9 @@ def _rest(members, placements, earlier):
     for other in earlier:
         if not _has_shapes(other, members, placements):
             continue
-        before, rest = other.settings.proxy, other.setup.rest
-        if before == proxy:
+        rest = other.setup.rest.with_options(proxy)
+        if rest is not None:
             return rest
-        if replace(before, solidity=proxy.solidity) == proxy:
-            return rest.with_solidity(proxy.solidity)
     triangles = []
     for member, placement, part in parts_of(members, placements):
         F = member.whole.triangles

@@ -32,6 +32,8 @@ class NumpyLocalStep:
         What the normals are drawn to.
     captured : (n,4) float64 array, optional
         Unit normals that they are drawn to besides, and how strongly, per area; see `LocalProblem`.
+    normals : (n,3) float64 array, optional
+        Unit normals at rest, or zero; by default those of the surface as it is.
 
     Attributes
     ----------
@@ -45,8 +47,9 @@ class NumpyLocalStep:
     compile_seconds = 0.0
     resolution = 1e-9
 
-    def __init__(self, rest, lam, Q, options, form: Any = CUBE, captured=None):
+    def __init__(self, rest, lam, Q, options, form: Any = CUBE, captured=None, normals=None):
         self._rest = rest
+        normals = rest.normals if normals is None else normals
         self._options = options
         matrices = rest.matrices
         self._laplacian = matrices.matrix(matrices.laplacian)
@@ -57,11 +60,11 @@ class NumpyLocalStep:
         self._rest_quadratic = self._quadratic(self._near_origin(rest.V))
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
-        lam = local_cubeness(rest, lam)
-        captured = local_captured(rest, captured)
+        lam = local_cubeness(rest.areas, normals, lam)
+        captured = local_captured(rest.areas, normals, captured)
         nothing = np.zeros((n, 3, 3))
         self._rest_problem = LocalProblem(
-            nothing, by_columns(rest.normals), by_columns(Q), lam, form, captured
+            nothing, by_columns(normals), by_columns(Q), lam, form, captured
         )
         self._normal_weight = self._rest_problem.weights(rest.areas)
         self._states = self._rest_problem.starting(self.R)
@@ -123,15 +126,14 @@ def area_scale(areas):
     return np.where(areas > SMALLEST_AREA, areas, 1.0)
 
 
-def local_cubeness(rest, lam):
+def local_cubeness(areas, normals, lam):
     """Return the cubeness (n,) with which the L1 term stands beside the divided ARAP term."""
-    has_normal = rest.normals.any(axis=1)
-    return np.where((rest.areas > SMALLEST_AREA) & has_normal, lam, 0.0)
+    return np.where((areas > SMALLEST_AREA) & normals.any(axis=1), lam, 0.0)
 
 
-def local_captured(rest, captured):
+def local_captured(areas, normals, captured):
     """Return captured normals (n,4) without those of vertices that have no normal, or None."""
     if captured is None:
         return None
-    strength = local_cubeness(rest, captured[:, 3])
+    strength = local_cubeness(areas, normals, captured[:, 3])
     return np.where(strength > 0.0, captured.T, 0.0).T

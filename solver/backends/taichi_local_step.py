@@ -43,7 +43,7 @@ class TaichiLocalStep:
 
     Parameters
     ----------
-    rest, lam, Q, options, form, captured
+    rest, lam, Q, options, form, captured, normals
         As in `NumpyLocalStep`.
     device : {"cpu", "gpu"}
     precision : {"f64", "f32"}, optional
@@ -71,12 +71,14 @@ class TaichiLocalStep:
         options,
         form: Any = CUBE,
         captured=None,
+        normals=None,
         *,
         device="cpu",
         precision=None,
     ):
         runtime = taichi_runtime.start(device)
         self._rest = rest
+        normals = rest.normals if normals is None else normals
         self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
         if precision not in ("f64", "f32"):
@@ -88,13 +90,13 @@ class TaichiLocalStep:
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
         n = len(rest.V)
-        lam = local_cubeness(rest, lam)
+        lam = local_cubeness(rest.areas, normals, lam)
         self._options = options
-        captured = local_captured(rest, captured)
+        captured = local_captured(rest.areas, normals, captured)
         # for what the kernel does not certify; the covariances come with the positions
         all_Q = np.broadcast_to(Q, (n, 3, 3))
         nothing = np.zeros((n, 3, 3))
-        self._rest_problem = LocalProblem(nothing, rest.normals, all_Q, lam, form, captured)
+        self._rest_problem = LocalProblem(nothing, normals, all_Q, lam, form, captured)
         self._normal_weight = self._rest_problem.weights(rest.areas)
         self._arguments = self._make_arguments(Q)
         self._tables = ()
@@ -123,7 +125,7 @@ class TaichiLocalStep:
             indices=self.arrays.keep(m.indices),
             gather=keep(m.gather),
             weights=keep(-m.laplacian),
-            normals=keep(rest.normals),
+            normals=keep(self._rest_problem.normals),
             area_scale=keep(area_scale(rest.areas)),
             lam=keep(self._rest_problem.lam),
             Q=keep(Q),

@@ -56,6 +56,7 @@ class Gaps:
 
     def _across(self, chosen, sign):
         """Return the vertices at which balls on one side of chosen vertices end, or -1."""
+        assert self._nearest is not None
         V, n = self._V, sign * self._normals[chosen]
         radius, end = np.full(len(chosen), 0.5 * REACH), np.full(len(chosen), -1)
         todo = np.arange(len(chosen))

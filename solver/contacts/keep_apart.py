@@ -3,8 +3,8 @@
 
 At the end of a run, triangles that cross and did not cross at rest are found. Without any, that is
 all. Otherwise links are made across the gaps that are closed, the global step is factorized anew,
-and the iteration goes on from where it is; up to four times. The links only add to the energy, so it
-falls in every step of a round.
+and the iteration goes on from where it is; up to four times. The links only add a term to the
+energy, so it falls in every step of a round.
 """
 
 import numpy as np
@@ -16,6 +16,8 @@ from .pairs import links_against, merged, mirrored
 from .push import pushed
 
 ROUNDS = 4
+FEW = 1.0 / 2000.0
+"""of the triangles: so few are pushed apart first, and only if that fails there is a round"""
 
 
 class KeepApart:
@@ -36,7 +38,8 @@ class KeepApart:
         self._rest, self._shown = rest, rest.shown
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._pairs = np.empty((0, 2), np.intp)
-        self._best, self._progress = None, (0, 0)
+        self._best: tuple | None = None
+        self._progress, self._is_pushed = (0, 0), False
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
     def check(self, stylization):
@@ -49,7 +52,12 @@ class KeepApart:
         progress = len(self._links), -count
         is_stuck = self._rounds > 0 and progress <= self._progress
         self._progress = progress
-        return count > 0 and self._rounds < ROUNDS and not is_stuck
+        if not count or self._rounds == ROUNDS or is_stuck:
+            return False
+        if count > FEW * len(self._shown):
+            return True
+        self._push(stylization)
+        return self._best[0] > 0
 
     def renewed(self, stylization):
         """Return a Stylization with links against what crosses, from the same state."""
@@ -64,23 +72,26 @@ class KeepApart:
 
     def finish(self, stylization):
         """Go to the best state, and push apart what still crosses there."""
-        count, U, R, pairs = self._best
-        if count:
-            U = self._pushed(stylization, U, pairs)
+        assert self._best is not None
+        if self._best[0]:
+            self._push(stylization)
+        _, U, R, pairs = self._best
+        if self._rounds or self._is_pushed:
             stylization.go_to(R, U)
-            pairs = self._new(U)
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
-        self._best = None
 
-    def _pushed(self, stylization, U, pairs):
-        """Return positions (n,3) in which as few triangles cross as by pushing is reached."""
+    def _push(self, stylization):
+        """Push apart what crosses in the best state, which becomes a better one if that helps."""
+        count, U, R, pairs = self._best
         is_free = np.ones(len(U), dtype=bool)
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
-        now = pushed(V, U, shown, pairs, self._counts, is_free, impose)
-        return now if self._count(self._new(now)) < self._count(pairs) else U
+        U = pushed(V, U, shown, pairs, self._counts, is_free, impose)
+        pairs = self._new(U)
+        if self._count(pairs) < count:
+            self._best, self._is_pushed = (self._count(pairs), U, R, pairs), True
 
     def _new(self, U):
         """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""

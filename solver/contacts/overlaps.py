@@ -73,7 +73,7 @@ class _Cells:
 
     def chosen(self, is_chosen):
         """Return some of the cells (c,), those with the most boxes first."""
-        start, end = self.bounds
+        start, _ = self.bounds
         cells = np.flatnonzero(is_chosen)
         cells = cells[np.argsort(-self.counts[cells], kind="stable")]
         count = self.counts[cells]

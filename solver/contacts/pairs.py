@@ -2,10 +2,10 @@
 """Which vertices are linked so that surfaces no longer cross.
 
 From the triangles that newly cross, the search spreads over the surface as long as gaps are closed:
-a gap d at rest, which has become d~, is closed if d~ is shorter than a share of d along R d. Vertices
-beside such gaps are linked across them. Where triangles cross that had no gap between them, as
-where a surface has slid to another, their corners are linked to the nearest points that they had at
-rest on the other triangle.
+a gap d at rest, which has become d~, is closed if d~ is shorter than a share of d along R d.
+Vertices beside such gaps are linked across them. Triangles that cross are also linked themselves,
+along what is nearest between them at rest (`features.py`): where two sheets almost touch, it is not
+enough to keep their vertices apart.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ from .gaps import REACH, grown
 
 STRENGTH = 2.0
 """of a link, in areas per squared distance"""
-CLOSED = 0.35
+CLOSED = 0.5
 """share of a gap below which it is closed"""
 STRONGER = 4.0
 """factor for a link that has not prevented a crossing"""
@@ -101,8 +101,9 @@ def _links_between(rest, shown, pairs, U, R):
     turned = np.einsum("kfc,kfcab,kfb->kfa", np.abs(c), R[vertices], d)
     now = (np.einsum("kfc,kfcx->kfx", c, U[vertices]) * turned).sum(axis=2)
     is_closed = now < CLOSED * distance * np.linalg.norm(turned, axis=2)
-    is_near = distance < np.minimum(_NEAREST * distance.min(axis=1, keepdims=True), REACH)
-    is_linked = is_closed & is_near & (distance > _LEAST_GAP)
+    is_closed &= (distance > _LEAST_GAP) & (distance < REACH)
+    nearest = np.where(is_closed, distance, np.inf).min(axis=1, keepdims=True)
+    is_linked = is_closed & (distance <= _NEAREST * nearest)
     vertices, c, d = vertices[is_linked], c[is_linked], d[is_linked]
     share = 0.5 * np.abs(c)
     weights = _weights((share * rest.areas[vertices]).sum(axis=1), d)

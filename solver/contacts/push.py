@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Push apart the few triangles that still cross, by moving their corners only.
 
-A corner that lies on the wrong side of the other triangle's plane is moved along the plane's normal,
-and the point below it the other way, as in Mueller et al., "Position Based Dynamics", 2007. Which
-side is the right one is known from the rest shape; where it is not, it is the nearer one.
+A corner that lies on the wrong side of the other triangle's plane is moved along the normal of that
+plane, and the point below it the other way, as in Mueller et al., "Position Based Dynamics", 2007.
+Which side is the right one is known from the rest shape; where it is not, it is the nearer one.
 """
 
 import numpy as np
@@ -15,8 +15,8 @@ STEPS = 40
 MARGIN = 20.0 * DEPTH
 """between what has been pushed apart"""
 
-REACH = 1e-3
-"""that nothing is moved beyond"""
+REACH = 3e-3
+"""that nothing is moved beyond, of the largest extent: more would be seen as a spike"""
 MANY = 2000
 """triangles that move; for more, all others are looked at"""
 
@@ -40,12 +40,14 @@ def pushed(V, U, triangles, pairs, is_new, is_free, impose):
     impose : callable
         Moves positions (n,3) in place so that they satisfy all constraints.
     """
-    best, fewest = U, len(pairs)
+    start, best, fewest = U, U, len(pairs)
     near = _near(U, triangles, pairs)
     for _ in range(STEPS):
         if not fewest:
             break
-        U = U + _corrections(V, U, triangles, pairs, is_free)
+        U = start + np.clip(
+            U + _corrections(V, U, triangles, pairs, is_free) - start, -REACH, REACH
+        )
         impose(U)
         pairs = near[crossings(U, triangles[near])]
         pairs = pairs[is_new(pairs)]
@@ -128,7 +130,7 @@ def _heights(places, A, B):
 
 
 def _means(vertices, shares, moves, n):
-    """Return the mean of the moves (k,3) of each vertex (n,3), by shares (k,c) of vertices (k,c)."""
+    """Return the mean of the moves (k,3) of each vertex (n,3), by shares (k,c) of vertices."""
     flat = vertices.ravel()
     size = np.abs(shares).ravel()
     total = np.bincount(flat, size, n)

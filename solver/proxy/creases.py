@@ -23,19 +23,19 @@ FLAT = np.cos(np.radians(30.0))
 _LEAST = 0.5  # smoothness of the corners of a triangle, together, that can speak for all of it
 
 
-def cubic_shares(triangles, C, areas):
+def cubic_shares(triangles, smooth, areas):
     """Return the area (n,) represented by the normal of each vertex, relative to its own area.
 
     Parameters
     ----------
     triangles : Triangles
-    C : (m,3) float array
-        Cotangents of the corner angles.
+    smooth : (n,) array
+        See `smoothness`.
     areas : (n,) float array
         Barycentric areas.
     """
     corners = _corners(triangles.F)
-    at_corners = smoothness(triangles.F, C, triangles.measures, len(areas)).take(corners)
+    at_corners = smooth.take(corners)
     total = np.maximum(at_corners.sum(axis=0), _LEAST)
     given = _at_vertices(corners, at_corners * (triangles.areas / total), len(areas))
     return given / np.where(areas > 0.0, areas, 1.0)

@@ -107,10 +107,10 @@ def _shrink(place, normals, chosen, points, end, radius):
         # half the angle between both contacts, from the centre: |d| / 2r
         sine = np.sqrt(squared) / np.maximum(2.0 * shrunk, 1e-300)
         is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
+        # in a round tube all around are equally near: the opposite one stays the end
         goes_on = is_seen & (shrunk < _SETTLED * radius[todo])
-        end[todo[is_seen]] = q[is_seen]
-        radius[todo[is_seen]] = np.minimum(shrunk, radius[todo])[is_seen]
-        todo = todo[goes_on]
+        todo, q, shrunk = todo[goes_on], q[goes_on], shrunk[goes_on]
+        end[todo], radius[todo] = q, shrunk
         if not len(todo):
             break
 

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find limbs in the shape itself.
+
+Halfway between a vertex and the opposite side of its part lies a midpoint. Those of a limb lie
+along a line, those of a sheet on a surface, and those of a head or a trunk near each other. Near
+midpoints of alike thickness are one node, and nodes that meet on the surface are neighbors in a
+graph, whose paths lead along a spring and not from one of its turns to the next, nor from finger to
+finger. Around each node, in windows on this graph, the nodes are measured: their extent along their
+main direction, beside the width of what they are the middle of, says how much of a limb they are.
+Neighbors that lie the same way are one straight piece of it, as a bone is.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import dijkstra
+
+from .limbs import Limbs, no_limbs
+
+CELL = 0.35
+"""of the thickness: midpoints in such a cell are one node,..."""
+OF_SPACING = 1.0
+"""...or of the distance of neighboring links, if that is more"""
+STEP = 1.0
+"""longest edge of the graph, in thicknesses, or in distances of links if these are farther apart"""
+ALIKE = 1.7
+"""largest ratio of thicknesses along an edge"""
+REACH = 1.6
+"""of a window to either side, in widths"""
+NONE, FULL = 1.4, 2.1
+"""lengths, in widths: below is no limb, above is one in full"""
+STRAIGHT = np.cos(np.radians(20.0))
+"""between the directions of one straight piece"""
+SHORT = 0.8
+"""widths: a shorter piece belongs to the next one"""
+BLUR = 0.35
+"""of the width: how far a piece reaches into the next"""
+SMOOTHINGS = 8
+"""averages over neighboring vertices"""
+FEWEST = 6
+"""links; of fewer, nothing is found"""
+
+
+class Skeleton(NamedTuple):
+    """The nodes, m of them."""
+
+    place: np.ndarray
+    """(m,3)"""
+    thickness: np.ndarray
+    """(m,) mean distance of both sides"""
+    node: np.ndarray
+    """(n,) int of each vertex, -1 where a part has none"""
+    graph: sp.csr_matrix
+    """(m,m) lengths between neighbors"""
+
+
+def limbs_of_shape(V, skin, links, part):
+    """Return the Limbs of a shape.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Rest positions in the unit box.
+    skin : SpokesAndRims
+        With the edges of the surface.
+    links : Links
+        To opposite sides, see `proxy/thickness.py`.
+    part : (n,) int array
+        Connected part of each vertex.
+    """
+    if len(links) < FEWEST:
+        return no_limbs(len(V))
+    skeleton = skeleton_of(V, skin, links, part)
+    direction, confidence, width, distance = _measured(skeleton)
+    piece, directions = _pieces(skeleton.graph, direction, confidence)
+    if len(directions):
+        piece, directions = _without_short(piece, directions, skeleton, width, distance)
+    if not len(directions):
+        return no_limbs(len(V))
+    shares = np.zeros((len(piece), len(directions)))
+    is_limb = piece >= 0
+    shares[is_limb, piece[is_limb]] = confidence[is_limb]
+    kernel = np.exp(-((distance / (BLUR * width[:, None])) ** 2))
+    shares = kernel @ shares / kernel.sum(axis=1)[:, None]
+    shares[shares < 0.01] = 0.0
+    return Limbs(directions, _smoothed(shares, skeleton.node, skin))
+
+
+def skeleton_of(V, skin, links, part):
+    """Return the Skeleton of links to opposite sides."""
+    i, j = links.vertices[:, 0], links.vertices[:, 1]
+    middle, t = 0.5 * (V[i] + V[j]), np.linalg.norm(V[i] - V[j], axis=1)
+    row = np.repeat(np.arange(len(V), dtype=np.int32), np.diff(skin.indptr))
+    lengths = np.linalg.norm(V[row] - V[skin.indices], axis=1) + 1e-9
+    mesh = sp.csr_matrix((lengths, skin.indices, skin.indptr), shape=(len(V), len(V)))
+    ends, first = np.unique(np.concatenate([i, j]), return_index=True)
+    away, _, source = dijkstra(mesh, indices=ends, min_only=True, return_predecessors=True)
+    spacing = 2.0 * np.median(away[np.isfinite(away)])
+
+    octave = np.floor(2.0 * np.log2(np.maximum(t, 1e-6))).astype(np.int64)
+    size = np.maximum(CELL * 2.0 ** (0.5 * octave), OF_SPACING * spacing)
+    cell = np.floor(middle / size[:, None]).astype(np.int64)
+    keys = np.column_stack([part[i], octave, cell])
+    _, of_link = np.unique(keys, axis=0, return_inverse=True)
+    of_link = of_link.ravel()
+    count = np.bincount(of_link)
+    place = np.stack([np.bincount(of_link, x) for x in middle.T], axis=1) / count[:, None]
+    thickness = np.bincount(of_link, t) / count
+
+    of_end = np.full(len(V) + 1, -1)
+    of_end[ends] = of_link[first % len(i)]
+    node = of_end[np.where(source >= 0, source, len(V))]
+    graph = _graph(place, thickness, node[row], node[skin.indices], spacing)
+    return Skeleton(place, thickness, node, graph)
+
+
+def _graph(place, thickness, one, other, spacing):
+    """Return the graph of nodes that meet at edges of the mesh, from one (e,) to the other (e,)."""
+    m = len(place)
+    is_pair = (one < other) & (one >= 0)
+    one, other = np.divmod(np.unique(one[is_pair] * np.int64(m) + other[is_pair]), m)
+    length = np.linalg.norm(place[one] - place[other], axis=1)
+    low, high = np.sort([thickness[one], thickness[other]], axis=0)
+    is_kept = (length < STEP * np.maximum(low, 2.0 * spacing)) & (high < ALIKE * low)
+    one, other, length = one[is_kept], other[is_kept], length[is_kept] + 1e-9
+    graph = sp.coo_matrix((length, (one, other)), shape=(m, m)).tocsr()
+    return graph + graph.T
+
+
+def _measured(skeleton):
+    """Return direction (m,3), confidence (m,), width (m,) and distances (m,m) of the nodes.
+
+    A node is as much of a limb as the best window that it lies in.
+    """
+    place, thickness = skeleton.place, skeleton.thickness
+    distance = dijkstra(skeleton.graph, directed=False)
+    ratio = thickness / thickness[:, None]
+    is_alike = (ratio < ALIKE) & (ratio > 1.0 / ALIKE)
+    products = (place[:, :, None] * place[:, None, :]).reshape(-1, 9)
+    width = thickness
+    for _ in range(2):
+        # of nodes, not of links: those are dense where it is thick
+        window = np.where(is_alike & (distance <= REACH * width[:, None]), 1.0, 0.0)
+        total = window.sum(axis=1)[:, None]
+        mean = window @ place / total
+        second = (window @ products / total).reshape(-1, 3, 3)
+        spread, axes = np.linalg.eigh(second - mean[:, :, None] * mean[:, None, :])
+        spread = np.sqrt(12.0 * np.maximum(spread, 0.0))  # of a uniform line, its length
+        width = window @ thickness / total[:, 0] + spread[:, 1]
+    x = np.clip((spread[:, 2] / width - NONE) / (FULL - NONE), 0.0, 1.0)
+    own = x * x * (3.0 - 2.0 * x)
+    return axes[:, :, 2], (window * own[:, None]).max(axis=0), width, distance
+
+
+def _pieces(graph, direction, confidence):
+    """Return the straight piece (m,) of each node, -1 for none, and their directions (s,3).
+
+    They grow from the clearest nodes along the graph, as long as the directions are alike.
+    """
+    piece = np.full(len(confidence), -1)
+    found = []
+    for seed in np.argsort(-confidence, kind="stable"):
+        if confidence[seed] <= 0.0 or piece[seed] >= 0:
+            continue
+        front, axis, sums = [seed], direction[seed], np.zeros((3, 3))
+        while front:
+            k = front.pop(0)
+            if piece[k] >= 0 or confidence[k] <= 0.0 or abs(direction[k] @ axis) < STRAIGHT:
+                continue
+            piece[k] = len(found)
+            sums += confidence[k] * np.outer(direction[k], direction[k])
+            axis = np.linalg.eigh(sums)[1][:, 2]
+            front += graph.indices[graph.indptr[k] : graph.indptr[k + 1]].tolist()
+        found.append(axis)
+    return piece, np.array(found).reshape(-1, 3)
+
+
+def _without_short(piece, directions, skeleton, width, distance):
+    """Give the nodes of short pieces to the next long one along the graph, or to none.
+
+    Where limbs meet, what is around a node lies across them, and such a piece is no limb.
+    """
+    is_long = np.zeros(len(directions), dtype=bool)
+    for number, direction in enumerate(directions):
+        rows = np.flatnonzero(piece == number)
+        length = np.ptp(skeleton.place[rows] @ direction)
+        is_long[number] = length > SHORT * width[rows].mean()
+    is_given = (piece >= 0) & ~is_long[piece]
+    is_there = (piece >= 0) & is_long[piece]
+    if not is_there.any():
+        return np.full(len(piece), -1), directions[:0]
+    number = np.where(is_there, (np.cumsum(is_long) - 1)[piece], -1)
+    for k in np.flatnonzero(is_given):
+        nearest = np.where(is_there, distance[k], np.inf).argmin()
+        if distance[k, nearest] < width[k]:
+            number[k] = number[nearest]
+    return number, directions[is_long]
+
+
+def _smoothed(of_node, node, skin):
+    """Return the shares (n,s) of the vertices from those of their nodes, without steps."""
+    count = np.diff(skin.indptr)
+    means = skin.matrix(np.repeat(1.0 / count, count))
+    shares = sp.csr_matrix(np.vstack([of_node, np.zeros(of_node.shape[1])]))[node]
+    for _ in range(SMOOTHINGS):
+        shares = means @ shares
+    return shares
