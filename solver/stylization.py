@@ -6,13 +6,14 @@ from copy import copy
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.sparse import csr_matrix
 
 from .acceleration import Momentum
 from .backends import local_step_class
 from .energy import Energy
 from .errors import CubicCraftError
 from .holds import Holds
-from .limbs import Limbs, turns
+from .limbs import KnownLimbs, Limbs, turns
 from .mesh_checks import per_vertex
 from .normal_capture import NormalCapture, targets_for
 from .setup import Setup
@@ -62,6 +63,11 @@ class Stylization:
         Whether the mesh is a coarser one that provides the start for another.
     hold_matrices : sequence of (4,4) numpy arrays
         Maps of the groups of `Setup.with_holds`, in the units of the input.
+    limbs : KnownLimbs, optional
+        Of the vertices of the input for which it is known which way they lie, as from bones. Those
+        of the others are found from the shape. Only with `ProxyOptions.keep_pose`.
+    drawn : (n,3) numpy array, optional
+        Normals of the solved vertices that the cubic term sees; by default those of `rest`.
 
     Attributes
     ----------
@@ -120,7 +126,7 @@ class Stylization:
         capture: NormalCapture | Sequence[NormalCapture] | None = None,
         capture_strength: ArrayLike = 0.0,
         capture_of: ArrayLike | None = None,
-        limbs: Limbs | None = None,
+        limbs: KnownLimbs | None = None,
         drawn: np.ndarray | None = None,
     ):
         self.setup = setup
@@ -262,12 +268,14 @@ class Stylization:
         rest = self.rest
         if not rest.options.keep_pose:
             return Q
-        limbs = rest.limbs if limbs is None else limbs
-        if not len(limbs):
+        found = rest.limbs
+        if limbs is not None:
+            found = found.replaced(*_at_solved(limbs, rest))
+        if not len(found):
             return Q
         forms = () if self._form is None else self._form
         forms = [forms] if isinstance(forms, Polytope) else forms
-        G = turns(limbs, Q, forms, self._form_of)
+        G = turns(found, Q, forms, self._form_of)
         for mirror in self.setup.mirrors:
             mirror.impose_rotations(G)
         return Q @ G
@@ -422,6 +430,15 @@ def _moved(setup, targets):
     # of welded vertices, only the pinned ones count
     moved, share = (rest.input_map.spread(x)[setup.pinned] for x in (moved, share))
     return moved / share[:, None]
+
+
+def _at_solved(limbs, rest):
+    """Return where Limbs of the input are known at the solved vertices (n,), and what they are."""
+    known = np.asarray(limbs.known, dtype=np.float64)
+    shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
+    share_known = rest.input_map.spread(known)
+    shares /= np.where(share_known > 0.0, share_known, 1.0)[:, None]
+    return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares))
 
 
 def _unit(vectors):

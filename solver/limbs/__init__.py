@@ -7,8 +7,8 @@ box along itself, and swinging gains nothing. `Limbs` says which way each vertex
 from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames of it.
 """
 
-from .limbs import Limbs, no_limbs
+from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_shape import limbs_of_shape
 from .turns import turns
 
-__all__ = ("Limbs", "limbs_of_shape", "no_limbs", "turns")
+__all__ = ("KnownLimbs", "Limbs", "limbs_of_shape", "no_limbs", "turns")

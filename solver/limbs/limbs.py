@@ -18,30 +18,37 @@ class Limbs:
     Examples
     --------
     >>> import numpy as np
+    >>> from scipy.sparse import csr_matrix
     >>> from solver.limbs import Limbs
-    >>> arm = Limbs(np.array([[1.0, 0, -1]]) / 2**0.5, np.array([[1.0], [0.5], [0.0]]))
+    >>> arm = Limbs(np.array([[1.0, 0, -1]]) / 2**0.5, csr_matrix([[1.0], [0.5], [0.0]]))
     >>> len(arm)
     1
     """
 
     directions: np.ndarray
     """(s,3) unit vectors along the pieces, to either end"""
-    shares: np.ndarray | sp.csr_matrix
+    shares: sp.csr_matrix
     """(n,s) of each vertex in each piece. What is left to 1 belongs to no limb: to a trunk"""
 
     def __len__(self):
         return len(self.directions)
 
-    def at(self, rows):
-        """Return the Limbs of some vertices, by number (k,)."""
-        return Limbs(self.directions, self.shares[rows])
+    def replaced(self, is_replaced, other):
+        """Return the Limbs in which some vertices, a mask (n,), have those of others."""
+        own = sp.diags(np.where(is_replaced, 0.0, 1.0)) @ self.shares
+        others = sp.diags(np.where(is_replaced, 1.0, 0.0)) @ other.shares
+        directions = np.concatenate([self.directions, other.directions])
+        return Limbs(directions, sp.hstack([own, others], format="csr"))
 
-    def joined(self, other):
-        """Return the Limbs of these vertices, followed by those of others."""
-        shares = sp.block_diag([self.shares, other.shares], format="csr")
-        return Limbs(np.concatenate([self.directions, other.directions]), shares)
+
+@dataclass(frozen=True)
+class KnownLimbs(Limbs):
+    """Limbs of which it is known, for some vertices, that they are so."""
+
+    known: np.ndarray
+    """(n,) bool; the rows of all others are zero"""
 
 
 def no_limbs(count):
     """Return the Limbs of a body of `count` vertices that has none."""
-    return Limbs(np.empty((0, 3)), np.empty((count, 0)))
+    return Limbs(np.empty((0, 3)), sp.csr_matrix((count, 0)))

@@ -26,8 +26,8 @@ class ProxyOptions:
     Examples
     --------
     >>> from solver import PAPER, ProxyOptions
-    >>> ProxyOptions()
-    ProxyOptions(solidity=0.1, together=True, refine=True, keep_pose=True, detail=0.05, keep_apart=True)
+    >>> ProxyOptions()  # doctest: +ELLIPSIS
+    ProxyOptions(solidity=0.1, together=True, refine=True, keep_pose=True, detail=0.05,...
     >>> PAPER.solidity, PAPER.refine, PAPER.detail
     (0.0, False, 0.0)
     """
