@@ -179,8 +179,10 @@ class RestMesh:
 
     @cached_property
     def limbs(self):
-        """The Limbs of the shape, see `limbs/of_shape.py`."""
+        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes are none."""
         links = self.to_other_side if self.to_other_side is not None else no_links()
+        if self.box_frames is not None:
+            links = links.part(~self.box_frames.any(axis=(1, 2))[links.vertices[:, 0]])
         return limbs_of_shape(self.V, self.skin, links, self.topology.part)
 
     def _smoothed(self, radius):

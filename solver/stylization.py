@@ -241,6 +241,9 @@ class Stylization:
             total = np.bincount(coarsening.cluster, weights, count)
             return sums / np.where(total > 0.0, total, 1.0)
 
+        drawn = None  # the normals of the coarser mesh, where details count
+        if self.rest.options.detail:
+            drawn = _unit(np.stack([means(x, areas) for x in self._drawn.T], axis=1))
         is_pinned = np.zeros(len(self.rest.V))
         is_pinned[self.setup.pinned] = 1.0
         free = areas * (1.0 - is_pinned) + 1e-300
@@ -260,7 +263,7 @@ class Stylization:
             capture=self._capture,
             capture_strength=means(self._mu, free),
             capture_of=self._capture_of[first],
-            drawn=_unit(np.stack([means(x, areas) for x in self._drawn.T], axis=1)),
+            drawn=drawn,
         )
 
     def _along_limbs(self, Q, limbs):

@@ -41,6 +41,10 @@ class Links:
         """Return the links with their vertices mapped by number (n,)."""
         return replace(self, vertices=number[self.vertices])
 
+    def part(self, rows):
+        """Return some of the links, by number or by a mask (k,)."""
+        return Links(self.vertices[rows], self.coefficients[rows], self.weights[rows])
+
     def joined(self, other):
         """Return these links and others."""
         return Links(

@@ -27,7 +27,7 @@ from .nearest import Nearest
 from .samples import surface_samples
 
 LEAST_ANGLE = np.radians(90.0)
-STRENGTH = 1.8
+STRENGTH = 2.7
 """of a link of solidity 1, in areas per squared distance"""
 SAMPLES = 6000
 """approximate number of linked vertices; each represents the area around it"""

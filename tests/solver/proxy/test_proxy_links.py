@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Links in the matrices, and which of them there are."""
 
+from dataclasses import replace
+
 import numpy as np
 import proxy_shapes
 import pytest
@@ -157,9 +159,10 @@ def test_solidity_can_be_changed_without_another_search(monkeypatch):
     V, F = shapes.blob(3)
     rest = rest_mesh(V, F, ProxyOptions())
     monkeypatch.setattr("solver.rest.thickness_links", None)
-    other = rest.with_solidity(0.5)
+    other = rest.with_options(replace(rest.options, solidity=0.5))
     assert other.links.weights.sum() == pytest.approx(5 * rest.links.weights.sum())
-    fresh = rest.with_solidity(0.0).with_solidity(0.1)
+    hollow = rest.with_options(replace(rest.options, solidity=0.0))
+    fresh = hollow.with_options(rest.options)
     np.testing.assert_array_equal(fresh.matrices.laplacian, rest.matrices.laplacian)
 
 
