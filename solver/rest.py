@@ -12,7 +12,7 @@ from . import details
 from .contacts.crossings import crossings
 from .contraction import contract
 from .cotangents import cotangents
-from .limbs import limbs_of_shape
+from .limbs import limbs_of_shape, with_coverings
 from .memory import check_memory
 from .mesh_checks import check_mesh
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
@@ -183,7 +183,23 @@ class RestMesh:
         links = self.to_other_side if self.to_other_side is not None else no_links()
         if self.box_frames is not None:
             links = links.part(~self.box_frames.any(axis=(1, 2))[links.vertices[:, 0]])
-        return limbs_of_shape(self.V, self.skin, links, self.topology.part)
+        found = limbs_of_shape(self.V, self.skin, links, self.topology.part)
+        neighbours = self.to_neighbours
+        if not len(neighbours):
+            return found
+        return with_coverings(found, self.V, self.topology.part, neighbours, self.linked_share)
+
+    @cached_property
+    def linked_share(self):
+        """(p,) share of the area of each part that is linked to other parts."""
+        links, part = self.to_neighbours, self.topology.part
+        # those of a coarser mesh include links within parts
+        is_between = part[links.vertices[:, 0]] != part[links.vertices[:, 1]]
+        is_end = is_between[:, None] & (links.coefficients != 0.0)
+        is_linked = np.zeros(len(self.V), dtype=bool)
+        is_linked[links.vertices[is_end]] = True
+        area = np.bincount(part, self.areas)
+        return np.bincount(part, self.areas * is_linked) / np.where(area > 0.0, area, 1.0)
 
     def _smoothed(self, radius):
         """Return what `details.smoothed` does for radii (n,), of many vertices with a start."""

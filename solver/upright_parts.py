@@ -90,7 +90,7 @@ def _large_parts(rest, is_free):
     of_part = np.zeros(len(size), np.int64)
     of_part[part] = component
     is_large = is_free[of_part] & (size >= LARGE * extents(rest.V, component)[of_part])
-    is_large &= _linked_share(rest) < HELD
+    is_large &= rest.linked_share < HELD
     counts = np.bincount(of_part[is_large], minlength=len(is_free))
     vertices = np.bincount(component, minlength=len(is_free))
     groups, memory = {}, 0
@@ -102,18 +102,6 @@ def _large_parts(rest, is_free):
         parts = parts[np.argsort(-size[parts], kind="stable")][:MOST_PARTS]
         groups[c] = [*(np.flatnonzero(part == p) for p in parts), np.flatnonzero(component == c)]
     return groups
-
-
-def _linked_share(rest):
-    """Return the share of the area of each part that is linked to other parts."""
-    links, part = rest.to_neighbours, rest.topology.part
-    # those of a coarser mesh include links within parts
-    is_between = part[links.vertices[:, 0]] != part[links.vertices[:, 1]]
-    is_end = is_between[:, None] & (links.coefficients != 0.0)
-    is_linked = np.zeros(len(rest.V), dtype=bool)
-    is_linked[links.vertices[is_end]] = True
-    area = np.bincount(part, rest.areas)
-    return np.bincount(part, rest.areas * is_linked) / np.where(area > 0.0, area, 1.0)
 
 
 def _centroid(areas, P):

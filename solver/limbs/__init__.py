@@ -7,8 +7,10 @@ box along itself, and swinging gains nothing. `Limbs` says which way each vertex
 from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames of it.
 """
 
+from .covering import with_coverings
 from .limbs import KnownLimbs, Limbs, no_limbs
+from .of_bones import limbs_of_bones
 from .of_shape import limbs_of_shape
 from .turns import turns
 
-__all__ = ("KnownLimbs", "Limbs", "limbs_of_shape", "no_limbs", "turns")
+__all__ = ("KnownLimbs", "Limbs", "limbs_of_bones", "limbs_of_shape", "no_limbs", "turns", "with_coverings")

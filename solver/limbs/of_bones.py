@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Take limbs from the bones that move them, and from the weights with which they do.
+
+Not every bone is in a limb: those of a spine lie in a trunk that is about as wide as they are long.
+Bones that go on from each other are measured together, as a tail may have many short ones, beside
+the width of the vertices that they move.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+
+from .limbs import KnownLimbs
+from .of_shape import FULL, NONE
+
+STRAIGHT = np.cos(np.radians(25.0))
+"""between bones that are measured together"""
+ALIKE = 1.7
+"""largest ratio of their widths, from the one nearer to the trunk to the next,..."""
+WIDER = 1.2
+"""...and the other way, as a head on a neck is not measured with it"""
+THICKER = 1.6
+"""largest ratio of the width of a hand to that of its arm; thicker is a head on its neck"""
+BENT = np.cos(np.radians(40.0))
+"""between a shin and its foot, which stands on the ground and keeps the frame of the object,..."""
+SHORT = 0.7
+"""...and of their lengths"""
+ALONG = 1.5
+"""ratio of the spreads of vertices by which the next bone's head tells more than the tail"""
+_MAIN = 0.5  # weight of the vertices that a bone is measured by...
+_FEWEST = 4  # ...unless there are fewer of them
+_LEAST = 1e-6  # sum of weights
+
+
+class _Measured(NamedTuple):
+    """Of b bones; those that move nothing, or have no length, have the length and width 0."""
+
+    directions: np.ndarray
+    """(b,3)"""
+    lengths: np.ndarray
+    """(b,)"""
+    widths: np.ndarray
+    """(b,) of a round limb, its diameter"""
+    parents: np.ndarray
+    """(b,) the nearest one that is measured, or -1"""
+
+
+def limbs_of_bones(V, weights, heads, tails, parents):
+    """Return the KnownLimbs of a mesh, one piece for each bone.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Rest positions.
+    weights : (n,b) scipy csr_matrix
+        How much each bone moves each vertex, not normalised.
+    heads, tails : (b,3) float arrays
+        Ends of the bones in the same coordinates and in the rest pose.
+    parents : (b,) int array
+        -1 for none.
+
+    Returns
+    -------
+    KnownLimbs
+        Known where a bone moves a vertex. A bone that is in no limb has no shares.
+    """
+    weights = _usable(weights)
+    total = np.asarray(weights.sum(axis=1)).ravel()
+    known = total > _LEAST
+    shares = sp.diags(np.where(known, 1.0, 0.0) / np.where(known, total, 1.0)) @ weights
+    bones = _measured(np.asarray(V, dtype=np.float64), weights, heads, tails, parents)
+    confidence, axis_of = _confidence(bones)
+    shares = sp.csr_matrix(shares @ sp.diags(confidence))
+    return KnownLimbs(bones.directions[axis_of], shares, known)
+
+
+def _usable(weights):
+    weights = sp.csr_matrix(weights, dtype=np.float64, copy=True)
+    is_good = np.isfinite(weights.data) & (weights.data > 0.0)
+    weights.data[~is_good] = 0.0
+    weights.eliminate_zeros()
+    return weights
+
+
+def _measured(V, weights, heads, tails, parents):
+    """Return the _Measured bones."""
+    count, spread = _spreads(V, weights)
+    heads, tails = np.asarray(heads, dtype=np.float64), np.asarray(tails, dtype=np.float64)
+    along = tails - heads
+    is_there = (count > 0) & np.isfinite(along).all(axis=1)
+    parents = _nearest_there(np.asarray(parents), is_there)
+    along = _onward(along, heads, parents, spread, is_there)
+    lengths = np.where(is_there, np.linalg.norm(along, axis=1), 0.0)
+    is_there &= lengths > 0.0
+    parents = np.where(is_there, _nearest_there(parents, is_there), -1)
+    directions = np.where(is_there[:, None], along, [0.0, 0.0, 1.0])
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
+    widths = np.linalg.eigvalsh(across @ spread @ across)[:, 2]
+    widths = np.where(is_there, np.sqrt(8.0 * np.maximum(widths, 0.0)), 0.0)
+    return _Measured(directions, lengths, widths, parents)
+
+
+def _spreads(V, weights):
+    """Return how many vertices each bone moves (b,), and the covariances of them (b,3,3)."""
+    main = weights.copy()
+    main.data[main.data <= _MAIN] = 0.0
+    is_few = np.asarray((main > 0).sum(axis=0)).ravel() < _FEWEST
+    main = sp.csr_matrix(main @ sp.diags(np.where(is_few, 0.0, 1.0)))
+    main = main + weights @ sp.diags(np.where(is_few, 1.0, 0.0))
+    count = np.asarray((main > 0).sum(axis=0)).ravel()
+    total = np.asarray(main.sum(axis=0)).ravel()
+    total = np.where(count > 0, total, 1.0)[:, None]
+    V = V - V.mean(axis=0)
+    mean = main.T @ V / total
+    products = main.T @ (V[:, :, None] * V[:, None, :]).reshape(-1, 9) / total
+    return count, products.reshape(-1, 3, 3) - mean[:, :, None] * mean[:, None, :]
+
+
+def _nearest_there(parents, is_there):
+    """Return the nearest ancestor (b,) of each bone that is there, or -1."""
+    found = np.full(len(parents), -1)
+    for bone in range(len(parents)):
+        ancestor, steps = parents[bone], 0
+        while ancestor >= 0 and not is_there[ancestor] and steps < len(parents):
+            ancestor, steps = parents[ancestor], steps + 1
+        found[bone] = ancestor if steps < len(parents) else -1
+    return found
+
+
+def _onward(along, heads, parents, spread, is_there):
+    """Return the vectors (b,3) along the bones, to the next head where the tail lies sideways.
+
+    Of rigs from other programs, bones often point across what they move.
+    """
+    along = along.copy()
+    for bone in np.flatnonzero(is_there):
+        children = np.flatnonzero((parents == bone) & is_there)
+        if len(children) != 1:
+            continue
+        onward = heads[children[0]] - heads[bone]
+        length, other = np.linalg.norm(along[bone]), np.linalg.norm(onward)
+        if not other > 0.25 * length:
+            continue
+        own, there = along[bone] / max(length, 1e-300), onward / other
+        if there @ spread[bone] @ there > ALONG**2 * (own @ spread[bone] @ own):
+            along[bone] = onward
+    return along
+
+
+def _confidence(bones):
+    """Return how much of a limb each bone is in (b,), and whose direction it has (b,) int."""
+    following = _following(bones)
+    total = _total_lengths(bones, following)
+    ratio = total / np.where(bones.widths > 0.0, bones.widths, np.inf)
+    x = np.clip((ratio - NONE) / (FULL - NONE), 0.0, 1.0)
+    own = x * x * (3.0 - 2.0 * x)
+    confidence, axis_of = own.copy(), np.arange(len(own))
+    for bone in _from_the_root(bones.parents):
+        parent = bones.parents[bone]
+        if parent < 0 or bones.widths[bone] == 0.0:
+            continue
+        if _is_foot(bone, bones, own, total):
+            confidence[bone] = 0.0
+        elif (
+            confidence[parent] > own[bone]
+            and bones.widths[bone] <= THICKER * bones.widths[parent]
+            and _is_end(bone, bones)
+        ):
+            confidence[bone], axis_of[bone] = confidence[parent], axis_of[parent]
+    return confidence, axis_of
+
+
+def _following(bones):
+    """Return the child (b,) that each bone is measured with, or -1."""
+    found = np.full(len(bones.parents), -1)
+    best = np.full(len(found), STRAIGHT)
+    is_fork = np.zeros(len(found), dtype=bool)
+    for bone, parent in enumerate(bones.parents):
+        if parent < 0 or bones.widths[bone] == 0.0:
+            continue
+        ratio = bones.widths[parent] / bones.widths[bone]
+        cosine = bones.directions[bone] @ bones.directions[parent]
+        if not (1.0 / WIDER <= ratio <= ALIKE and cosine > STRAIGHT):
+            continue
+        is_fork[parent] = found[parent] >= 0 and abs(cosine - best[parent]) < 1e-3
+        if cosine > best[parent]:
+            best[parent], found[parent] = cosine, bone
+    found[is_fork] = -1  # neither of two that are mirror images
+    return found
+
+
+def _total_lengths(bones, following):
+    """Return the length (b,) of the bones that each is measured with."""
+    total = np.zeros(len(following))
+    is_first = np.ones(len(following), dtype=bool)
+    is_first[following[following >= 0]] = False
+    for bone in np.flatnonzero(is_first):
+        chain = [bone]
+        while following[chain[-1]] >= 0:
+            chain.append(following[chain[-1]])
+        total[chain] = bones.lengths[chain].sum()
+    return total
+
+
+def _from_the_root(parents):
+    """Return the bones (b,), parents before children."""
+    depth = np.zeros(len(parents), dtype=int)
+    for bone in range(len(parents)):
+        ancestor = parents[bone]
+        while ancestor >= 0 and depth[bone] <= len(parents):
+            ancestor, depth[bone] = parents[ancestor], depth[bone] + 1
+    return np.argsort(depth, kind="stable")
+
+
+def _is_end(bone, bones):
+    """Return whether what follows a bone is only fingers, or nothing."""
+    children = np.flatnonzero(bones.parents == bone)
+    return (bones.widths[children] < bones.widths[bone]).all()
+
+
+def _is_foot(bone, bones, own, total):
+    """Return whether a bone is the first of a foot, or follows such a one."""
+    while bones.parents[bone] >= 0:
+        parent = bones.parents[bone]
+        siblings = np.flatnonzero(bones.parents == parent)
+        if len(siblings) > 1:
+            return False
+        if bones.directions[bone] @ bones.directions[parent] < BENT:
+            return bool(own[parent] > 0.0 and total[bone] < SHORT * total[parent])
+        bone = parent
+    return False
