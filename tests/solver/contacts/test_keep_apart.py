@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces that do not cross at rest do not cross in the result."""
+
+import contact_shapes
+import numpy as np
+import pytest
+import shapes
+
+from solver import (
+    PAPER,
+    Mirror,
+    ProxyOptions,
+    Run,
+    Sequence,
+    Setup,
+    Stylization,
+    partners,
+    rest_mesh,
+    run,
+    stylize,
+)
+from solver.contacts.crossings import crossings
+from solver.proxy import no_links
+
+BARE = {"keep_pose": False, "detail": 0.0}
+"""what lets limbs swing"""
+COARSE = {"refine": False}
+"""what makes a test fast"""
+
+
+def stylization(V, F, cubeness=0.4, pinned=(), apart=True, options=None, mirrors=(), **others):
+    proxy = ProxyOptions(keep_apart=apart, **(options or {}))
+    setup = Setup(rest_mesh(V, F, proxy), pinned, mirrors=mirrors)
+    return Stylization(setup, cubeness, **{"device": "numpy", "keep_rotation": True} | others)
+
+
+def new_crossings(V, U, F):
+    """Return the triangles that cross and crossed nothing at rest."""
+    return np.setdiff1d(crossings(U, F), crossings(V, F))
+
+
+CROWDED = {
+    "arms beside the body": (contact_shapes.figure, {"gap": 0.05}, {}),
+    "arms that swing into each other": (contact_shapes.figure, {"degrees": 40}, BARE),
+    "a coat over a body": (contact_shapes.dressed, {"gap": 0.006}, BARE | {"together": False}),
+    "fingers": (contact_shapes.hand, {"count": 4}, {}),
+    "fingers without their pose": (contact_shapes.hand, {"count": 4}, BARE),
+    "lips": (contact_shapes.lips, {"count": 16}, {}),
+    "a spring": (contact_shapes.spring, {"sides": 8, "per_turn": 24}, BARE),
+    "layers": (contact_shapes.layers, {}, {}),
+}
+
+
+@pytest.mark.parametrize("cubeness", [0.4, 1.0])
+@pytest.mark.parametrize("name", CROWDED)
+def test_no_surface_crosses_another(name, cubeness):
+    make, size, options = CROWDED[name]
+    V, F = make(**size)
+    result = run(stylization(V, F, cubeness, options=options))
+    assert result.crossings == len(new_crossings(V, result.positions, F)) == 0
+    assert len(result.crossing_vertices) == 0
+
+
+@pytest.mark.parametrize("name", ["fingers", "a spring", "lips"])
+def test_they_would_cross_without_it(name):
+    make, size, options = CROWDED[name]
+    V, F = make(**size)
+    result = run(stylization(V, F, apart=False, options=options))
+    assert result.crossings is None and result.crossing_vertices is None
+    assert len(new_crossings(V, result.positions, F)) > 20
+
+
+def test_where_nothing_crosses_the_result_has_the_same_bits(device):
+    V, F = shapes.blob(3)
+    with_it, without = (
+        run(stylization(V, F, apart=is_apart, device=device)) for is_apart in (True, False)
+    )
+    np.testing.assert_array_equal(with_it.positions, without.positions)
+    np.testing.assert_array_equal(with_it.rotations, without.rotations)
+    assert with_it.energy == without.energy and with_it.iterations == without.iterations
+    assert with_it.crossings == 0
+
+
+def test_the_energy_of_the_paper_is_left_alone():
+    V, F = contact_shapes.hand(count=4)
+    assert not PAPER.keep_apart
+    assert stylize(V, F, max_iterations=3, device="numpy").crossings is None
+
+
+def test_it_does_on_every_device(device):
+    V, F = contact_shapes.hand()
+    result = run(stylization(V, F, options=COARSE, device=device))
+    assert result.crossings == len(new_crossings(V, result.positions, F)) == 0
+
+
+def test_twice_and_in_slices_it_has_the_same_bits():
+    V, F = contact_shapes.hand()
+    whole, again = (run(stylization(V, F, options=COARSE)) for _ in range(2))
+    sliced = Run(stylization(V, F, options=COARSE))
+    phases, seen = 0, set()
+    while sliced.reason is None:
+        sliced.advance()
+        sliced.positions(), sliced.placed()
+        phases += 1
+        seen.add(sliced.stylization)
+    assert len(seen) > 1 and phases > 2 * whole.iterations
+    for other in (again, sliced.result()):
+        np.testing.assert_array_equal(other.positions, whole.positions)
+        np.testing.assert_array_equal(other.rotations, whole.rotations)
+        assert other.iterations == whole.iterations and other.energy == whole.energy
+
+
+def test_in_a_round_the_energy_of_the_plain_iteration_falls():
+    V, F = contact_shapes.hand()
+    plain = Run(stylization(V, F, options=COARSE, is_accelerated=False), max_iterations=60)
+    energies = {}
+
+    def note(state):
+        energies.setdefault(id(state.setup), []).append(state.energy.total)
+
+    plain.complete(note)
+    assert len(energies) > 1
+    for values in energies.values():
+        assert len(values) > 5
+        assert (np.diff(values) <= 1e-9 * values[0]).all()
+
+
+def test_a_round_takes_up_to_half_of_the_first_iterations_or_twenty():
+    V, F = contact_shapes.hand()
+    limited = Run(stylization(V, F, options=COARSE), max_iterations=10)
+    counts, state = [], limited.stylization
+    while limited.reason is None:
+        before = limited.stylization.iteration
+        limited.advance()
+        if limited.stylization is not state:
+            counts.append(before)
+            state = limited.stylization
+    counts.append(limited.stylization.iteration)
+    assert counts[0] == 10 and 1 < len(counts) <= 5
+    assert (np.diff(counts) <= 20).all()
+    result = limited.result()
+    assert result.reason == "max_iterations" and result.iterations == limited.iterations
+
+
+def test_a_run_that_is_cancelled_does_not_look():
+    V, F = contact_shapes.hand()
+    result = run(stylization(V, F, options=COARSE), on_iteration=lambda state: state.iteration == 5)
+    assert result.reason == "cancelled" and result.crossings is None
+
+
+def test_pinned_vertices_do_not_move():
+    V, F = contact_shapes.hand()
+    pinned = np.arange(0, len(V), 90)
+    held = Run(stylization(V, F, options=COARSE, pinned=pinned))
+    first = held.stylization
+    held.complete()
+    assert held.stylization is not first
+    result = held.result()
+    np.testing.assert_array_equal(result.positions[pinned], V[pinned])
+
+
+def test_loose_vertices_do_not_move():
+    V, F = contact_shapes.hand()
+    loose = np.array([[0.4, 1.5, 0.1], [9.0, 9.0, 9.0]])
+    result = run(stylization(np.concatenate([V, loose]), F, options=COARSE))
+    np.testing.assert_array_equal(result.positions[len(V) :], loose)
+
+
+def test_mirrored_halves_stay_mirror_images():
+    V, F = contact_shapes.hand()
+    linear, offset = np.diag([-1.0, 1, 1]), np.array([-0.5, 0, 0])
+    V, F = contact_shapes.joined((V, F), (V @ linear + offset, F[:, ::-1]))
+    mirror = Mirror(partners(V, V @ linear + offset, 1e-6), linear, offset)
+    assert mirror.count == len(V)
+    both = Run(stylization(V, F, options=COARSE, mirrors=[mirror]))
+    first = both.stylization
+    both.complete()
+    assert both.stylization is not first
+    result = both.result()
+    assert result.crossings == 0
+    U = result.positions
+    np.testing.assert_allclose(mirror.image(U)[mirror.partner], U, atol=1e-9)
+
+
+def test_held_groups_keep_their_place():
+    V, F = contact_shapes.hand()
+    weights = (np.arange(len(V)) < 40).astype(float)
+    setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).with_holds([weights])
+    matrix = np.eye(4)
+    matrix[:3, 3] = 0.1, 0.2, 0.0
+    options = {"device": "numpy", "keep_rotation": True, "hold_matrices": [matrix]}
+    held = Run(Stylization(setup, 0.4, **options))
+    first = held.stylization
+    held.complete()
+    assert held.stylization is not first
+    moved = (held.positions() - V)[weights > 0]
+    share = setup.rest.areas[setup.rest.place[1]][weights > 0]
+    np.testing.assert_allclose(np.average(moved, axis=0, weights=share), matrix[:3, 3], atol=1e-3)
+
+
+def test_a_pose_has_its_own_contacts():
+    V, F = contact_shapes.hand()
+    posed = V @ contact_shapes.turned(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
+    setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).posed(posed)
+    result = run(Stylization(setup, 0.4, device="numpy", keep_rotation=True))
+    assert result.crossings == len(new_crossings(posed, result.positions, F)) == 0
+
+
+def test_frames_of_an_animation_are_not_looked_at():
+    V, F = contact_shapes.hand(count=3)
+    state = stylization(V, F, options=COARSE)
+    assert Sequence(state.rest).solve(state, max_iterations=20).crossings is None
+
+
+def test_links_that_are_none_change_nothing():
+    state = stylization(*shapes.blob(2))
+    other = state.setup.linked(state.rest, no_links())
+    assert other.rest.topology.component_count == state.rest.topology.component_count
+    np.testing.assert_array_equal(other.rest.matrices.laplacian, state.rest.matrices.laplacian)
+
+
+def test_what_crosses_at_rest_may_cross():
+    V, F = shapes.sphere(3)
+    V, F = contact_shapes.joined((V, F), (0.4 * V + [0.0, 0.1, 1.0], F))
+    assert len(crossings(V, F))
+    result = run(stylization(V, F, 0.6))
+    assert result.converged
+    assert result.crossings == len(new_crossings(V, result.positions, F)) < len(F) / 100
+
+
+HOSTILE = {
+    "soup": lambda rng: (rng.random((300, 3)), np.arange(300).reshape(-1, 3)),
+    "tangle": lambda rng: (rng.random((60, 3)), rng.integers(0, 60, (200, 3))),
+    "each face twice": lambda rng: (shapes.blob(2)[0], np.tile(shapes.blob(2)[1], (2, 1))),
+    "coincident sheets": lambda rng: contact_shapes.joined(*[shapes.sheet()] * 3),
+    "coincident blobs": lambda rng: contact_shapes.joined(*[shapes.blob(2)] * 2),
+    "broken": lambda rng: shapes.broken(),
+    "noise": lambda rng: (
+        shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)),
+        shapes.blob(2)[1],
+    ),
+    "flat": lambda rng: (shapes.blob(2)[0] * [1, 1, 0], shapes.blob(2)[1]),
+    "a point": lambda rng: (np.zeros((6, 3)), np.arange(6).reshape(2, 3)),
+    "far apart": lambda rng: contact_shapes.joined(
+        shapes.blob(1), (1e-6 * shapes.blob(1)[0] + 1.5, shapes.blob(1)[1])
+    ),
+}
+
+
+@pytest.mark.parametrize("options", [{}, {"together": False, "refine": False, **BARE}])
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_meshes_have_a_result(name, options):
+    V, F = HOSTILE[name](np.random.default_rng(0))
+    result = run(stylization(V, F, 0.8, options=options), max_iterations=30)
+    assert np.isfinite(result.positions).all()
+    assert result.crossings is not None and result.crossings >= 0
