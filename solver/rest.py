@@ -253,7 +253,10 @@ class RestMesh:
         posed = replace(
             self, input_positions=positions, V=V, areas=areas, normals=normals, skin=skin
         )
-        return replace(posed, matrices=skin.with_links(V, posed.links))
+        posed = replace(posed, matrices=skin.with_links(V, posed.links))
+        if self.options.keep_pose:  # the same limbs in all poses, so that no frame jumps
+            posed.__dict__["limbs"] = self.limbs.posed(self.V, V)
+        return posed
 
     @cached_property
     def edge_sums(self):

@@ -8,9 +8,20 @@ from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames 
 """
 
 from .covering import with_coverings
+from .joined import joined_limbs, mapped_limbs
 from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_bones import limbs_of_bones
 from .of_shape import limbs_of_shape
 from .turns import turns
 
-__all__ = ("KnownLimbs", "Limbs", "limbs_of_bones", "limbs_of_shape", "no_limbs", "turns", "with_coverings")
+__all__ = (
+    "KnownLimbs",
+    "Limbs",
+    "joined_limbs",
+    "limbs_of_bones",
+    "limbs_of_shape",
+    "mapped_limbs",
+    "no_limbs",
+    "turns",
+    "with_coverings",
+)

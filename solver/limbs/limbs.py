@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which way each vertex of a body lies."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
+
+from ..rotation_fit import svd_rotations
 
 
 @dataclass(frozen=True)
@@ -33,12 +35,27 @@ class Limbs:
     def __len__(self):
         return len(self.directions)
 
+    def posed(self, V, posed):
+        """Return the Limbs of another pose: the pieces turn as their vertices do.
+
+        Parameters
+        ----------
+        V, posed : (n,3) arrays
+            Positions in this pose and in the other.
+        """
+        weight = np.asarray(self.shares.sum(axis=0))[0][:, None]
+        means, others = ((self.shares.T @ x) / np.maximum(weight, 1e-300) for x in (V, posed))
+        products = self.shares.T @ (V[:, :, None] * posed[:, None, :]).reshape(-1, 9)
+        M = products.reshape(-1, 3, 3) - weight[:, :, None] * means[:, :, None] * others[:, None, :]
+        directions = np.einsum("sij,sj->si", svd_rotations(M), self.directions)
+        return replace(self, directions=directions)
+
     def replaced(self, is_replaced, other):
         """Return the Limbs in which some vertices, a mask (n,), have those of others."""
         own = sp.diags(np.where(is_replaced, 0.0, 1.0)) @ self.shares
         others = sp.diags(np.where(is_replaced, 1.0, 0.0)) @ other.shares
         directions = np.concatenate([self.directions, other.directions])
-        return Limbs(directions, sp.hstack([own, others], format="csr"))
+        return Limbs(directions, sp.csr_matrix(sp.hstack([own, others])))
 
 
 @dataclass(frozen=True)

@@ -63,16 +63,30 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     Returns
     -------
     KnownLimbs
-        Known where a bone moves a vertex. A bone that is in no limb has no shares.
+        Known where a bone moves a vertex. A bone that is in no limb has no shares, and those of a
+        hand belong to its arm.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.sparse import csr_matrix
+    >>> from solver.limbs import limbs_of_bones
+    >>> angles, heights = np.meshgrid(np.arange(8) * np.pi / 4, [0.0, 1.0, 2.0, 3.0])
+    >>> V = 0.3 * np.stack([np.cos(angles), np.sin(angles), heights / 0.3], axis=2).reshape(-1, 3)
+    >>> weights = csr_matrix(np.ones((len(V), 1)))
+    >>> limbs = limbs_of_bones(V, weights, np.zeros((1, 3)), np.array([[0.0, 0, 3]]), [-1])
+    >>> limbs.directions, limbs.shares.sum() == len(V)
+    (array([[0., 0., 1.]]), True)
     """
     weights = _usable(weights)
     total = np.asarray(weights.sum(axis=1)).ravel()
     known = total > _LEAST
     shares = sp.diags(np.where(known, 1.0, 0.0) / np.where(known, total, 1.0)) @ weights
     bones = _measured(np.asarray(V, dtype=np.float64), weights, heads, tails, parents)
-    confidence, axis_of = _confidence(bones)
-    shares = sp.csr_matrix(shares @ sp.diags(confidence))
-    return KnownLimbs(bones.directions[axis_of], shares, known)
+    confidence, piece = _confidence(bones)
+    count = np.arange(len(piece))
+    joined = sp.csr_matrix((confidence, (count, piece)), shape=(len(piece), len(piece)))
+    return KnownLimbs(bones.directions, sp.csr_matrix(shares @ joined), known)
 
 
 def _usable(weights):
@@ -150,13 +164,13 @@ def _onward(along, heads, parents, spread, is_there):
 
 
 def _confidence(bones):
-    """Return how much of a limb each bone is in (b,), and whose direction it has (b,) int."""
+    """Return how much of a limb each bone is in (b,), and which bone's limb that is (b,) int."""
     following = _following(bones)
     total = _total_lengths(bones, following)
     ratio = total / np.where(bones.widths > 0.0, bones.widths, np.inf)
     x = np.clip((ratio - NONE) / (FULL - NONE), 0.0, 1.0)
     own = x * x * (3.0 - 2.0 * x)
-    confidence, axis_of = own.copy(), np.arange(len(own))
+    confidence, piece = own.copy(), np.arange(len(own))
     for bone in _from_the_root(bones.parents):
         parent = bones.parents[bone]
         if parent < 0 or bones.widths[bone] == 0.0:
@@ -168,8 +182,8 @@ def _confidence(bones):
             and bones.widths[bone] <= THICKER * bones.widths[parent]
             and _is_end(bone, bones)
         ):
-            confidence[bone], axis_of[bone] = confidence[parent], axis_of[parent]
-    return confidence, axis_of
+            confidence[bone], piece[bone] = confidence[parent], piece[parent]
+    return confidence, piece
 
 
 def _following(bones):

@@ -32,11 +32,13 @@ NONE, FULL = 1.4, 2.1
 """lengths, in widths: below is no limb, above is one in full"""
 STRAIGHT = np.cos(np.radians(20.0))
 """between the directions of one straight piece"""
+FAR = 8.0
+"""thicknesses, of the thickest: beyond, distances along the graph are not asked for"""
 SHORT = 0.8
 """widths: a shorter piece belongs to the next one"""
 BLUR = 0.35
 """of the width: how far a piece reaches into the next"""
-SMOOTHINGS = 8
+SMOOTHINGS = 4
 """averages over neighboring vertices"""
 FEWEST = 6
 """links; of fewer, nothing is found"""
@@ -134,7 +136,7 @@ def _measured(skeleton):
     A node is as much of a limb as the best window that it lies in.
     """
     place, thickness = skeleton.place, skeleton.thickness
-    distance = dijkstra(skeleton.graph, directed=False)
+    distance = dijkstra(skeleton.graph, directed=False, limit=FAR * thickness.max())
     ratio = thickness / thickness[:, None]
     is_alike = (ratio < ALIKE) & (ratio > 1.0 / ALIKE)
     products = (place[:, :, None] * place[:, None, :]).reshape(-1, 9)
@@ -163,14 +165,15 @@ def _pieces(graph, direction, confidence):
     for seed in np.argsort(-confidence, kind="stable"):
         if confidence[seed] <= 0.0 or piece[seed] >= 0:
             continue
-        front, axis, sums = [seed], direction[seed], np.zeros((3, 3))
+        front, axis = [seed], direction[seed]
+        total = np.zeros(3)
         while front:
             k = front.pop(0)
             if piece[k] >= 0 or confidence[k] <= 0.0 or abs(direction[k] @ axis) < STRAIGHT:
                 continue
             piece[k] = len(found)
-            sums += confidence[k] * np.outer(direction[k], direction[k])
-            axis = np.linalg.eigh(sums)[1][:, 2]
+            total += np.copysign(confidence[k], direction[k] @ axis) * direction[k]
+            axis = total / np.sqrt(total @ total)
             front += graph.indices[graph.indptr[k] : graph.indptr[k + 1]].tolist()
         found.append(axis)
     return piece, np.array(found).reshape(-1, 3)

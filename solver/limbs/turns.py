@@ -30,36 +30,33 @@ def turns(limbs, Q, forms=(), form_of=None):
     form_of : (n,) int array
         Which of the forms each vertex has.
     """
-    shares, at = _largest(limbs)
-    n = len(at)
+    n = limbs.shares.shape[0]
     G = np.tile(np.eye(3), (n, 1, 1))
-    rows = np.flatnonzero(shares[:, 1:].sum(axis=1) > _NONE)
+    rows = np.flatnonzero(np.asarray(limbs.shares.sum(axis=1)).ravel() > _NONE)
     if not len(rows):
         return G
+    shares, at = _largest(limbs.shares[rows].toarray())
     for group, orientation, form in _groups(rows, Q, forms, form_of):
-        G[group] = _blended(limbs.directions, shares[group], at[group], orientation, form)
+        G[rows[group]] = _blended(limbs.directions, shares[group], at[group], orientation, form)
     return G
 
 
-def _largest(limbs):
-    """Return the largest shares (n,1+k) and the pieces (n,1+k) that they are of.
+def _largest(shares):
+    """Return the largest of shares (n,s), (n,1+k), and the pieces (n,1+k) that they are of.
 
     The first is what belongs to no limb, and its piece has the number s.
     """
-    shares, s = limbs.shares, len(limbs)
-    if hasattr(shares, "toarray"):
-        shares = shares.toarray()
-    k = min(_PIECES, s)
+    k = min(_PIECES, shares.shape[1])
     at = np.argsort(-shares, axis=1, kind="stable")[:, :k]
     top = np.take_along_axis(shares, at, axis=1)
     rest = np.maximum(1.0 - top.sum(axis=1, keepdims=True), 0.0)
     top = np.concatenate([rest, top], axis=1)
     top /= top.sum(axis=1, keepdims=True)
-    return top, np.concatenate([np.full((len(at), 1), s), at], axis=1)
+    return top, np.concatenate([np.full((len(at), 1), shares.shape[1]), at], axis=1)
 
 
 def _groups(rows, Q, forms, form_of):
-    """Yield rows (k,) that have one orientation and one form, with both."""
+    """Yield which of the rows have one orientation and one form, with both."""
     numbers = np.zeros(len(rows), np.int64) if form_of is None else form_of[rows]
     orientation = np.zeros(len(rows), np.int64)
     distinct = Q
@@ -71,7 +68,11 @@ def _groups(rows, Q, forms, form_of):
         np.column_stack([orientation.ravel(), numbers]), axis=0, return_inverse=True
     )
     for number, (which, form) in enumerate(keys):
-        yield rows[group.ravel() == number], distinct[which], forms[form] if forms else CUBE
+        yield (
+            np.flatnonzero(group.ravel() == number),
+            distinct[which],
+            forms[form] if forms else CUBE,
+        )
 
 
 def _blended(directions, shares, at, Q, form):

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""KnownLimbs of several bodies, and in other coordinates."""
+
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from .limbs import KnownLimbs, no_limbs
+
+
+def joined_limbs(parts, counts):
+    """Return the KnownLimbs of bodies that are solved together, None if none is known.
+
+    Parameters
+    ----------
+    parts : sequence of KnownLimbs or None
+        None where nothing is known.
+    counts : sequence of int
+        Number of vertices of each body.
+
+    Examples
+    --------
+    >>> from solver.limbs import joined_limbs
+    >>> joined_limbs([None, None], [8, 6])
+    """
+    if all(part is None for part in parts):
+        return None
+    pairs = zip(parts, counts, strict=True)
+    found = [_unknown(count) if part is None else part for part, count in pairs]
+    return KnownLimbs(
+        np.concatenate([part.directions for part in found]),
+        sp.block_diag([part.shares for part in found], format="csr"),
+        np.concatenate([part.known for part in found]),
+    )
+
+
+def mapped_limbs(limbs, linear):
+    """Return KnownLimbs with directions mapped by matrices, (3,3) or one for each piece (s,3,3)."""
+    directions = np.einsum("...ij,...j->...i", linear, limbs.directions)
+    return replace(limbs, directions=directions / np.linalg.norm(directions, axis=1)[:, None])
+
+
+def _unknown(count):
+    nothing = no_limbs(count)
+    return KnownLimbs(nothing.directions, nothing.shares, np.zeros(count, dtype=bool))
