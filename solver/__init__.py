@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .edge_distances import edge_distances, nearest_distances
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
+    from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, mapped_limbs
     from .normal_capture import NormalCapture
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
@@ -41,6 +42,7 @@ __all__ = [
     "Energy",
     "Flattened",
     "Frames",
+    "KnownLimbs",
     "Mirror",
     "NormalCapture",
     "Progress",
@@ -58,7 +60,10 @@ __all__ = [
     "edge_distances",
     "flatten_facets",
     "frame_of",
+    "joined_limbs",
     "least_width",
+    "limbs_of_bones",
+    "mapped_limbs",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
@@ -76,6 +81,7 @@ _MODULES = {
     "Energy": "energy",
     "Flattened": "flatten",
     "Frames": "steadiness",
+    "KnownLimbs": "limbs",
     "Mirror": "symmetry",
     "MATCHING": "symmetry",
     "MOST_JUMPS": "steadiness",
@@ -97,7 +103,10 @@ _MODULES = {
     "edge_distances": "edge_distances",
     "flatten_facets": "flatten",
     "frame_of": "steadiness",
+    "joined_limbs": "limbs",
     "least_width": "steadiness",
+    "limbs_of_bones": "limbs",
+    "mapped_limbs": "limbs",
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",

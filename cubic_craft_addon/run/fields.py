@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ... import solver
 from ...solver.styles.blending import Style, blended, numbered
 from ...solver.styles.cube import proper
 from ...solver.styles.forms import cube
@@ -113,3 +114,14 @@ def targets(prepared: Prepared) -> np.ndarray:
             for member, placement, _ in prepared.parts()
         ]
     )
+
+
+def known_limbs(prepared: Prepared) -> solver.KnownLimbs | None:
+    """Return the limbs that bones tell, None if there are none."""
+    if not any(member.bones for member in prepared.members):
+        return None
+    limbs = [
+        member.bones and member.bones.limbs_at(placement)
+        for member, placement, _ in prepared.parts()
+    ]
+    return solver.joined_limbs(limbs, [len(member.whole.source) for member in prepared.members])

@@ -21,6 +21,7 @@ from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..handles.reach import far_from, grown
 from ..settings.values import Settings
+from .bones import Bones, read_bones
 from .object_frame import Placement, placements
 from .region_shares import region_shares
 from .whole import Whole, modifier_reflections
@@ -74,6 +75,8 @@ class Member:
     """(n,) factors of the cubeness, or 1"""
     region_shares: np.ndarray | None
     """(n,1+k) shares of the object's own settings and of each of its k regions; None for k = 0"""
+    bones: Bones | None
+    """the bones that move it, None without *Keep Pose*"""
     seconds: float
     """time to read it"""
 
@@ -181,11 +184,12 @@ def read_member(
         known = None
     V = alone.place(shape.original)
     handle_of = _handle_of(obj, settings, V, shape.triangles, known)
+    whole = _whole(shape, reflections, settings, known)
     return Member(
         obj.session_uid,
         obj.name,
         shape,
-        _whole(shape, reflections, settings, known),
+        whole,
         settings,
         alone,
         in_world,
@@ -193,6 +197,7 @@ def read_member(
         _rest_weights(settings, V, shape.triangles, handle_of, known),
         _map_weights(obj, settings, known),
         _region_shares(obj, settings, known),
+        _bones(obj, settings, whole, alone, shape, known),
         time.perf_counter() - begin,
     )
 
@@ -241,6 +246,12 @@ def _region_shares(obj, settings, known):
     if known and groups == [region.group for region in known.settings.regions]:
         return known.region_shares
     return region_shares(obj, settings)
+
+
+def _bones(obj, settings, whole, alone, shape, known):
+    if not settings.keep_pose:
+        return None
+    return read_bones(obj, shape.original, whole, alone, known and known.bones)
 
 
 def _whole(shape, reflections, settings, known):

@@ -18,7 +18,7 @@ from ... import solver
 from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
 from .assembly import Prepared
-from .fields import styles, targets
+from .fields import known_limbs, styles, targets
 from .floor import kept_on_floor
 from .normal_capture import captures
 
@@ -97,6 +97,7 @@ def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver
         keep_rotation=settings.rotation == "KEEP",
         hold_matrices=[hold.matrix for hold in prepared.holds],
         is_accelerated=is_accelerated,
+        limbs=known_limbs(prepared),
         **captures(prepared),
     )
 

@@ -185,11 +185,14 @@ class StepwiseRun:
 
 
 def _looks_at_weights(task):
-    return bool(task.settings.map_group or task.settings.handles or task.settings.regions)
+    return bool(
+        task.settings.map_group or task.settings.handles or task.settings.regions or task.bones
+    )
 
 
 def _has_weights_of(now, before):
-    return all(
+    is_like = now.bones.is_like(before.bones) if now.bones else before.bones is None
+    return is_like and all(
         np.array_equal(getattr(now, name), getattr(before, name))
         for name in ("map_weights", "region_shares", "handle_of")
     )

@@ -21,6 +21,7 @@ from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept
 from . import pipeline
 from .assembly import Prepared, prepare
+from .bones import bone_places
 from .failures import UNEXPECTED, in_words
 from .member import Member, read_member
 from .object_frame import placements
@@ -63,6 +64,7 @@ class Task:
         """what it was made of"""
         self._reflections = modifier_reflections(obj)
         self._alone, self.in_world = placements(obj, self.settings)
+        self.bones = bone_places(obj) if self.settings.keep_pose else None
 
     @property
     def key(self):
@@ -71,7 +73,7 @@ class Task:
         pointers = {"frame": None, "form_object": None, "capture_object": None}
         regions = tuple(replace(region, form_object=None) for region in self.settings.regions)
         settings = replace(self.settings, regions=regions, **pointers)
-        return settings, self._reflections, up, self._alone.key
+        return settings, self._reflections, up, self._alone.key, self.bones
 
     @property
     def key_in_world(self):
@@ -91,6 +93,7 @@ class Task:
             self.mesh == other.mesh
             and self.settings == other.settings
             and self._reflections == other._reflections
+            and self.bones == other.bones
             and (not self.settings.floor or np.allclose(one.up, two.up))
             and np.allclose(one.linear, two.linear)
             and np.allclose(one.orientation, two.orientation)

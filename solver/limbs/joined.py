@@ -30,7 +30,7 @@ def joined_limbs(parts, counts):
     found = [_unknown(count) if part is None else part for part, count in pairs]
     return KnownLimbs(
         np.concatenate([part.directions for part in found]),
-        sp.block_diag([part.shares for part in found], format="csr"),
+        sp.csr_matrix(sp.block_diag([part.shares for part in found])),
         np.concatenate([part.known for part in found]),
     )
 

@@ -18,7 +18,7 @@ STRAIGHT = np.cos(np.radians(25.0))
 """between bones that are measured together"""
 ALIKE = 1.7
 """largest ratio of their widths, from the one nearer to the trunk to the next,..."""
-WIDER = 1.2
+WIDER = 1.1
 """...and the other way, as a head on a neck is not measured with it"""
 THICKER = 1.6
 """largest ratio of the width of a hand to that of its arm; thicker is a head on its neck"""
