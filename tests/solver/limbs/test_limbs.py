@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Limbs: what is one, which way it lies, and that it keeps its direction."""
+
+from dataclasses import replace
+
+import limb_shapes
+import named_forms
+import numpy as np
+import proxy_shapes
+import pytest
+import scipy.sparse as sp
+import shapes
+
+from solver import Mirror, ProxyOptions, Setup, Stylization, partners, rest_mesh, run, stylize
+from solver.limbs import KnownLimbs, Limbs, turns
+from solver.limbs.swing import swung
+from solver.styles import forms
+from solver.styles.forms import cube, prism
+
+LIMBS = ProxyOptions(detail=0.0, keep_apart=False)
+DEFAULTS = ProxyOptions()
+KEPT = {"device": "numpy", "keep_rotation": True}
+
+
+def tilted(degrees):
+    return shapes.rotation(y=degrees)
+
+
+def along_z(V):
+    """Return the direction of the largest spread of positions (n,3), upward."""
+    direction = np.linalg.eigh(np.cov(V.T))[1][:, 2]
+    return direction if direction[2] > 0 else -direction
+
+
+def angle_between(a, b):
+    return np.degrees(np.arccos(np.clip(a @ b, -1.0, 1.0)))
+
+
+def angle_to_axes(V, F):
+    normal = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    area = np.linalg.norm(normal, axis=1)
+    largest = np.abs(normal).max(axis=1) / np.maximum(area, 1e-300)
+    return np.degrees(np.average(np.arccos(np.minimum(largest, 1.0)), weights=area))
+
+
+@pytest.mark.parametrize("degrees", [10, 30, 45, 60])
+def test_a_tilted_bar_becomes_a_box_along_itself(degrees):
+    turn = tilted(degrees)
+    V, F = limb_shapes.bar(turn)
+    U = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions
+    assert angle_between(along_z(U), along_z(V)) < 1.0
+    V, F = limb_shapes.bar(np.eye(3))
+    upright = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions
+    assert angle_to_axes(U @ turn, F) < angle_to_axes(upright, F) + 0.5 < 15.0
+    assert angle_to_axes(V, F) > 20.0
+
+
+def test_without_it_the_bar_swings():
+    V, F = limb_shapes.bar(tilted(30))
+    proxy = replace(DEFAULTS, keep_pose=False)
+    U = stylize(V, F, 0.4, proxy=proxy, **KEPT).positions
+    middle = np.abs(V @ tilted(30))[:, 2] < 0.5
+    assert angle_between(along_z(U[middle]), along_z(V[middle])) > 10.0
+
+
+def test_a_bar_in_any_direction_keeps_it():
+    turn = shapes.rotation(40, 30, 20)
+    V, F = limb_shapes.bar(turn)
+    U = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions
+    assert angle_between(along_z(U), along_z(V)) < 1.0
+
+
+def test_a_spring_keeps_its_height_and_its_turns_apart():
+    V, F = limb_shapes.spring(3)
+    result = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT)
+    assert np.ptp(result.positions[:, 2]) > 0.8 * np.ptp(V[:, 2])
+    assert result.crossings == 0
+
+
+@pytest.mark.parametrize("make", [shapes.sphere, shapes.blob, proxy_shapes.box, shapes.sheet])
+def test_balls_boxes_and_sheets_have_no_limbs(make):
+    rest = rest_mesh(*make(), DEFAULTS)
+    assert rest.limbs.shares.sum() < 0.01 * len(rest.V)
+
+
+def test_the_paths_of_a_spring_do_not_lead_from_turn_to_turn():
+    limbs = rest_mesh(*limb_shapes.spring(), DEFAULTS).limbs
+    assert len(limbs) > 20
+    slope = np.abs(limbs.directions[:, 2])
+    assert np.abs(slope - np.sin(np.arctan(0.45 / (2 * np.pi)))).max() < 0.03
+    assert limbs.shares.sum(axis=1).min() > 0.9
+
+
+def test_a_sleeve_lies_as_the_arm_in_it():
+    arm, cloth = limb_shapes.bar(tilted(40)), limb_shapes.sleeve(tilted(40))
+    rest = rest_mesh(*proxy_shapes.joined(arm, cloth), DEFAULTS)
+    shares = rest.limbs.shares.toarray()
+    of_cloth = rest.topology.part == rest.topology.part[rest.place[1][-1]]
+    assert 0 < of_cloth.sum() < len(of_cloth)
+    assert shares[of_cloth].sum(axis=1).min() > 0.9
+    ways = shares[of_cloth] @ np.abs(rest.limbs.directions @ (tilted(40) @ [0, 0, 1.0]))
+    assert ways.min() > 0.9
+
+
+def test_halves_have_frames_that_are_mirror_images_bit_for_bit():
+    V, F = limb_shapes.bar(tilted(35))
+    V = V + [1.5, 0.0, 0.0]
+    both, faces = proxy_shapes.joined((V, F), (V * [-1, 1, 1], F[:, ::-1]))
+    flip = np.diag([-1.0, 1.0, 1.0])
+    mirror = Mirror(partners(both, both @ flip, 1e-6), flip, np.zeros(3))
+    setup = Setup(rest_mesh(both, faces, LIMBS), mirrors=[mirror])
+    state = Stylization(setup, 0.4, **KEPT)
+    (solved,) = setup.mirrors
+    pair = np.flatnonzero(solved.partner > np.arange(len(solved.partner)))
+    assert len(pair) > 1000
+    Q = state._Q
+    np.testing.assert_array_equal(Q[solved.partner[pair]], flip @ Q[pair] @ flip)
+    assert np.abs(Q - np.eye(3)).max() > 0.5
+    U = run(state).positions
+    np.testing.assert_allclose(U[len(V) :], U[: len(V)] * [-1, 1, 1], atol=1e-12)
+
+
+def test_what_is_known_counts_instead_of_the_shape():
+    V, F = limb_shapes.bar(tilted(30))
+    n = len(V)
+    known = KnownLimbs(
+        np.array([[0.0, 0.0, 1.0]]), sp.csr_matrix(np.ones((n, 1))), np.ones(n, bool)
+    )
+    rest = rest_mesh(V, F, LIMBS)
+    upright = Stylization(Setup(rest), 0.4, limbs=known, **KEPT)
+    np.testing.assert_allclose(upright._Q, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=1e-12)
+    nothing = replace(known, known=np.zeros(n, bool))
+    found, same = (Stylization(Setup(rest), 0.4, limbs=x, **KEPT)._Q for x in (None, nothing))
+    np.testing.assert_allclose(found, same, atol=1e-12)
+
+
+def test_limbs_turn_with_a_pose():
+    V, F = limb_shapes.bar(tilted(30))
+    rest = rest_mesh(V, F, LIMBS)
+    turn = shapes.rotation(z=45)
+    posed = rest.posed(V @ turn.T)
+    np.testing.assert_allclose(posed.limbs.directions, rest.limbs.directions @ turn.T, atol=1e-9)
+
+
+@pytest.mark.parametrize("proxy", [LIMBS, replace(DEFAULTS, keep_apart=False)])
+@pytest.mark.parametrize("form", [None, forms.octahedron()])
+def test_the_energy_falls_and_a_second_run_has_the_same_bits(proxy, form, device):
+    V, F = limb_shapes.bar(tilted(35), length=1.6)
+    found = []
+    for _ in range(2):
+        state = Stylization(
+            Setup(rest_mesh(V, F, proxy)),
+            0.4,
+            form=form,
+            device=device,
+            keep_rotation=True,
+            is_accelerated=False,
+        )
+        energies = []
+        run(state, 15, 1e-12, lambda s, energies=energies: energies.append(s.energy.total))
+        assert np.diff(energies).max() <= 1e-9 * energies[0]
+        found.append(state.positions.tobytes())
+    assert found[0] == found[1]
+
+
+def test_it_works_at_any_size_and_place():
+    V, F = limb_shapes.bar(tilted(35))
+    one = stylize(V, F, 0.4, proxy=LIMBS, **KEPT).positions
+    other = stylize(1000.0 * V + [5.0, 0, 0], F, 0.4, proxy=LIMBS, **KEPT).positions
+    np.testing.assert_allclose((other - [5.0, 0, 0]) / 1000.0, one, atol=1e-6)
+
+
+# -- where limbs swing to, and the turn of the frame ---------------------------------------------
+
+
+def test_in_a_cube_they_swing_to_the_nearest_axis():
+    d = shapes.rotation(20, -25, 12)
+    np.testing.assert_allclose(swung(d, cube()), np.eye(3), atol=0.01)
+
+
+def test_in_a_prism_they_swing_to_its_axis_if_that_is_near():
+    upright = np.array([[0.3, 0.1, 1.0]])
+    upright /= np.linalg.norm(upright)
+    assert abs(swung(upright, prism(6))[0, 2]) > 0.999
+
+
+@pytest.mark.parametrize("form", ["octahedron", "dodecahedron", "icosahedron", "cylinder"])
+def test_a_limb_that_lies_right_is_not_turned(form):
+    body = named_forms.POLYTOPES[form]()
+    d = np.random.default_rng(1).normal(size=(20, 3))
+    there = swung(d / np.linalg.norm(d, axis=1)[:, None], body)
+    again = swung(there, body)
+    assert np.degrees(np.arccos(np.clip(np.abs((there * again).sum(axis=1)), 0, 1))).max() < 1.0
+
+
+def test_between_pieces_the_nearest_of_equal_frames_is_blended():
+    """At 44 and at 46 degrees the cube turns to different axes, which is nearly the same cube."""
+    directions = np.array([[np.sin(x), 0.0, np.cos(x)] for x in np.radians([44.0, 46.0])])
+    limbs = Limbs(directions, sp.csr_matrix([[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]]))
+    G = turns(limbs, np.eye(3)[None])
+    for x in G:
+        in_the_frame = np.abs(x @ directions[0])
+        assert np.degrees(np.arccos(in_the_frame.max())) < 2.5
+    np.testing.assert_allclose(G @ G.swapaxes(1, 2), np.tile(np.eye(3), (3, 1, 1)), atol=1e-12)
+
+
+def test_a_trunk_keeps_the_frame_of_the_object():
+    limbs = Limbs(np.array([[0.6, 0.0, 0.8]]), sp.csr_matrix([[0.0], [1.0]]))
+    G = turns(limbs, np.eye(3)[None])
+    np.testing.assert_array_equal(G[0], np.eye(3))
+    np.testing.assert_allclose(G[1] @ [0.6, 0.0, 0.8], [0, 0, 1], atol=1e-12)
