@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .edge_distances import edge_distances, nearest_distances
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
-    from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, mapped_limbs
+    from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
     from .normal_capture import NormalCapture
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
@@ -63,10 +63,10 @@ __all__ = [
     "joined_limbs",
     "least_width",
     "limbs_of_bones",
-    "mapped_limbs",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
+    "placed_limbs",
     "problem_with_taichi",
     "rest_mesh",
     "run",
@@ -106,10 +106,10 @@ _MODULES = {
     "joined_limbs": "limbs",
     "least_width": "steadiness",
     "limbs_of_bones": "limbs",
-    "mapped_limbs": "limbs",
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
+    "placed_limbs": "limbs",
     "problem_with_taichi": "backends",
     "rest_mesh": "rest",
     "run": "runner",

@@ -441,7 +441,7 @@ def _at_solved(limbs, rest):
     shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
     share_known = rest.input_map.spread(known)
     shares /= np.where(share_known > 0.0, share_known, 1.0)[:, None]
-    return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares))
+    return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares), carried=limbs.carried)
 
 
 def _unit(vectors):

@@ -15,6 +15,7 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..run import pipeline
 from ..run.assembly import Prepared, prepare
+from ..run.bones import read_pose
 from ..run.member import Member, Shape, read_member
 from ..run.object_frame import placements
 from ..run.up_to_date import what_matters
@@ -91,7 +92,9 @@ class AnimatedGroup:
     ):
         self.objects = objects
         self._overrides, self._start = overrides, start
-        members = [read_member(one.new, one.settings(overrides)) for one in objects]
+        members = [
+            read_member(one.new, one.settings(overrides), rigged=one.source) for one in objects
+        ]
         self._first: Prepared = prepare(members)
         self._is_process = is_process
         self._sequence = self._continued(None)
@@ -262,13 +265,17 @@ class AnimatedGroup:
                 f'"{one.source.name}" is scaled flat, and cannot be kept together'
             )
         shape = Shape(points, first.shape.triangles)
-        return replace(first, shape=shape, settings=settings, alone=alone, in_world=in_world)
+        bones = first.bones and first.bones.in_pose(read_pose(one.source, first.bones.places))
+        return replace(
+            first, shape=shape, settings=settings, alone=alone, in_world=in_world, bones=bones
+        )
 
 
 def _moment(member: Member):
     """Return all that the result of a frame depends on."""
     placed = member.alone.key, member.in_world and member.in_world.key
-    return what_matters(member.settings), placed, _digest_of_array(member.shape.original)
+    pose = member.bones and member.bones.pose
+    return what_matters(member.settings), placed, _digest_of_array(member.shape.original), pose
 
 
 def _digest(values) -> str:

@@ -6,7 +6,7 @@ An armature may be in any state. What cannot be read is no bone; nothing here ra
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -68,8 +68,8 @@ class Bones:
     placed: np.ndarray
     """(N,3) the shape in the rest pose with its images, where the object is solved alone"""
     alone: Placement
-    pose: np.ndarray | None = None
-    """(b,4,4) maps of the object's coordinates from the rest pose to the present one"""
+    pose: tuple[float, ...] | None = None
+    """for each bone, the 16 numbers of the map of the object's coordinates from the rest pose"""
 
     def is_like(self, other: Bones | None) -> bool:
         """Return whether both have the same bones and weights."""
@@ -97,18 +97,25 @@ class Bones:
 
     def limbs_at(self, placement: Placement) -> KnownLimbs:
         """Return the limbs in the present pose, in the coordinates of a placement."""
-        limbs = self.limbs
+        limbs, A = self.limbs, self.alone.linear
         if self.pose is not None:
-            limbs = solver.mapped_limbs(limbs, self._turns(self.pose))
+            maps = self._all.of_pose(np.reshape(self.pose, (-1, 4, 4)))[:, :3, :3]
+            limbs = limbs.turned(_rotations(A @ maps @ np.linalg.inv(A)))
         if placement.shape_key != self.alone.shape_key:
-            limbs = solver.mapped_limbs(limbs, placement.linear @ np.linalg.inv(self.alone.linear))
+            U, _, Vt = np.linalg.svd(placement.linear @ np.linalg.inv(A))
+            limbs = solver.placed_limbs(limbs, U @ Vt)
         return limbs
 
-    def _turns(self, pose):
-        """Return the rotations (s,3,3) of the pieces by a pose, where it is solved alone."""
-        A = self.alone.linear
-        maps = self._all.of_pose(pose)[:, :3, :3]
-        return solver.svd_rotations((A @ maps @ np.linalg.inv(A)).swapaxes(1, 2))
+    def in_pose(self, pose: tuple[float, ...] | None) -> Bones:
+        """Return the same, with the limbs that were found, in another pose."""
+        other = replace(self, pose=pose)
+        other.__dict__.update({name: getattr(self, name) for name in ("_all", "limbs")})
+        return other
+
+
+def _rotations(maps):
+    """Return the rotations nearest to maps (s,3,3)."""
+    return solver.svd_rotations(maps.swapaxes(1, 2))
 
 
 class _Images:
@@ -227,6 +234,63 @@ def read_bones(
     if not len(weights.vertex):
         return None
     return Bones(places, weights, whole, alone.place(whole.images(original)), alone)
+
+
+def read_posed_bones(
+    obj: bpy.types.Object,
+    original: np.ndarray,
+    whole: Whole,
+    alone: Placement,
+    rigged: bpy.types.Object,
+) -> Bones | None:
+    """Read the bones of a mesh that has taken over the present pose of another object.
+
+    Parameters
+    ----------
+    obj, original, whole, alone
+        As for `read_bones`; the vertex groups are those of this one.
+    rigged : Object
+        Whose modifiers the mesh was made with.
+    """
+    places = bone_places(obj, rigged)
+    pose = places and read_pose(rigged, places)
+    if places is None or pose is None:
+        return None
+    weights = _read_weights(obj, places.groups)
+    if not len(weights.vertex):
+        return None
+    at_rest = _unposed(original, weights, np.reshape(pose, (-1, 4, 4)))
+    return Bones(places, weights, whole, alone.place(whole.images(at_rest)), alone, pose)
+
+
+def read_pose(obj: bpy.types.Object, places: BonePlaces) -> tuple[float, ...] | None:
+    """Return the present pose of the bones of an object, see `Bones`, or None."""
+    rig = _rig(obj)
+    into = rig and _into(obj, rig)
+    if rig is None or into is None:
+        return None
+    pose = rig.evaluated_get(bpy.context.evaluated_depsgraph_get()).pose
+    maps = []
+    for name in places.groups:
+        bone, rest = pose and pose.bones.get(name), _armature(rig).bones.get(name)
+        if bone is None or rest is None:
+            return None
+        maps.append(np.array(bone.matrix @ rest.matrix_local.inverted_safe(), dtype=np.float64))
+    maps = into @ np.array(maps) @ np.linalg.inv(into)
+    if not np.isfinite(maps).all() or np.abs(np.linalg.det(maps)).min() < 1e-12:
+        return None
+    return tuple(np.round(maps, _DIGITS).ravel().tolist())
+
+
+def _unposed(points, weights, pose):
+    """Return about where points (n,3) were in the rest pose, by weights and a pose (b,4,4)."""
+    count, total = len(points), np.bincount(weights.vertex, weights.weight, len(points))
+    back = np.linalg.inv(pose)[weights.bone]
+    there = np.einsum("kij,kj->ki", back[:, :3, :3], points[weights.vertex]) + back[:, :3, 3]
+    sums = [np.bincount(weights.vertex, weights.weight * x, count) for x in there.T]
+    is_moved = total > 0.0
+    means = np.stack(sums, axis=1) / np.where(is_moved, total, 1.0)[:, None]
+    return np.where(is_moved[:, None], means, points)
 
 
 def _rig(obj):

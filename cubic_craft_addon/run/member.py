@@ -21,7 +21,7 @@ from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..handles.reach import far_from, grown
 from ..settings.values import Settings
-from .bones import Bones, read_bones
+from .bones import Bones, read_bones, read_posed_bones
 from .object_frame import Placement, placements
 from .region_shares import region_shares
 from .whole import Whole, modifier_reflections
@@ -156,6 +156,7 @@ def read_member(
     known: Member | None = None,
     *,
     weights_changed: bool = False,
+    rigged: bpy.types.Object | None = None,
 ) -> Member:
     """Read and check an object.
 
@@ -166,6 +167,8 @@ def read_member(
         Of the same object: unchanged data is reused. The shape has not changed.
     weights_changed : bool
         Whether the weights of vertex groups may have changed.
+    rigged : Object, optional
+        The object whose visible mesh this is, in the pose that it has now.
 
     Raises
     ------
@@ -197,7 +200,7 @@ def read_member(
         _rest_weights(settings, V, shape.triangles, handle_of, known),
         _map_weights(obj, settings, known),
         _region_shares(obj, settings, known),
-        _bones(obj, settings, whole, alone, shape, known),
+        _bones(obj, settings, whole, alone, shape, known, rigged),
         time.perf_counter() - begin,
     )
 
@@ -248,9 +251,11 @@ def _region_shares(obj, settings, known):
     return region_shares(obj, settings)
 
 
-def _bones(obj, settings, whole, alone, shape, known):
+def _bones(obj, settings, whole, alone, shape, known, rigged):
     if not settings.keep_pose:
         return None
+    if rigged is not None:
+        return read_posed_bones(obj, shape.original, whole, alone, rigged)
     return read_bones(obj, shape.original, whole, alone, known and known.bones)
 
 

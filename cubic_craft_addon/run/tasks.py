@@ -166,7 +166,13 @@ def prepare_all(
     for task in tasks:
         before = known.get(task.uid) if known else None
         try:
-            member = read_member(task.obj, task.settings, before, weights_changed=weights_changed)
+            member = read_member(
+                task.obj,
+                task.settings,
+                before,
+                weights_changed=weights_changed,
+                rigged=task.source,
+            )
         except CubicCraftError as error:
             problems.append(str(error))
         else:

@@ -8,7 +8,7 @@ from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames 
 """
 
 from .covering import with_coverings
-from .joined import joined_limbs, mapped_limbs
+from .joined import joined_limbs, placed_limbs
 from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_bones import limbs_of_bones
 from .of_shape import limbs_of_shape
@@ -20,8 +20,8 @@ __all__ = (
     "joined_limbs",
     "limbs_of_bones",
     "limbs_of_shape",
-    "mapped_limbs",
     "no_limbs",
+    "placed_limbs",
     "turns",
     "with_coverings",
 )

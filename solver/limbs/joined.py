@@ -32,13 +32,14 @@ def joined_limbs(parts, counts):
         np.concatenate([part.directions for part in found]),
         sp.csr_matrix(sp.block_diag([part.shares for part in found])),
         np.concatenate([part.known for part in found]),
+        carried=np.concatenate([part.all_carried for part in found]),
     )
 
 
-def mapped_limbs(limbs, linear):
-    """Return KnownLimbs with directions mapped by matrices, (3,3) or one for each piece (s,3,3)."""
-    directions = np.einsum("...ij,...j->...i", linear, limbs.directions)
-    return replace(limbs, directions=directions / np.linalg.norm(directions, axis=1)[:, None])
+def placed_limbs(limbs, rotation):
+    """Return KnownLimbs in other coordinates, by a rotation or reflection (3,3)."""
+    carried = rotation @ limbs.all_carried @ rotation.T
+    return replace(limbs, directions=limbs.directions @ rotation.T, carried=carried)
 
 
 def _unknown(count):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which way each vertex of a body lies."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -28,9 +28,13 @@ class Limbs:
     """
 
     directions: np.ndarray
-    """(s,3) unit vectors along the pieces, to either end"""
+    """(s,3) unit vectors along the pieces, to either end, from which their frames are found"""
     shares: sp.csr_matrix
     """(n,s) of each vertex in each piece. What is left to 1 belongs to no limb: to a trunk"""
+    carried: np.ndarray | None = field(default=None, kw_only=True)
+    """(s,3,3) rotations that have carried the pieces, with their frames, to where they are now.
+
+    A limb that bends is one box, and one that moves does not spin about itself."""
 
     def __len__(self):
         return len(self.directions)
@@ -47,15 +51,24 @@ class Limbs:
         means, others = ((self.shares.T @ x) / np.maximum(weight, 1e-300) for x in (V, posed))
         products = self.shares.T @ (V[:, :, None] * posed[:, None, :]).reshape(-1, 9)
         M = products.reshape(-1, 3, 3) - weight[:, :, None] * means[:, :, None] * others[:, None, :]
-        directions = np.einsum("sij,sj->si", svd_rotations(M), self.directions)
-        return replace(self, directions=directions)
+        return self.turned(svd_rotations(M))
+
+    def turned(self, rotations):
+        """Return the Limbs with the pieces carried on by rotations (s,3,3)."""
+        return replace(self, carried=rotations @ self.all_carried)
+
+    @property
+    def all_carried(self):
+        """(s,3,3) `carried`, the identity where they are none."""
+        return np.tile(np.eye(3), (len(self), 1, 1)) if self.carried is None else self.carried
 
     def replaced(self, is_replaced, other):
         """Return the Limbs in which some vertices, a mask (n,), have those of others."""
         own = sp.diags(np.where(is_replaced, 0.0, 1.0)) @ self.shares
         others = sp.diags(np.where(is_replaced, 1.0, 0.0)) @ other.shares
         directions = np.concatenate([self.directions, other.directions])
-        return Limbs(directions, sp.csr_matrix(sp.hstack([own, others])))
+        carried = np.concatenate([self.all_carried, other.all_carried])
+        return Limbs(directions, sp.csr_matrix(sp.hstack([own, others])), carried=carried)
 
 
 @dataclass(frozen=True)

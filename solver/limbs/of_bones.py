@@ -13,6 +13,7 @@ import scipy.sparse as sp
 
 from .limbs import KnownLimbs
 from .of_shape import FULL, NONE
+from .turns import smallest_turns
 
 STRAIGHT = np.cos(np.radians(25.0))
 """between bones that are measured together"""
@@ -26,6 +27,8 @@ BENT = np.cos(np.radians(40.0))
 """between a shin and its foot, which stands on the ground and keeps the frame of the object,..."""
 SHORT = 0.7
 """...and of their lengths"""
+GOES_ON = np.cos(np.radians(60.0))
+"""between bones of which the next has the frame of the one before"""
 ALONG = 1.5
 """ratio of the spreads of vertices by which the next bone's head tells more than the tail"""
 _MAIN = 0.5  # weight of the vertices that a bone is measured by...
@@ -86,7 +89,12 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     confidence, piece = _confidence(bones)
     count = np.arange(len(piece))
     joined = sp.csr_matrix((confidence, (count, piece)), shape=(len(piece), len(piece)))
-    return KnownLimbs(bones.directions, sp.csr_matrix(shares @ joined), known)
+    shares = sp.csr_matrix(shares @ joined)
+    # a limb ends where most of a vertex belongs to the trunk, or its weights would skew that
+    total = np.asarray(shares.sum(axis=1)).ravel()
+    shares = sp.diags(total * (3.0 - 2.0 * total)) @ shares
+    directions, carried = _frames(bones, confidence)
+    return KnownLimbs(directions, sp.csr_matrix(shares), known, carried=carried)
 
 
 def _usable(weights):
@@ -184,6 +192,24 @@ def _confidence(bones):
         ):
             confidence[bone], piece[bone] = confidence[parent], piece[parent]
     return confidence, piece
+
+
+def _frames(bones, confidence):
+    """Return the directions (b,3) that frames are found from, and what carries them (b,3,3).
+
+    Along a limb, they are those of its first bone, carried by the smallest turns from each bone to
+    the next: found one by one, they would twist a limb where its nearest axis changes.
+    """
+    directions, carried = bones.directions.copy(), np.tile(np.eye(3), (len(confidence), 1, 1))
+    for bone in _from_the_root(bones.parents):
+        parent = bones.parents[bone]
+        if parent < 0 or min(confidence[bone], confidence[parent]) <= 0.0:
+            continue
+        one, other = bones.directions[[parent]], bones.directions[[bone]]
+        if (one * other).sum() > GOES_ON:
+            directions[bone] = directions[parent]
+            carried[bone] = smallest_turns(one, other)[0] @ carried[parent]
+    return directions, carried
 
 
 def _following(bones):

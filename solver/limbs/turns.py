@@ -17,8 +17,9 @@ def turns(limbs, Q, forms=(), form_of=None):
     """Return the rotations G (n,3,3): the frame of a vertex is Q G in place of Q.
 
     For a piece of a limb, G is the smallest rotation that takes it to where it would swing
-    (`swing`). Between pieces, and toward what is no limb, it is blended; of all turns that are
-    equivalent for the form, those nearest to each other are.
+    (`swing`); of one that was carried since, by C, it is G C'. Between pieces, and toward what is
+    no limb, it is blended; of all turns that are equivalent for the form, those nearest to each
+    other are.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def turns(limbs, Q, forms=(), form_of=None):
         return G
     shares, at = _largest(limbs.shares[rows].toarray())
     for group, orientation, form in _groups(rows, Q, forms, form_of):
-        G[rows[group]] = _blended(limbs.directions, shares[group], at[group], orientation, form)
+        G[rows[group]] = _blended(limbs, shares[group], at[group], orientation, form)
     return G
 
 
@@ -75,10 +76,11 @@ def _groups(rows, Q, forms, form_of):
         )
 
 
-def _blended(directions, shares, at, Q, form):
+def _blended(limbs, shares, at, Q, form):
     """Return the turns (k,3,3) of vertices with one orientation Q (3,3) and form."""
-    there = swung(directions @ Q.T, form) @ Q
-    own = np.concatenate([_smallest_turns(directions, there), np.eye(3)[None]])
+    there = swung(limbs.directions @ Q.T, form) @ Q
+    own = smallest_turns(limbs.directions, there) @ limbs.all_carried.swapaxes(1, 2)
+    own = np.concatenate([own, np.eye(3)[None]])
     between = _between(own, Q, form)
     main = at[np.arange(len(at)), shares.argmax(axis=1)]
     step = np.einsum("kp,kpx->kx", shares, between[main[:, None], at])
@@ -101,7 +103,7 @@ def _between(own, Q, form):
     return vectors.reshape(len(own), len(own), 3)
 
 
-def _smallest_turns(a, b):
+def smallest_turns(a, b):
     """Return the smallest rotations (s,3,3) that take unit vectors a (s,3) to b (s,3)."""
     axis, cosine = np.cross(a, b), (a * b).sum(axis=1)
     sine = np.linalg.norm(axis, axis=1)
