@@ -27,7 +27,7 @@ def joined_limbs(parts, counts):
     if all(part is None for part in parts):
         return None
     pairs = zip(parts, counts, strict=True)
-    found = [_unknown(count) if part is None else part for part, count in pairs]
+    found = [_unknown(count) if part is None else _used(part) for part, count in pairs]
     return KnownLimbs(
         np.concatenate([part.directions for part in found]),
         sp.csr_matrix(sp.block_diag([part.shares for part in found])),
@@ -40,6 +40,14 @@ def placed_limbs(limbs, rotation):
     """Return KnownLimbs in other coordinates, by a rotation or reflection (3,3)."""
     carried = rotation @ limbs.all_carried @ rotation.T
     return replace(limbs, directions=limbs.directions @ rotation.T, carried=carried)
+
+
+def _used(limbs):
+    """Return KnownLimbs without the pieces to which nothing belongs."""
+    used = np.flatnonzero(np.asarray(limbs.shares.sum(axis=0)).ravel() > 0.0)
+    carried = limbs.all_carried[used]
+    shares = limbs.shares[:, used]
+    return replace(limbs, directions=limbs.directions[used], shares=shares, carried=carried)
 
 
 def _unknown(count):

@@ -28,7 +28,9 @@ class Limbs:
     """
 
     directions: np.ndarray
-    """(s,3) unit vectors along the pieces, to either end, from which their frames are found"""
+    """(s,3) unit vectors along the pieces, to either end, which their frames are found from.
+
+    Zero for a piece with the frame of the object."""
     shares: sp.csr_matrix
     """(n,s) of each vertex in each piece. What is left to 1 belongs to no limb: to a trunk"""
     carried: np.ndarray | None = field(default=None, kw_only=True)

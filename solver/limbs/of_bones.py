@@ -66,8 +66,7 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     Returns
     -------
     KnownLimbs
-        Known where a bone moves a vertex. A bone that is in no limb has no shares, and those of a
-        hand belong to its arm.
+        Known where a bone moves a vertex. A bone that is in no limb has no shares.
 
     Examples
     --------
@@ -86,15 +85,15 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     known = total > _LEAST
     shares = sp.diags(np.where(known, 1.0, 0.0) / np.where(known, total, 1.0)) @ weights
     bones = _measured(np.asarray(V, dtype=np.float64), weights, heads, tails, parents)
-    confidence, piece = _confidence(bones)
-    count = np.arange(len(piece))
-    joined = sp.csr_matrix((confidence, (count, piece)), shape=(len(piece), len(piece)))
-    shares = sp.csr_matrix(shares @ joined)
+    confidence, end_of, is_foot = _confidence(bones)
+    shares = sp.csr_matrix(shares @ sp.diags(confidence))
     # a limb ends where most of a vertex belongs to the trunk, or its weights would skew that
     total = np.asarray(shares.sum(axis=1)).ravel()
-    shares = sp.diags(total * (3.0 - 2.0 * total)) @ shares
-    directions, carried = _frames(bones, confidence)
-    return KnownLimbs(directions, sp.csr_matrix(shares), known, carried=carried)
+    shares = sp.csr_matrix(sp.diags(total * (3.0 - 2.0 * total)) @ shares)
+    directions, carried = _frames(bones, confidence, end_of)
+    directions[is_foot] = 0.0
+    carried[is_foot] = np.eye(3)
+    return KnownLimbs(directions, shares, known, carried=carried)
 
 
 def _usable(weights):
@@ -172,38 +171,46 @@ def _onward(along, heads, parents, spread, is_there):
 
 
 def _confidence(bones):
-    """Return how much of a limb each bone is in (b,), and which bone's limb that is (b,) int."""
+    """Return how much of a limb each bone is in (b,), and which are at the end of one.
+
+    The latter as the bone (b,) at whose end each is, or -1, and as which are in a foot (b,).
+    """
     following = _following(bones)
     total = _total_lengths(bones, following)
     ratio = total / np.where(bones.widths > 0.0, bones.widths, np.inf)
     x = np.clip((ratio - NONE) / (FULL - NONE), 0.0, 1.0)
     own = x * x * (3.0 - 2.0 * x)
-    confidence, piece = own.copy(), np.arange(len(own))
+    confidence, end_of = own.copy(), np.full(len(own), -1)
+    is_foot = np.zeros(len(own), dtype=bool)
     for bone in _from_the_root(bones.parents):
         parent = bones.parents[bone]
-        if parent < 0 or bones.widths[bone] == 0.0:
+        if parent < 0:
             continue
-        if _is_foot(bone, bones, own, total):
-            confidence[bone] = 0.0
-        elif (
+        is_foot[bone] = _is_foot(bone, bones, own, total)
+        is_part = is_foot[bone] or (
             confidence[parent] > own[bone]
             and bones.widths[bone] <= THICKER * bones.widths[parent]
             and _is_end(bone, bones)
-        ):
-            confidence[bone], piece[bone] = confidence[parent], piece[parent]
-    return confidence, piece
+        )
+        if is_part:
+            confidence[bone], end_of[bone] = confidence[parent], parent
+    return confidence, end_of, is_foot
 
 
-def _frames(bones, confidence):
+def _frames(bones, confidence, end_of):
     """Return the directions (b,3) that frames are found from, and what carries them (b,3,3).
 
     Along a limb, they are those of its first bone, carried by the smallest turns from each bone to
-    the next: found one by one, they would twist a limb where its nearest axis changes.
+    the next: found one by one, they would twist a limb where its nearest axis changes. A hand has
+    the frame of its arm.
     """
     directions, carried = bones.directions.copy(), np.tile(np.eye(3), (len(confidence), 1, 1))
     for bone in _from_the_root(bones.parents):
         parent = bones.parents[bone]
         if parent < 0 or min(confidence[bone], confidence[parent]) <= 0.0:
+            continue
+        if end_of[bone] >= 0:
+            directions[bone], carried[bone] = directions[parent], carried[parent]
             continue
         one, other = bones.directions[[parent]], bones.directions[[bone]]
         if (one * other).sum() > GOES_ON:

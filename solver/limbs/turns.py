@@ -78,8 +78,10 @@ def _groups(rows, Q, forms, form_of):
 
 def _blended(limbs, shares, at, Q, form):
     """Return the turns (k,3,3) of vertices with one orientation Q (3,3) and form."""
-    there = swung(limbs.directions @ Q.T, form) @ Q
-    own = smallest_turns(limbs.directions, there) @ limbs.all_carried.swapaxes(1, 2)
+    own = limbs.all_carried.swapaxes(1, 2).copy()
+    is_turned = limbs.directions.any(axis=1)
+    directions = limbs.directions[is_turned]
+    own[is_turned] = smallest_turns(directions, swung(directions @ Q.T, form) @ Q) @ own[is_turned]
     own = np.concatenate([own, np.eye(3)[None]])
     between = _between(own, Q, form)
     main = at[np.arange(len(at)), shares.argmax(axis=1)]
