@@ -64,6 +64,11 @@ class Limbs:
         """(s,3,3) `carried`, the identity where they are none."""
         return np.tile(np.eye(3), (len(self), 1, 1)) if self.carried is None else self.carried
 
+    @property
+    def present(self):
+        """(s,3) the directions where the pieces are now."""
+        return np.einsum("sij,sj->si", self.all_carried, self.directions)
+
     def replaced(self, is_replaced, other):
         """Return the Limbs in which some vertices, a mask (n,), have those of others."""
         own = sp.diags(np.where(is_replaced, 0.0, 1.0)) @ self.shares

@@ -23,9 +23,9 @@ WIDER = 1.1
 """...and the other way, as a head on a neck is not measured with it"""
 THICKER = 1.6
 """largest ratio of the width of a hand to that of its arm; thicker is a head on its neck"""
-BENT = np.cos(np.radians(40.0))
+BENT = np.cos(np.radians(45.0))
 """between a shin and its foot, which stands on the ground and keeps the frame of the object,..."""
-SHORT = 0.7
+SHORT = 0.6
 """...and of their lengths"""
 GOES_ON = np.cos(np.radians(60.0))
 """between bones of which the next has the frame of the one before"""
@@ -90,6 +90,7 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     # a limb ends where most of a vertex belongs to the trunk, or its weights would skew that
     total = np.asarray(shares.sum(axis=1)).ravel()
     shares = sp.csr_matrix(sp.diags(total * (3.0 - 2.0 * total)) @ shares)
+    shares.eliminate_zeros()
     directions, carried = _frames(bones, confidence, end_of)
     directions[is_foot] = 0.0
     carried[is_foot] = np.eye(3)

@@ -139,7 +139,7 @@ def test_limbs_turn_with_a_pose():
     rest = rest_mesh(V, F, LIMBS)
     turn = shapes.rotation(z=45)
     posed = rest.posed(V @ turn.T)
-    np.testing.assert_allclose(posed.limbs.directions, rest.limbs.directions @ turn.T, atol=1e-9)
+    np.testing.assert_allclose(posed.limbs.present, rest.limbs.present @ turn.T, atol=1e-9)
 
 
 @pytest.mark.parametrize("proxy", [LIMBS, replace(DEFAULTS, keep_apart=False)])

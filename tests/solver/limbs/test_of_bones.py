@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bones say which vertices belong to a limb, and which way it lies."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+
+from solver import joined_limbs, limbs_of_bones, placed_limbs
+from solver.limbs import Limbs, turns
+
+X, Y, Z = np.eye(3)
+TILTED = np.array([1.0, 0.0, -1.0]) / 2**0.5
+
+
+def tube(head, tail, radius, rings=12, around=12):
+    """Return points (n,3) around a segment."""
+    head, tail = np.asarray(head, float), np.asarray(tail, float)
+    along = (tail - head) / np.linalg.norm(tail - head)
+    a = np.cross(along, Y if abs(along[1]) < 0.9 else X)
+    a /= np.linalg.norm(a)
+    b = np.cross(along, a)
+    angle = np.arange(around) * 2.0 * np.pi / around
+    ring = radius * (np.cos(angle)[:, None] * a + np.sin(angle)[:, None] * b)
+    return np.concatenate([head + t * (tail - head) + ring for t in np.linspace(0, 1, rings)])
+
+
+def rig(*bones):
+    """Return the arguments of `limbs_of_bones` for bones of (head, tail, radius, parent)."""
+    parts = [tube(head, tail, radius) for head, tail, radius, _ in bones]
+    of = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    weights = csr_matrix((np.ones(len(of)), (np.arange(len(of)), of)), shape=(len(of), len(parts)))
+    heads, tails = (np.array([bone[k] for bone in bones], float) for k in (0, 1))
+    return np.concatenate(parts), weights, heads, tails, np.array([bone[3] for bone in bones])
+
+
+def chain(points, radii):
+    """Return bones from each point to the next."""
+    pairs = zip(points[:-1], points[1:], radii, strict=True)
+    return [(head, tail, radius, k - 1) for k, (head, tail, radius) in enumerate(pairs)]
+
+
+def shares(*bones):
+    """Return the share (b,) of the vertices of each bone in limbs, and the KnownLimbs."""
+    V, weights, heads, tails, parents = rig(*bones)
+    limbs = limbs_of_bones(V, weights, heads, tails, parents)
+    own = np.asarray(limbs.shares.sum(axis=1)).ravel()
+    assert limbs.known.all() and own.max() <= 1.0 + 1e-12
+    return (weights.T @ own) / weights.sum(axis=0).A1, limbs
+
+
+def test_an_arm_is_a_limb_along_its_bones():
+    elbow, lower = 3.0 * TILTED, np.array([0.6, 0.0, -0.8])
+    found, limbs = shares(*chain([0 * X, elbow, elbow + 2.0 * lower], [0.4, 0.3]))
+    assert found == pytest.approx(1.0)
+    np.testing.assert_allclose(limbs.present, [TILTED, lower], atol=1e-12)
+
+
+def test_many_short_bones_of_a_tail_are_measured_together():
+    points = [np.array([0.3 * k, 0.0, -0.01 * k**2]) for k in range(13)]
+    found, _ = shares(*chain(points, np.linspace(0.4, 0.25, 12)))
+    assert found.min() == pytest.approx(1.0)
+    alone, _ = shares(chain(points, 12 * [0.4])[0])
+    assert alone.max() == 0.0
+
+
+def test_a_spine_in_a_wide_trunk_is_no_limb():
+    found, _ = shares(*chain([0.25 * k * Z for k in range(5)], [0.4, 0.45, 0.45, 0.5]))
+    assert found.max() == 0.0
+
+
+def test_a_head_stays_trunk_and_a_hand_goes_with_its_arm():
+    found, _ = shares((0 * X, 2 * TILTED, 0.2, -1), (2 * TILTED, 2.5 * TILTED, 0.5, 0))
+    assert found == pytest.approx([1.0, 0.0])
+    hand = 2 * TILTED + 0.25 * TILTED + 0.1 * X
+    found, limbs = shares((0 * X, 2 * TILTED, 0.2, -1), (2 * TILTED, hand, 0.25, 0))
+    assert found == pytest.approx(1.0)
+    np.testing.assert_allclose(limbs.present, [TILTED, TILTED], atol=1e-12)
+
+
+def test_a_foot_keeps_the_frame_of_the_object():
+    leg = np.array([0.3, 0.0, -1.0]) / np.hypot(0.3, 1.0)
+    foot = 3 * leg - 0.7 * Y - 0.2 * Z
+    toe = foot - 0.3 * Y
+    _, limbs = shares((0 * X, 3 * leg, 0.3, -1), (3 * leg, foot, 0.15, 0), (foot, toe, 0.1, 1))
+    G = turns(limbs, np.eye(3)[None])
+    np.testing.assert_allclose(G[:144] @ leg, np.tile(-Z, (144, 1)), atol=1e-12)
+    np.testing.assert_allclose(G[144:], np.tile(np.eye(3), (288, 1, 1)), atol=1e-12)
+
+
+def test_a_limb_that_bends_past_a_diagonal_is_not_twisted():
+    angles = np.radians([20, 35, 50, 65])
+    directions = np.stack([np.cos(angles), 0.6 * np.sin(angles), 0.8 * np.sin(angles)], axis=1)
+    points = [0 * X, *np.cumsum(directions, axis=0)]
+    _, limbs = shares(*chain(points, 4 * [0.1]))
+    np.testing.assert_allclose(limbs.present, directions, atol=1e-12)
+    G = turns(limbs, np.eye(3)[None])[::144]
+    for one, other in pairwise(G):
+        angle = np.degrees(np.arccos(0.5 * (np.trace(one.T @ other) - 1.0)))
+        assert angle == pytest.approx(15.0, abs=1e-6)  # that of the bend; no more about itself
+
+
+def test_mirror_images_have_mirrored_limbs():
+    flip = np.array([-1.0, 1.0, 1.0])
+    arm = [(0.3 * X, 1.5 * X - Z, 0.2, -1), (1.5 * X - Z, 2.5 * X - Y - 1.5 * Z, 0.15, 0)]
+    V, weights, heads, tails, parents = rig(*arm)
+    rng = np.random.default_rng(0)
+    mixed = csr_matrix(weights.toarray() + 0.4 * rng.random(weights.shape))
+    one = limbs_of_bones(V, mixed, heads, tails, parents)
+    other = limbs_of_bones(V * flip, mixed, heads * flip, tails * flip, parents)
+    np.testing.assert_allclose(other.present, one.present * flip, atol=1e-14)
+    np.testing.assert_allclose(other.shares.toarray(), one.shares.toarray(), atol=1e-13)
+
+
+def test_bones_that_point_sideways_lie_toward_the_next():
+    V, weights, heads, tails, parents = rig(*chain([0 * X, 2 * TILTED, 4 * TILTED], [0.2, 0.2]))
+    tails[0] = heads[0] + 0.5 * Y
+    limbs = limbs_of_bones(V, weights, heads, tails, parents)
+    np.testing.assert_allclose(limbs.present[0], TILTED, atol=1e-12)
+
+
+def test_what_is_broken_is_no_limb():
+    V, weights, heads, tails, _ = rig(*chain([0 * X, 2 * X, 4 * X, 6 * X], 3 * [0.2]))
+    tails[2] = heads[2]
+    heads[1] = np.nan
+    weights.data[:3] = np.nan, -1.0, np.inf
+    empty = csr_matrix((len(V), 1))
+    weights = csr_matrix(np.hstack([weights.toarray(), empty.toarray()]))
+    heads, tails = np.vstack([heads, X]), np.vstack([tails, Y])
+    limbs = limbs_of_bones(V, weights, heads, tails, np.array([-1, 0, 1, 3]))
+    assert np.isfinite(limbs.directions).all() and np.isfinite(limbs.shares.data).all()
+    assert not limbs.known[:3].any() and limbs.known[3:].all()
+    assert limbs.shares[:, 1:].nnz == 0 and limbs.shares[:, 0].max() == pytest.approx(1.0)
+
+
+def test_limbs_of_several_objects_and_in_other_places():
+    _, arm = shares(*chain([0 * X, 3 * TILTED], [0.3]))
+    together = joined_limbs([None, arm], [5, 144])
+    assert (
+        together.shares.shape == (149, 1) and together.known.tolist() == [False] * 5 + [True] * 144
+    )
+    flip = np.diag([-1.0, 1.0, 1.0])
+    np.testing.assert_allclose(placed_limbs(arm, flip).present, [flip @ TILTED], atol=1e-12)
+
+
+def test_a_frame_goes_along_with_a_bone_in_any_pose():
+    limb = Limbs(TILTED[None], csr_matrix([[1.0]]))
+    at_rest = turns(limb, np.eye(3)[None])[0]
+    spun = np.linalg.qr(np.random.default_rng(1).random((3, 3)))[0]
+    spun *= np.linalg.det(spun)
+    np.testing.assert_allclose(
+        turns(limb.turned(spun[None]), np.eye(3)[None])[0], at_rest @ spun.T, atol=1e-12
+    )
