@@ -60,8 +60,10 @@ class RestMesh:
     """(n,) barycentric areas a_i"""
     normals: np.ndarray
     """(n,3) unit normals n_i, zero where undefined"""
-    coupling: np.ndarray
-    """(n,) 1, but down to 0 in the sharp creases of flat sides, across which nothing is averaged"""
+    is_flat: np.ndarray
+    """(n,) bool, the vertices of flat sides, which have no detail"""
+    smoothness: np.ndarray
+    """(n,) how meaningful the normals are, from 0 in creases to 1"""
     normal_shares: np.ndarray
     """(n,) area that each normal stands for, relative to its own: 0 in creases, more beside them"""
     to_neighbours: Links
@@ -175,7 +177,8 @@ class RestMesh:
             np.bincount(parts)[parts] == np.bincount(component)[component],
         )
         normals, length = self._smoothed(radius)
-        return normals, details.WEIGHT * length * length * self.normal_shares
+        weight = np.where(self.is_flat, 1.0, details.WEIGHT)
+        return normals, weight * length * length * self.normal_shares
 
     @cached_property
     def limbs(self):
@@ -209,7 +212,8 @@ class RestMesh:
             means = np.bincount(cluster, radius) / np.bincount(cluster)
             unit, length = coarse._smoothed(means)
             start = (length[:, None] * unit)[cluster]
-        return details.smoothed(self.skin, self.areas, self.normals, radius, self.coupling, start)
+        coupling = np.where(self.is_flat, self.smoothness, 1.0)
+        return details.smoothed(self.skin, self.areas, self.normals, radius, coupling, start)
 
     @cached_property
     def shown(self):
@@ -228,14 +232,16 @@ class RestMesh:
         return is_crossing
 
     def linked(self, links):
-        """Return the mesh with further links."""
+        """Return the mesh with further links, which change nothing in what covers what."""
         to_neighbours = self.to_neighbours.joined(links)
-        return replace(
+        linked = replace(
             self,
             topology=self.topology.linked(to_neighbours.pairs()),
             to_neighbours=to_neighbours,
             matrices=self.matrices.with_links(self.V, links),
         )
+        linked.__dict__["linked_share"] = self.linked_share
+        return linked
 
     def posed(self, input_positions):
         """Return the same mesh in another pose, with all weights and links of this one.
@@ -366,15 +372,13 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
             search = beside.submit(thickness_links, triangles, normals, areas, parts.part)
         if proxy.together:
             to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
-        coupling, shares = np.ones(len(V)), np.ones(len(V))
+        smooth, shares = np.ones(len(V)), np.ones(len(V))
+        is_flat = np.zeros(len(V), dtype=bool)
         if proxy.refine:
-            smooth, factors = (
-                smoothness(F, C, triangles.measures, len(V)),
-                stiffness(triangles, parts.part),
-            )
+            smooth = smoothness(F, C, triangles.measures, len(V))
             shares = cubic_shares(triangles, smooth, areas)
-            of_flat = F[factors < 1.0]
-            coupling[of_flat] = smooth[of_flat]
+            factors = stiffness(triangles, parts.part)
+            is_flat[F[factors < 1.0]] = True
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side = search.result() if search else None
@@ -386,7 +390,8 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
         parts.linked(to_neighbours.pairs()),
         areas,
         normals,
-        coupling,
+        is_flat,
+        smooth,
         shares,
         to_neighbours,
         to_other_side,

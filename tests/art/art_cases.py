@@ -48,6 +48,9 @@ CASES = {
     "clothes": Case(art_figure.dressed, is_dressed=True),
     "body": Case(art_figure.body),
     "skin": Case(art_character.skin),
+    # as if they had no limbs, since those become boxes along themselves
+    "body_as_a_whole": Case(art_figure.body, options={"keep_pose": False}),
+    "skin_as_a_whole": Case(art_character.skin, options={"keep_pose": False}),
     "painted": Case(art_figure.painted, options={"map_group": "Head"}),
     "painted_soft": Case(partial(art_figure.painted, border=0.1), options={"map_group": "Head"}),
     "monkey_seams": Case(_glb(art_meshes.monkey, art_seams.with_seams)),
@@ -128,6 +131,14 @@ class Outcome:
     def crossings(self):
         """Return the number of crossing pairs of triangles, at rest and after."""
         return tuple(measures.crossings(self.V, X, self.F) for X in (self.V, self.U))
+
+    def new_crossings(self):
+        """Return the number of triangles that cross others, and did not at rest."""
+        return measures.new_crossings(self.V, self.U, self.F)
+
+    def whole_angle(self):
+        """Return the angle to the axes of the surface without its details, after."""
+        return measures.angle_of_the_whole(self.V, self.U, self.F)
 
     def inside(self):
         """Return the share of the clothes' vertices inside the body, at rest and after."""

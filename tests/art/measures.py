@@ -14,6 +14,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
+from solver import rest_mesh
+from solver.details import smoothed
+
 SAME_PLACE = 1e-6
 """of the size, within which vertices are at one place"""
 REACH = 0.01
@@ -192,11 +195,48 @@ def movement(V, U, of=slice(None)):
 
 def crossings(V, U, F):
     """Return how many pairs of triangles cross that do not meet in a vertex at rest."""
+    return len(_crossing_pairs(V, U, F))
+
+
+def new_crossings(V, U, F):
+    """Return how many triangles cross others that crossed none at rest."""
+    rest, after = (np.unique(_crossing_pairs(V, X, F)) for X in (V, U))
+    return len(np.setdiff1d(after, rest))
+
+
+def _crossing_pairs(V, U, F):
     tree = BVHTree.FromPolygons(U.tolist(), F.tolist())
-    pairs = np.array(tree.overlap(tree))
-    if not len(pairs):
-        return 0
+    pairs = np.array(tree.overlap(tree), dtype=int).reshape(-1, 2)
     pairs = pairs[pairs[:, 0] < pairs[:, 1]]
     corners = welded(V, F)
     meets = (corners[pairs[:, 0], :, None] == corners[pairs[:, 1], None, :]).any(axis=(1, 2))
-    return int((~meets).sum())
+    return pairs[~meets]
+
+
+def limbs_turn(V, U, parts):
+    """Return the largest angle in degrees by which a limb has turned.
+
+    Parameters
+    ----------
+    parts : sequence of (n,) bool arrays
+        The vertices of each limb, which is longer than thick.
+    """
+    ways = [[np.linalg.eigh(np.cov(X[part].T))[1][:, 2] for part in parts] for X in (V, U)]
+    cosines = [abs(one @ other) for one, other in zip(*ways, strict=True)]
+    return float(np.degrees(np.arccos(np.clip(cosines, 0.0, 1.0))).max())
+
+
+def angle_of_the_whole(V, U, F, size=0.06):
+    """Return `angle_to_axes` of the surface smoothed over a share of the size: without details."""
+    F = welded(V, F)
+    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
+    rest = rest_mesh(V, F)
+    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
+    sums = np.zeros((len(V), 3))
+    for corner in F.T:
+        np.add.at(sums, corner, normal)
+    sums = sums[rest.used]
+    sums /= np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
+    smooth, _ = smoothed(rest.skin, rest.areas, sums, np.full(len(rest.V), size))
+    cosine = np.minimum(np.abs(smooth).max(axis=1), 1.0)
+    return float(np.degrees(np.average(np.arccos(cosine), weights=rest.areas)))
