@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .flatten import Flattened, flatten_facets
     from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
     from .normal_capture import NormalCapture
+    from .pose_frames import pose_frames
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
@@ -109,6 +110,7 @@ _MODULES = {
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
+    "pose_frames": "pose_frames",
     "placed_limbs": "limbs",
     "problem_with_taichi": "backends",
     "rest_mesh": "rest",

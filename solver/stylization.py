@@ -227,6 +227,15 @@ class Stylization:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         return self._local.R
 
+    @property
+    def orientations(self) -> np.ndarray:
+        """(N,3,3) rotations into the frame of the form, of the vertices of the input."""
+        rest = self.rest
+        found = np.tile(self._Q[0], (len(rest.input_positions), 1, 1))
+        used, place = rest.place
+        found[used] = np.broadcast_to(self._Q, (len(rest.V), 3, 3))[place]
+        return found
+
     def coarser(self) -> "Stylization":
         """Return a new Stylization of the coarser mesh of the setup, which must have one."""
         setup, coarsening = self.setup.coarse, self.rest.coarse
