@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from .edge_distances import edge_distances, nearest_distances
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
+    from .limb_frames import pose_frames
     from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
     from .normal_capture import NormalCapture
-    from .pose_frames import pose_frames
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
@@ -68,6 +68,7 @@ __all__ = [
     "nearest_to_identity",
     "partners",
     "placed_limbs",
+    "pose_frames",
     "problem_with_taichi",
     "rest_mesh",
     "run",
@@ -110,7 +111,7 @@ _MODULES = {
     "nearest_distances": "edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
-    "pose_frames": "pose_frames",
+    "pose_frames": "limb_frames",
     "placed_limbs": "limbs",
     "problem_with_taichi": "backends",
     "rest_mesh": "rest",

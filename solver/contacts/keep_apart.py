@@ -84,6 +84,7 @@ class KeepApart:
 
     def _push(self, stylization):
         """Push apart what crosses in the best state, which becomes a better one if that helps."""
+        assert self._best is not None
         count, U, R, pairs = self._best
         is_free = np.ones(len(U), dtype=bool)
         is_free[stylization.setup.pinned] = False

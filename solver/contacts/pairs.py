@@ -61,12 +61,20 @@ def _inside(rest, triangles):
 
 
 def _closed_gaps(rest, gaps, region, U, R):
-    """Return pairs i, j (k,) of vertices across closed gaps, spread from a mask (n,)."""
-    found_i, found_j = [], []
+    """Return pairs i, j (k,) of vertices across closed gaps, spread from a mask (n,).
+
+    With them are the gaps beside that are narrower than any of these has been closed by: where one
+    finger has gone through another, the rest of both would follow in the next round.
+    """
+    found_i, found_j, deepest = [], [], 0.0
     is_new, is_done = grown(gaps.graph, region, _RINGS), np.zeros(len(region), dtype=bool)
     for _ in range(_SPREADS):
         i, j = gaps.partners(np.flatnonzero(is_new))
-        is_closed = _openness(rest.V, U, R, i, j) < CLOSED
+        width = np.linalg.norm(rest.V[j] - rest.V[i], axis=1)
+        openness = _openness(rest.V, U, R, i, j)
+        is_closed = openness < CLOSED
+        deepest = max(deepest, ((1.0 - openness) * width)[is_closed].max(initial=0.0))
+        is_closed |= width < deepest
         found_i.append(i[is_closed])
         found_j.append(j[is_closed])
         is_done |= is_new
