@@ -37,7 +37,18 @@ def joined_limbs(parts, counts):
 
 
 def placed_limbs(limbs, rotation):
-    """Return KnownLimbs in other coordinates, by a rotation or reflection (3,3)."""
+    """Return KnownLimbs in other coordinates, by a rotation or reflection (3,3).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.sparse import csr_matrix
+    >>> from solver import KnownLimbs, placed_limbs
+    >>> along_x = np.array([[1.0, 0, 0]])
+    >>> arm = KnownLimbs(along_x, csr_matrix([[1.0], [0.0]]), np.array([True, False]))
+    >>> placed_limbs(arm, np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])).present.tolist()
+    [[0.0, 1.0, 0.0]]
+    """
     carried = rotation @ limbs.all_carried @ rotation.T
     return replace(limbs, directions=limbs.directions @ rotation.T, carried=carried)
 

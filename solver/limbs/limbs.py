@@ -80,7 +80,22 @@ class Limbs:
 
 @dataclass(frozen=True)
 class KnownLimbs(Limbs):
-    """Limbs of which it is known, for some vertices, that they are so."""
+    """Limbs of which it is known, for some vertices, that they are so.
+
+    See Also
+    --------
+    limbs_of_bones : Takes them from bones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.sparse import csr_matrix
+    >>> from solver import KnownLimbs
+    >>> along_x = np.array([[1.0, 0, 0]])
+    >>> arm = KnownLimbs(along_x, csr_matrix([[1.0], [0.0]]), np.array([True, False]))
+    >>> len(arm), arm.present.tolist()
+    (1, [[1.0, 0.0, 0.0]])
+    """
 
     known: np.ndarray
     """(n,) bool; the rows of all others are zero"""
