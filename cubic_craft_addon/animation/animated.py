@@ -139,8 +139,8 @@ class AnimatedGroup:
         V = self._first.setup.rest.V
         if V.shape != other.state.pose.shape or not np.allclose(V, other.state.pose, atol=_STILL):
             raise CubicCraftError(
-                f"{self.name}: there is no way from settings with other Keep Together, Refine,"
-                " Relative To or Solidity of 0; choose another object to begin as"
+                f"{self.name}: there is no way from settings with other Keep Together, Refine or"
+                " Relative To; choose another object to begin as"
             )
         self._sequence = self._continued(other.state)
 

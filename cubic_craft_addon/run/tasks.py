@@ -34,7 +34,6 @@ _log = logging.getLogger(__name__)
 def run_of(solution: pipeline.Solution, settings: dict[str, Any]) -> LastRun:
     """Return the summary of a solution that is about to be written."""
     result = solution.result
-    crossings = getattr(result, "crossings", None)
     return LastRun(
         settings=settings,
         vertices=solution.vertices,
@@ -46,7 +45,7 @@ def run_of(solution: pipeline.Solution, settings: dict[str, Any]) -> LastRun:
         device=result.device,
         matching=None if solution.matching is None else int(solution.matching),
         own_vertices=int(solution.own_vertices),
-        crossings=None if crossings is None else int(crossings),
+        crossings=None if result.crossings is None else int(result.crossings),
     )
 
 

@@ -84,8 +84,8 @@ def _run(options: Namespace) -> list[str]:
             raise InputError(f"{options.output}: {error}") from None
     seconds = time.perf_counter() - begin
     end = "converged" if result.converged else "NOT converged"
-    if count := getattr(result, "crossings", None):
-        end += f", {count} faces still cross"
+    if result.crossings:
+        end += f", {result.crossings} faces still cross"
     summary = (
         f"{options.output}: {len(file.surface.points)} vertices, {file.surface.face_count} faces, "
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.5g}, "

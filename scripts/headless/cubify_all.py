@@ -158,8 +158,8 @@ def check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
 def _summary(solution: Any) -> str:
     result = solution.result
     end = "converged" if result.converged else "not converged"
-    if count := getattr(result, "crossings", None):
-        end += f", {count} faces still cross"
+    if result.crossings:
+        end += f", {result.crossings} faces still cross"
     return (
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.4g}, "
         f"{solution.seconds:.1f} s on {result.device}"

@@ -120,7 +120,7 @@ def _run(cubeness: float, solution: Any, prepared: Any) -> dict[str, Any]:
         "cubeness": cubeness,
         "iterations": result.iterations,
         "converged": result.converged,
-        "crossings": getattr(result, "crossings", None),
+        "crossings": result.crossings,
         "energy": {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")},
         "seconds": {
             "setup": prepared.seconds,
