@@ -19,7 +19,7 @@ Nothing is averaged across sharp creases: the sides of a box keep the normals th
 import numpy as np
 import scipy.sparse as sp
 
-WEIGHT = 1.5
+WEIGHT = 1.75
 """of the cubeness where all normals agree"""
 SMALL_PART = 2.0
 """times the size of the details: a smaller part that touches others is itself a detail"""

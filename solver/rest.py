@@ -177,8 +177,9 @@ class RestMesh:
             np.bincount(parts)[parts] == np.bincount(component)[component],
         )
         normals, length = self._smoothed(radius)
-        weight = np.where(self.is_flat, 1.0, details.WEIGHT)
-        return normals, weight * length * length * self.normal_shares
+        # without their details, creases have normals, too, but for those between flat sides
+        weight = np.where(self.is_flat, self.normal_shares, details.WEIGHT)
+        return normals, weight * length * length
 
     @cached_property
     def limbs(self):

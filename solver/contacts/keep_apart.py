@@ -64,7 +64,8 @@ class KeepApart:
         if self._gaps is None:
             self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
         U, R = stylization.positions, stylization.rotations
-        found = links_against(self._rest, self._gaps, self._shown, self._pairs, U, R)
+        is_wide = self._rounds > 0  # fewer links have not been enough
+        found = links_against(self._rest, self._gaps, self._shown, self._pairs, U, R, is_wide)
         found = mirrored(found, stylization.setup.mirrors)
         self._links = merged(self._links, found)
         self._rounds += 1

@@ -28,7 +28,7 @@ _LEAST_GAP = 1e-6  # of less, the direction is rounding
 _LEAST_SHARE = 0.1  # of the length of edges: gaps of less are as strong as these
 
 
-def links_against(rest, gaps, shown, pairs, U, R):
+def links_against(rest, gaps, shown, pairs, U, R, is_wide):
     """Return links across the gaps that are closed around pairs of triangles that cross.
 
     Parameters
@@ -44,8 +44,10 @@ def links_against(rest, gaps, shown, pairs, U, R):
         Positions.
     R : (n,3,3) array
         Rotations.
+    is_wide : bool
+        Whether also to link narrow gaps beside those that are closed.
     """
-    i, j = _closed_gaps(rest, gaps, _inside(rest, shown[pairs.ravel()]), U, R)
+    i, j = _closed_gaps(rest, gaps, _inside(rest, shown[pairs.ravel()]), U, R, is_wide)
     across = links_between(i, j, _weights(rest.areas[i], rest.V[j] - rest.V[i]))
     return across.joined(_links_between(rest, shown, pairs, U, R))
 
@@ -60,11 +62,11 @@ def _inside(rest, triangles):
     return rest.input_map.spread_mask(of_input)
 
 
-def _closed_gaps(rest, gaps, region, U, R):
+def _closed_gaps(rest, gaps, region, U, R, is_wide):
     """Return pairs i, j (k,) of vertices across closed gaps, spread from a mask (n,).
 
-    With them are the gaps beside that are narrower than any of these has been closed by: where one
-    finger has gone through another, the rest of both would follow in the next round.
+    Widely, with them go the gaps beside that are narrower than any of these has been closed by:
+    where one finger has gone through another, the rest of both would follow in the next round.
     """
     found_i, found_j, deepest = [], [], 0.0
     is_new, is_done = grown(gaps.graph, region, _RINGS), np.zeros(len(region), dtype=bool)
@@ -73,8 +75,9 @@ def _closed_gaps(rest, gaps, region, U, R):
         width = np.linalg.norm(rest.V[j] - rest.V[i], axis=1)
         openness = _openness(rest.V, U, R, i, j)
         is_closed = openness < CLOSED
-        deepest = max(deepest, ((1.0 - openness) * width)[is_closed].max(initial=0.0))
-        is_closed |= width < deepest
+        if is_wide:
+            deepest = max(deepest, ((1.0 - openness) * width)[is_closed].max(initial=0.0))
+            is_closed |= width < deepest
         found_i.append(i[is_closed])
         found_j.append(j[is_closed])
         is_done |= is_new
