@@ -13,7 +13,7 @@ from .backends import local_step_class
 from .energy import Energy
 from .errors import CubicCraftError
 from .holds import Holds
-from .limbs import KnownLimbs, Limbs, turns
+from .limbs import KnownLimbs, Limbs, no_limbs, turns
 from .mesh_checks import per_vertex
 from .normal_capture import NormalCapture, targets_for
 from .setup import Setup
@@ -280,9 +280,12 @@ class Stylization:
         rest = self.rest
         if not rest.options.keep_pose:
             return Q
-        found = rest.limbs
-        if limbs is not None:
-            found = found.replaced(*_at_solved(limbs, rest))
+        if limbs is None:
+            found = rest.limbs
+        else:
+            is_known, found = _at_solved(limbs, rest)
+            if not is_known.all():
+                found = rest.limbs.replaced(is_known, found)
         if not len(found):
             return Q
         forms = () if self._form is None else self._form
@@ -447,8 +450,10 @@ def _moved(setup, targets):
 def _at_solved(limbs, rest):
     """Return where Limbs of the input are known at the solved vertices (n,), and what they are."""
     known = np.asarray(limbs.known, dtype=np.float64)
-    shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
     share_known = rest.input_map.spread(known)
+    if not len(limbs):
+        return share_known > 0.0, no_limbs(len(rest.V))
+    shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
     shares /= np.where(share_known > 0.0, share_known, 1.0)[:, None]
     return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares), carried=limbs.carried)
 

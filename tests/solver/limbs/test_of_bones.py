@@ -3,12 +3,22 @@
 
 from itertools import pairwise
 
+import limb_shapes
 import numpy as np
 import pytest
+import shapes
 from scipy.sparse import csr_matrix
 
-from solver import joined_limbs, limbs_of_bones, placed_limbs
-from solver.limbs import Limbs, turns
+from solver import (
+    ProxyOptions,
+    Setup,
+    Stylization,
+    joined_limbs,
+    limbs_of_bones,
+    placed_limbs,
+    rest_mesh,
+)
+from solver.limbs import KnownLimbs, Limbs, turns
 
 X, Y, Z = np.eye(3)
 TILTED = np.array([1.0, 0.0, -1.0]) / 2**0.5
@@ -152,3 +162,16 @@ def test_a_frame_goes_along_with_a_bone_in_any_pose():
     np.testing.assert_allclose(
         turns(limb.turned(spun[None]), np.eye(3)[None])[0], at_rest @ spun.T, atol=1e-12
     )
+
+
+def test_a_body_of_which_bones_say_that_it_has_no_limbs_has_none():
+    V, F = limb_shapes.bar(shapes.rotation(y=30))
+    rest = rest_mesh(V, F, ProxyOptions())
+    known = np.ones(len(V), dtype=bool)
+    trunk = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
+    of_trunk = Stylization(Setup(rest), 0.4, limbs=trunk, device="numpy").orientations
+    np.testing.assert_array_equal(of_trunk, np.broadcast_to(np.eye(3), of_trunk.shape))
+    known[: len(V) // 2] = False
+    partly = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
+    found = Stylization(Setup(rest), 0.4, limbs=partly, device="numpy").orientations
+    assert np.abs(found - np.eye(3)).max() > 0.1
