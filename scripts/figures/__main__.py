@@ -19,7 +19,19 @@ from headless.quiet import mute_stdout  # noqa: E402
 from headless_render import leave  # noqa: E402
 
 PROGRAM = "figures"
-RENDERED = ("1", "2", "3", "5", "6", "forms", "targets", "captures", "rigs", "low_poly")
+RENDERED = (
+    "1",
+    "2",
+    "3",
+    "5",
+    "6",
+    "character",
+    "forms",
+    "targets",
+    "captures",
+    "rigs",
+    "low_poly",
+)
 """figures that Blender renders; what is left, other commands have made"""
 ALL = (*RENDERED, "4")
 SCREENSHOT = "*/test_first_sculpture/first_3_live.png"

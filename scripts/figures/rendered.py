@@ -14,7 +14,18 @@ from headless.progress import ProgressBar
 from headless.render import render
 from headless.studio import furnish
 
-from . import captures, cubeness, forms, handles, low_poly, orientations, rigs, teaser, uv_texture
+from . import (
+    captures,
+    character,
+    cubeness,
+    forms,
+    handles,
+    low_poly,
+    orientations,
+    rigs,
+    teaser,
+    uv_texture,
+)
 from .figure_meshes import FigureMeshes
 
 __all__ = ("render_figures",)
@@ -40,6 +51,7 @@ FIGURES = {
     "3": Figure("figure_3_handles", handles.compose, 560),
     "5": Figure("figure_5_cubeness", cubeness.compose, 460),
     "6": Figure("figure_6_orientations", orientations.compose, 520),
+    "character": Figure("figure_character", character.compose, 620),
     "forms": Figure("figure_forms", forms.compose, 700),
     "captures": Figure("figure_captures", captures.compose, 460),
     "rigs": Figure("figure_rigs", rigs.compose, 520),

@@ -11,7 +11,7 @@ from .figure_meshes import FigureMeshes
 
 __all__ = ("compose", "in_two_rows")
 
-CAST = {"owl": 0.4, "bunny": 0.4, "armadillo": 0.3, "spot": 0.4, "horse": 0.15}
+CAST = {"owl": 0.4, "bunny": 0.4, "armadillo": 0.4, "spot": 0.4, "horse": 0.4}
 OWN_CAST = {"bear": 0.4, "duck": 0.4, "monkey": 0.4, "letter": 0.4}
 """name: cubeness"""
 GAP = 0.35

@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WIDTH = 120
 HEIGHTS = {
     "figure_1_teaser": 860,
+    "figure_character": 620,
     "figure_2_uv_texture": 560,
     "figure_3_handles": 560,
     "figure_5_cubeness": 460,
@@ -46,7 +47,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--rough", "--width", WIDTH, "--samples", 1)
-    numbers = ("--only", 1, 2, 3, 5, 6, "forms", "targets", "captures", "rigs", "low_poly")
+    numbers = ("--only", 1, 2, 3, 5, 6, "character", "forms", "targets", "captures", "rigs", "low_poly")
     process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
