@@ -47,8 +47,8 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--rough", "--width", WIDTH, "--samples", 1)
-    numbers = ("--only", 1, 2, 3, 5, 6, "character", "forms", "targets", "captures", "rigs", "low_poly")
-    process = figures(*numbers, *size, "--output", folder, "--save-blend", folder)
+    names = ("character", "forms", "targets", "captures", "rigs", "low_poly")
+    process = figures("--only", 1, 2, 3, 5, 6, *names, *size, "--output", folder, "--save-blend", folder)
     assert process.returncode == 0, process.stderr
     return folder
 
