@@ -48,7 +48,8 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("figures")
     size = ("--rough", "--width", WIDTH, "--samples", 1)
     names = ("character", "forms", "targets", "captures", "rigs", "low_poly")
-    process = figures("--only", 1, 2, 3, 5, 6, *names, *size, "--output", folder, "--save-blend", folder)
+    folders = ("--output", folder, "--save-blend", folder)
+    process = figures("--only", 1, 2, 3, 5, 6, *names, *size, *folders)
     assert process.returncode == 0, process.stderr
     return folder
 
