@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .limbs import Limbs, no_limbs
 
@@ -28,7 +28,9 @@ ALIKE = 1.7
 """largest ratio of thicknesses along an edge"""
 REACH = 1.6
 """of a window to either side, in widths"""
-NONE, FULL = 1.4, 2.1
+END = 0.5
+"""thicknesses by which a limb goes on beyond the last of its midpoints"""
+NONE, FULL = 1.6, 2.2
 """lengths, in widths: below is no limb, above is one in full"""
 STRAIGHT = np.cos(np.radians(20.0))
 """between the directions of one straight piece"""
@@ -36,6 +38,8 @@ FAR = 8.0
 """thicknesses, of the thickest: beyond, distances along the graph are not asked for"""
 SHORT = 0.8
 """widths: a shorter piece belongs to the next one"""
+WIDEST, THIN, SIDES = 0.75, 0.7, 3
+"""of a trunk: its width beside the largest of its body, that of limbs beside it, their number"""
 BLUR = 0.35
 """of the width: how far a piece reaches into the next"""
 SMOOTHINGS = 4
@@ -75,9 +79,10 @@ def limbs_of_shape(V, skin, links, part):
         return no_limbs(len(V))
     skeleton = skeleton_of(V, skin, links, part)
     direction, confidence, width, distance = _measured(skeleton)
-    piece, directions = _pieces(skeleton.graph, direction, confidence)
+    piece, directions = _pieces(skeleton.graph, direction, confidence, width)
     if len(directions):
         piece, directions = _without_short(piece, directions, skeleton, width, distance)
+        piece = _without_trunks(piece, len(directions), skeleton.graph, width)
     if not len(directions):
         return no_limbs(len(V))
     shares = np.zeros((len(piece), len(directions)))
@@ -149,16 +154,18 @@ def _measured(skeleton):
         second = (window @ products / total).reshape(-1, 3, 3)
         spread, axes = np.linalg.eigh(second - mean[:, :, None] * mean[:, None, :])
         spread = np.sqrt(12.0 * np.maximum(spread, 0.0))  # of a uniform line, its length
-        width = window @ thickness / total[:, 0] + spread[:, 1]
-    x = np.clip((spread[:, 2] / width - NONE) / (FULL - NONE), 0.0, 1.0)
+        thick = window @ thickness / total[:, 0]
+        width = thick + spread[:, 1]
+    length = spread[:, 2] + END * thick
+    x = np.clip((length / width - NONE) / (FULL - NONE), 0.0, 1.0)
     own = x * x * (3.0 - 2.0 * x)
     return axes[:, :, 2], (window * own[:, None]).max(axis=0), width, distance
 
 
-def _pieces(graph, direction, confidence):
+def _pieces(graph, direction, confidence, width):
     """Return the straight piece (m,) of each node, -1 for none, and their directions (s,3).
 
-    They grow from the clearest nodes along the graph, as long as the directions are alike.
+    They grow from the clearest nodes along the graph, as long as directions and widths are alike.
     """
     piece = np.full(len(confidence), -1)
     found = []
@@ -170,6 +177,8 @@ def _pieces(graph, direction, confidence):
         while front:
             k = front.pop(0)
             if piece[k] >= 0 or confidence[k] <= 0.0 or abs(direction[k] @ axis) < STRAIGHT:
+                continue
+            if not 1.0 / ALIKE < width[k] / width[seed] < ALIKE:
                 continue
             piece[k] = len(found)
             total += np.copysign(confidence[k], direction[k] @ axis) * direction[k]
@@ -199,6 +208,32 @@ def _without_short(piece, directions, skeleton, width, distance):
         if distance[k, nearest] < width[k]:
             number[k] = number[nearest]
     return number, directions[is_long]
+
+
+def _without_trunks(piece, count, graph, width):
+    """Return the pieces (m,) of the nodes without those that are trunks: -1 instead.
+
+    A trunk is the widest of its body, and limbs that are much thinner go from it to several sides.
+    However long it is, it keeps the frame of the object: aslant, it would lean.
+    """
+    result = piece.copy()
+    widths = np.array(
+        [np.median(width[piece == k]) if (piece == k).any() else 0.0 for k in range(count)]
+    )
+    _, body = connected_components(graph, directed=False)
+    for k in np.flatnonzero(widths > 0.0):
+        is_own = piece == k
+        is_body = body == body[np.flatnonzero(is_own)[0]]
+        if widths[k] < WIDEST * width[is_body].max():
+            continue
+        others = np.flatnonzero(is_body & ~is_own)
+        if not len(others):
+            continue
+        _, side = connected_components(graph[others][:, others], directed=False)
+        is_thin = (piece[others] >= 0) & (widths[piece[others]] < THIN * widths[k])
+        if len(np.unique(side[is_thin])) >= SIDES:
+            result[is_own] = -1
+    return result
 
 
 def _smoothed(of_node, node, skin):
