@@ -61,7 +61,7 @@ def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
 
 
 def test_the_energy_falls_and_nothing_turns():
-    rest = rest_mesh(*lamp(), ProxyOptions())
+    rest = rest_mesh(*lamp(), ProxyOptions(keep_apart=False))
     setup = Setup(rest)
     state = Stylization(setup, 0.4, keep_rotation=True, is_accelerated=False)
     energies = []
@@ -98,14 +98,15 @@ def asymmetry(rest, U):
 def test_several_do_as_each_would_alone():
     V, F = lamp()
     far = V + [4.0, 0.0, 0.0]
-    both = rest_mesh(*proxy_shapes.joined((V, F), (far, F)), ProxyOptions())
-    one = rest_mesh(V, F, ProxyOptions())
+    options = ProxyOptions(keep_pose=False, detail=0.0)  # their sample of thickness is another
+    both = rest_mesh(*proxy_shapes.joined((V, F), (far, F)), options)
+    one = rest_mesh(V, F, options)
     together, alone = (
         run(Stylization(Setup(rest), 0.4, keep_rotation=True), 400, 1e-6) for rest in (both, one)
     )
     assert Setup(both).global_step.upright_parts.is_kept.tolist() == [True, True]
     for moved in (together.positions[: len(V)] - V, together.positions[len(V) :] - far):
-        assert np.abs(moved - (alone.positions - V)).max() < 0.05, "the sample of links is shared"
+        assert np.abs(moved - (alone.positions - V)).max() < 0.02
 
 
 @pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
