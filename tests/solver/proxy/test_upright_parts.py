@@ -106,7 +106,7 @@ def test_several_do_as_each_would_alone():
     )
     assert Setup(both).global_step.upright_parts.is_kept.tolist() == [True, True]
     for moved in (together.positions[: len(V)] - V, together.positions[len(V) :] - far):
-        assert np.abs(moved - (alone.positions - V)).max() < 0.02
+        assert np.abs(moved - (alone.positions - V)).max() < 0.04
 
 
 @pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
