@@ -12,9 +12,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from .limbs import KnownLimbs
-from .of_shape import FULL, NONE
 from .turns import smallest_turns
 
+NONE, FULL = 1.4, 2.1
+"""lengths, in widths: below is no limb, above is one in full"""
 STRAIGHT = np.cos(np.radians(25.0))
 """between bones that are measured together"""
 ALIKE = 1.7
