@@ -19,6 +19,9 @@ import measures
 import numpy as np
 from art_objects import Surface, select, surface_of
 
+from solver import rest_mesh
+from solver.details import smoothed
+
 PAPER = {
     **{"solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
     **{"together": "OFF", "refine": "OFF", "rotation": "FREE"},
@@ -41,6 +44,12 @@ def _glb(make, cut):
     return lambda: cut(make())
 
 
+def _fox():
+    from figures import shapes  # of scripts/, which is not where everything that has cases can look
+
+    return [shapes.fox()]
+
+
 CASES = {
     "monkey": Case(art_meshes.monkey),
     "teapot": Case(art_meshes.teapot),
@@ -51,6 +60,7 @@ CASES = {
     # as if they had no limbs, since those become boxes along themselves
     "body_as_a_whole": Case(art_figure.body, options={"keep_pose": False}),
     "skin_as_a_whole": Case(art_character.skin, options={"keep_pose": False}),
+    "fox": Case(_fox),
     "painted": Case(art_figure.painted, options={"map_group": "Head"}),
     "painted_soft": Case(partial(art_figure.painted, border=0.1), options={"map_group": "Head"}),
     "monkey_seams": Case(_glb(art_meshes.monkey, art_seams.with_seams)),
@@ -82,6 +92,7 @@ CASES = {
     "two_sheets": Case(art_sheets.two_sheets),
     "hand": Case(art_solids.hand),
     "hand_inverted": Case(partial(art_solids.hand, is_inverted=True)),
+    "spring": Case(art_solids.spring),
     "cup": Case(art_solids.cup),
     "pinched": Case(art_solids.pinched_torus),
     "mixed": Case(art_solids.mixed_winding),
@@ -138,7 +149,7 @@ class Outcome:
 
     def whole_angle(self):
         """Return the angle to the axes of the surface without its details, after."""
-        return measures.angle_of_the_whole(self.V, self.U, self.F)
+        return angle_of_the_whole(self.V, self.U, self.F)
 
     def inside(self):
         """Return the share of the clothes' vertices inside the body, at rest and after."""
@@ -147,6 +158,22 @@ class Outcome:
             measures.share_inside(surface.V[clothes], *surface.of(0))
             for surface in (self.rest, self.after)
         )
+
+
+def angle_of_the_whole(V, U, F, size=0.06):
+    """Return `angle_to_axes` of the surface smoothed over a share of the size: without details."""
+    F = measures.welded(V, F)
+    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
+    rest = rest_mesh(V, F)
+    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
+    sums = np.zeros((len(V), 3))
+    for corner in F.T:
+        np.add.at(sums, corner, normal)
+    sums = sums[rest.used]
+    sums /= np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
+    smooth, _ = smoothed(rest.skin, rest.areas, sums, np.full(len(rest.V), size))
+    cosine = np.minimum(np.abs(smooth).max(axis=1), 1.0)
+    return float(np.degrees(np.average(np.arccos(cosine), weights=rest.areas)))
 
 
 def cubified(objects, **options):

@@ -14,9 +14,6 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from solver import rest_mesh
-from solver.details import smoothed
-
 SAME_PLACE = 1e-6
 """of the size, within which vertices are at one place"""
 REACH = 0.01
@@ -224,19 +221,3 @@ def limbs_turn(V, U, parts):
     ways = [[np.linalg.eigh(np.cov(X[part].T))[1][:, 2] for part in parts] for X in (V, U)]
     cosines = [abs(one @ other) for one, other in zip(*ways, strict=True)]
     return float(np.degrees(np.arccos(np.clip(cosines, 0.0, 1.0))).max())
-
-
-def angle_of_the_whole(V, U, F, size=0.06):
-    """Return `angle_to_axes` of the surface smoothed over a share of the size: without details."""
-    F = welded(V, F)
-    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
-    rest = rest_mesh(V, F)
-    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
-    sums = np.zeros((len(V), 3))
-    for corner in F.T:
-        np.add.at(sums, corner, normal)
-    sums = sums[rest.used]
-    sums /= np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
-    smooth, _ = smoothed(rest.skin, rest.areas, sums, np.full(len(rest.V), size))
-    cosine = np.minimum(np.abs(smooth).max(axis=1), 1.0)
-    return float(np.degrees(np.average(np.arccos(cosine), weights=rest.areas)))
