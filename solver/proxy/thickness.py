@@ -109,6 +109,8 @@ def _shrink(place, normals, chosen, points, end, radius):
         is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
         # in a round tube all around are equally near: the opposite one stays the end
         goes_on = is_seen & (shrunk < _SETTLED * radius[todo])
+        is_first = is_seen & (end[todo] < 0)  # also of a part that is as thick as the unit box
+        end[todo[is_first]] = q[is_first]
         todo, q, shrunk = todo[goes_on], q[goes_on], shrunk[goes_on]
         end[todo], radius[todo] = q, shrunk
         if not len(todo):

@@ -129,6 +129,16 @@ def test_a_slab_is_linked_straight_across():
     np.testing.assert_allclose(np.abs(d[is_middle, 2]), 0.1, atol=1e-9)
 
 
+def test_a_ball_as_large_as_the_unit_box_is_linked_through_its_middle():
+    """The first ball inside it already fits."""
+    V, F = shapes.sphere(3)
+    rest = rest_mesh(V, F, ProxyOptions())
+    links = rest.to_other_side
+    d = rest.V[links.vertices[:, 1]] - rest.V[links.vertices[:, 0]]
+    assert len(links) > 0.2 * len(rest.V)
+    assert np.linalg.norm(d, axis=1).min() > 0.85
+
+
 def test_an_inverted_mesh_has_the_same_links():
     V, F = shapes.blob(3)
     right, _ = thickness_of(V, F)
