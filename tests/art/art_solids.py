@@ -45,6 +45,26 @@ def hand(is_inverted=False, degrees=12):
     return [obj]
 
 
+def spring(turns=6, radius=1.0, pitch=0.5, wire=0.1, sides=12, steps=40):
+    """Return a coil spring of one closed skin, its axis along Z, free at both ends."""
+    share = np.linspace(0, turns, turns * steps + 1)
+    angle = 2 * np.pi * share
+    out = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
+    path = radius * out + pitch * share[:, None] * [0, 0, 1]
+    along = np.gradient(path, axis=0)
+    up = np.cross(along / np.linalg.norm(along, axis=1, keepdims=True), -out)
+    around = np.linspace(0, 2 * np.pi, sides, endpoint=False)[:, None, None]
+    rings = path + wire * (np.cos(around) * out + np.sin(around) * up)
+    numbers = np.arange(sides * len(path)).reshape(sides, len(path)).T
+    faces = [
+        (high[k], high[(k + 1) % sides], low[(k + 1) % sides], low[k])
+        for low, high in pairwise(numbers.tolist())
+        for k in range(sides)
+    ]
+    faces += [tuple(numbers[0].tolist()), tuple(numbers[-1, ::-1].tolist())]
+    return [add("Spring", (rings.reshape(-1, 3), faces))]
+
+
 def cup(segments=48):
     """Return a cup whose wall, 2 % of the size thick, has an inside and an outside."""
     outer = [(0, 0), (0.3, 0), (0.55, 0.03), (0.6, 0.1), (0.62, 0.2), (0.62, 1.2)]
