@@ -4,6 +4,7 @@
 page_pictures.py OLDER [PICTURE ...] [--output FOLDER]
 
 OLDER is a source tree of the extension: git archive 9c85a9d | tar -x -C OLDER
+The picture "characters" is made only if it is named, and with bd16ae9 as OLDER.
 """
 
 import argparse
@@ -25,6 +26,8 @@ from survey import ROOT
 
 WIDTH = 900
 """pixels"""
+SHADES = 63
+"""of each color, besides black: the noise of more makes files half as large again"""
 BOXES = 1.0
 """cubeness of boxes and houses; all else is shown at 0.4"""
 PICTURES = {
@@ -34,8 +37,14 @@ PICTURES = {
     "clothes": ([["clothes"], ["painted"]], 310),
     "coarse": ([["sphere", "torus"], ["monkey_507", "text"]], 200),
     "boxes": ([["house", "box_skew"], ["cube", "box_45"]], 200),
+    "characters": (
+        [["body", "clothes"], ["character", "fox"], ["hand", "spring"], ["teapot", "monkey"]],
+        210,
+    ),
 }
-STOOD_UP = ("text",)
+LABELS = {"characters": "before"}
+"""of the older version, where it is not the one of 9c85a9d, which solves the skin alone"""
+STOOD_UP = ("text", "hand")
 """cases that lie on their back"""
 
 
@@ -57,7 +66,8 @@ def main():
             rows, height = PICTURES[name]
             files = [Path(folder) / f"{name}_{number}.png" for number in range(len(rows))]
             for cases, path in zip(rows, files, strict=True):
-                _render(cases, *shapes, path, (WIDTH, height))
+                label = LABELS.get(name, "skin alone")
+                _render(cases, *shapes, label, path, (WIDTH, height))
             _stack(files, options.output / f"real_art_{name}.png")
 
 
@@ -70,7 +80,7 @@ def _arguments():
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "images", metavar="FOLDER")
     parser.add_argument("--solve", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
-    options.pictures = options.pictures or list(PICTURES)
+    options.pictures = options.pictures or [name for name in PICTURES if name not in LABELS]
     return options
 
 
@@ -88,7 +98,7 @@ def _is_box(case):
     return any(case in row for row in PICTURES["boxes"][0])
 
 
-def _render(cases, older, now, path, resolution):
+def _render(cases, older, now, older_label, path, resolution):
     """Write a picture of each case at rest and as both versions make it."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     shown = []
@@ -98,7 +108,7 @@ def _render(cases, older, now, path, resolution):
         rest = surface_of(objects)
         for label, V, finish in (
             ("original", rest.V, "clay"),
-            ("skin alone", older[case], "grey"),
+            (older_label, older[case], "grey"),
             ("now", now[case], "teal"),
         ):
             turn = Matrix.Rotation(np.pi / 2 * (case in STOOD_UP), 3, "X")
@@ -115,7 +125,8 @@ def _stack(files, path):
     pixels = [np.empty(len(image.pixels), np.float32) for image in images]
     for image, values in zip(images, pixels, strict=True):
         image.pixels.foreach_get(values)
-    whole.pixels.foreach_set(np.concatenate(pixels[::-1]))  # from the bottom up
+    joined = np.concatenate(pixels[::-1])  # from the bottom up
+    whole.pixels.foreach_set(np.round(SHADES * joined) / SHADES)
     whole.file_format = "PNG"
     bpy.context.scene.render.image_settings.color_mode = "RGB"
     whole.save(filepath=str(path), quality=100)
