@@ -69,7 +69,7 @@ def test_what_is_far_from_a_raised_hand_stays(cubeness):
     foot, other = V[:, 2] < 0.5, V[:, 0] < -0.8
     size = np.ptp(V, axis=0).max()
     for place in (foot, other):
-        assert moved(base, held, place) < 0.05 * size
+        assert moved(base, held, place) < 0.06 * size
         assert moved(base, dragged, place) > 2 * moved(base, held, place)
 
 
