@@ -32,8 +32,12 @@ def prepared(mesh, options):
     return Setup(rest_mesh(mesh.V, mesh.triangles, options.proxy), options.pinned)
 
 
-def run(setup, options, device, **more):
-    """Return the Result and the energies of all iterations, the last that of the result."""
+def run(setup, options, device, *, keep_apart=True, **more):
+    """Return the Result and the energies of its iterations, an array for each round.
+
+    The links of a round of Keep Apart add to the energy, so only those of one can be compared. If
+    it is off, there is one round, and the last energy is that of the result.
+    """
     state = Stylization(
         setup,
         options.cubeness,
@@ -43,11 +47,20 @@ def run(setup, options, device, **more):
         device=device,
         **more,
     )
-    energies = []
-    result = solver.run(
-        state, ITERATIONS, tolerance=1e-6, on_iteration=lambda s: energies.append(s.energy.total)
-    )
-    return result, np.array([*energies, result.energy.total])
+    energies, setups = [], []
+
+    def note(s):
+        if not setups or s.setup is not setups[-1]:
+            setups.append(s.setup)
+            energies.append([])
+        energies[-1].append(s.energy.total)
+
+    advanced = solver.Run(state, ITERATIONS, tolerance=1e-6, keep_apart=keep_apart)
+    advanced.complete(note)
+    result = advanced.result()
+    if not (keep_apart and options.proxy.keep_apart):
+        energies[-1].append(result.energy.total)
+    return result, [np.array(each) for each in energies]
 
 
 def check_result(mesh, options, result):
