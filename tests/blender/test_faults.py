@@ -23,9 +23,10 @@ IS_THOROUGH = bool(os.environ.get("CUBIC_CRAFT_FAULTS"))
 SHARE = 160
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 WORDS = {RuntimeError: "disk on fire", MemoryError: "memory", KeyboardInterrupt: "interrupted"}
-OPTIONS = {"max_iterations": 2, "device": "NUMPY", "refine": "OFF"}
-FINER = {"refine": "AUTO"}
-"""in scenarios that are to reach the functions for a finer copy, each of which takes long"""
+OPTIONS = {"max_iterations": 2, "device": "NUMPY", "refine": "OFF", "keep_apart": False}
+FINER = {"refine": "AUTO", "keep_apart": True}
+"""in scenarios that are to reach the functions for a finer copy and for further rounds, each of
+which takes long"""
 
 # All is done when it is called, and has its undo step; to report that cannot be taken back.
 AFTERWARDS = "report_all"
