@@ -46,7 +46,10 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
             else:
                 usable.append(obj)
         found = crossing_faces(usable) if usable else {}
-        shown = {obj: mesh_bridge.not_hidden(obj.data, faces) for obj, faces in found.items()}
+        shown = {
+            obj: mesh_bridge.not_hidden(mesh_bridge.mesh_of(obj), faces)
+            for obj, faces in found.items()
+        }
         shown = {obj: faces for obj, faces in shown.items() if len(faces)}
         if not shown:
             if found:
@@ -56,7 +59,7 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
             return report_all(self, "", problems)
         _edit(context, list(shown))
         for obj, faces in shown.items():
-            mesh_bridge.select_faces(obj.data, faces)
+            mesh_bridge.select_faces(mesh_bridge.mesh_of(obj), faces)
         count = sum(map(len, shown.values()))
         return report_all(self, f"{count:,} crossing faces are selected", problems)
 
