@@ -19,7 +19,8 @@ from .stop_rule import StopRule
 from .stylization import Energy, Stylization
 
 LEAST_ROUND = 20
-"""iterations of a round of Keep Apart, at most; or half of those that led to it, if more"""
+"""iterations of a round of Keep Apart, at most; or half of those that led to it, if that is more.
+Never more than these"""
 
 
 @dataclass(frozen=True)
@@ -296,7 +297,8 @@ class Run:
             self.reason = reason
             return
         if not self._round:
-            self._end, self._round = reason, max(self.stylization.iteration // 2, LEAST_ROUND)
+            done = self.stylization.iteration
+            self._end, self._round = reason, min(max(done // 2, LEAST_ROUND), done)
         self._phase = self._check
 
     def _check(self):

@@ -11,17 +11,17 @@ from hypothesis import strategies as st
 from solver import PAPER, ProxyOptions
 
 CUBENESS = (0.4, 0.0, 1e-6, 0.2, 1.0, 10.0)
+APART = {"keep_apart": False}  # its rounds take several times as long as the rest
 PROXIES = {
     "paper": PAPER,
     "default": ProxyOptions(),
-    "solid": ProxyOptions(solidity=10.0),
+    "solid": ProxyOptions(solidity=10.0, **APART),
     "hollow": ProxyOptions(solidity=0.0),
-    "turned": ProxyOptions(keep_pose=False),
-    "without details": ProxyOptions(detail=0.0),
-    "large details": ProxyOptions(detail=1.0),
-    "crossing": ProxyOptions(keep_apart=False),
+    "turned": ProxyOptions(keep_pose=False, **APART),
+    "without details": ProxyOptions(detail=0.0, **APART),
+    "large details": ProxyOptions(detail=1.0, **APART),
     "each alone": ProxyOptions(together=False),
-    "not refined": ProxyOptions(refine=False),
+    "not refined": ProxyOptions(refine=False, **APART),
 }
 _TURNS = (np.eye(3), np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.6]]))
 
