@@ -12,7 +12,7 @@ from . import details
 from .contacts.crossings import crossings
 from .contraction import contract
 from .cotangents import cotangents
-from .limbs import limbs_of_shape, with_coverings
+from .limbs import Limbs, limbs_of_shape, with_coverings
 from .memory import check_memory
 from .mesh_checks import check_mesh
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
@@ -78,6 +78,8 @@ class RestMesh:
     """including the links"""
     triangles: np.ndarray | None = None
     """(k,3) int32 triangles of the input, as given"""
+    unposed: "RestMesh | None" = None
+    """the mesh that this is a pose of"""
 
     @property
     def F(self):  # noqa: N802 - as everywhere
@@ -182,8 +184,13 @@ class RestMesh:
         return normals, weight * length * length
 
     @cached_property
-    def limbs(self):
-        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes are none."""
+    def limbs(self) -> Limbs:
+        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes are none.
+
+        They are the same in all poses, so that no frame of an animation jumps.
+        """
+        if self.unposed is not None:
+            return self.unposed.limbs.posed(self.unposed.V, self.V)
         links = self.to_other_side if self.to_other_side is not None else no_links()
         if self.box_frames is not None:
             links = links.part(~self.box_frames.any(axis=(1, 2))[links.vertices[:, 0]])
@@ -258,12 +265,15 @@ class RestMesh:
         areas, normals = areas_and_normals(V, self.F)
         skin = spokes_and_rims(V, self.F, self.cotangents)
         posed = replace(
-            self, input_positions=positions, V=V, areas=areas, normals=normals, skin=skin
+            self,
+            input_positions=positions,
+            V=V,
+            areas=areas,
+            normals=normals,
+            skin=skin,
+            unposed=self,
         )
-        posed = replace(posed, matrices=skin.with_links(V, posed.links))
-        if self.options.keep_pose:  # the same limbs in all poses, so that no frame jumps
-            posed.__dict__["limbs"] = self.limbs.posed(self.V, V)
-        return posed
+        return replace(posed, matrices=skin.with_links(V, posed.links))
 
     @cached_property
     def edge_sums(self):
