@@ -16,7 +16,6 @@ from headless.studio import furnish
 
 from . import (
     captures,
-    character,
     cubeness,
     forms,
     handles,
@@ -51,7 +50,7 @@ FIGURES = {
     "3": Figure("figure_3_handles", handles.compose, 560),
     "5": Figure("figure_5_cubeness", cubeness.compose, 460),
     "6": Figure("figure_6_orientations", orientations.compose, 520),
-    "character": Figure("figure_character", character.compose, 620),
+    "character": Figure("figure_character", cubeness.compose_character, 620),
     "forms": Figure("figure_forms", forms.compose, 700),
     "captures": Figure("figure_captures", captures.compose, 460),
     "rigs": Figure("figure_rigs", rigs.compose, 520),

@@ -72,7 +72,7 @@ def duck() -> bpy.types.Object:
 def fox() -> bpy.types.Object:
     """Add a fox that stands like a person, arms and ears aslant, with eyes and a nose."""
     balls = [ball for row in FOX for ball in _row(*row)]
-    obj = _melted_balls("Fox", tuple(balls))
+    obj = _melted_balls("Fox", tuple(balls), subdivisions=3)
     edited = bmesh.new()
     edited.from_mesh(obj.data)
     _add_balls(edited, FOX_FACE, subdivisions=3)
@@ -110,9 +110,9 @@ def _add_balls(edited: bmesh.types.BMesh, balls: tuple, subdivisions: int) -> No
             bmesh.ops.create_icosphere(edited, subdivisions=subdivisions, radius=1.0, matrix=matrix)
 
 
-def _melted_balls(name: str, balls: tuple) -> bpy.types.Object:
+def _melted_balls(name: str, balls: tuple, subdivisions: int = 4) -> bpy.types.Object:
     edited = bmesh.new()
-    _add_balls(edited, balls, subdivisions=4 if len(balls) < 20 else 3)
+    _add_balls(edited, balls, subdivisions)
     mesh = bpy.data.meshes.new(name)
     edited.to_mesh(mesh)
     edited.free()
