@@ -259,7 +259,7 @@ class AnimatedGroup:
         if not np.isfinite(points).all():
             raise CubicCraftError(f'"{one.source.name}" has positions that are not finite')
         settings = one.settings(self._overrides, share, self._start)
-        alone, in_world = placements(one.source, settings)
+        alone, in_world = placements(one.source, settings, is_posed=True)
         if len(self.objects) > 1 and in_world is None:
             raise CubicCraftError(
                 f'"{one.source.name}" is scaled flat, and cannot be kept together'

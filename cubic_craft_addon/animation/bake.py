@@ -195,7 +195,7 @@ class Bake:
         items = []
         for one in self._made:
             settings = one.settings(self._overrides)
-            items.append(_Item(one, settings, placements(one.source, settings)[1]))
+            items.append(_Item(one, settings, placements(one.source, settings, is_posed=True)[1]))
         for group in assemblies(items):
             try:
                 self._works.append(self._work([item.one for item in group]))

@@ -176,7 +176,7 @@ def read_member(
         The object or a setting cannot be used; the message names the object and the remedy.
     """
     begin = time.perf_counter()
-    alone, in_world = placements(obj, settings)
+    alone, in_world = placements(obj, settings, is_posed=rigged is not None)
     shape = known.shape if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)

@@ -17,6 +17,7 @@ from ...solver.styles.polytope import Polytope
 from ..settings.values import Settings
 from .form import form_of
 from .normal_capture import capture_of
+from .rest_place import world_at_rest
 
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
@@ -115,8 +116,12 @@ class Placement:
         return solver.svd_rotations(maps.swapaxes(1, 2))
 
 
-def placements(obj: bpy.types.Object, settings: Settings) -> tuple[Placement, Placement | None]:
+def placements(
+    obj: bpy.types.Object, settings: Settings, *, is_posed: bool = False
+) -> tuple[Placement, Placement | None]:
     """Return the placements of an object that is solved alone, and in world space.
+
+    The bones that carry it are at rest, or in their present pose.
 
     The second is None for an object that is scaled flat: it is solved without its scale, and
     would be in the wrong place beside others.
@@ -126,16 +131,19 @@ def placements(obj: bpy.types.Object, settings: Settings) -> tuple[Placement, Pl
     CubicCraftError
         As `stretch_and_orientation`, and as `form_of`.
     """
-    alone = placement_alone(obj, settings)
-    in_world = _in_world(obj, settings, alone)
+    alone = placement_alone(obj, settings, is_posed=is_posed)
+    world = _world(obj, is_posed)
+    in_world = _in_world(obj, world, settings, alone)
     if in_world is None:
         return alone, None
     pairs = zip(settings.regions, alone.regions, strict=True)
-    found = (_in_world(obj, settings.of_region(region), place) for region, place in pairs)
+    found = (_in_world(obj, world, settings.of_region(region), place) for region, place in pairs)
     return alone, replace(in_world, regions=tuple(found))
 
 
-def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
+def placement_alone(
+    obj: bpy.types.Object, settings: Settings, *, is_posed: bool = False
+) -> Placement:
     """Return the placement of an object that is solved alone: its coordinates, stretched.
 
     Raises
@@ -145,22 +153,37 @@ def placement_alone(obj: bpy.types.Object, settings: Settings) -> Placement:
     """
     capture = capture_of(obj, settings)
     regions = (settings.of_region(region) for region in settings.regions)
-    alone = _alone(obj, settings, capture)
-    return replace(alone, regions=tuple(_alone(obj, region, capture) for region in regions))
+    world = _world(obj, is_posed)
+    alone = _alone(obj, world, settings, capture)
+    return replace(alone, regions=tuple(_alone(obj, world, region, capture) for region in regions))
 
 
-def _alone(obj, settings, capture):
+def _world(obj, is_posed=False):
+    """Return the matrix of an object to the world.
+
+    Raises
+    ------
+    CubicCraftError
+        Its scale or rotation is not finite.
+    """
+    world = obj.matrix_world if is_posed else world_at_rest(obj)
+    if not np.isfinite(world.to_3x3()).all():
+        raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
+    return world
+
+
+def _alone(obj, world, settings, capture):
     form = form_of(settings)
-    stretch, orientation = stretch_and_orientation(obj, settings)
+    turn, stretch = _turn_and_stretch(world)
+    orientation = _axes(settings).T @ _into_space(obj, settings, turn)
     orientation = _simplest(orientation, form is None and capture is None)
-    turn, _ = _turn_and_stretch(obj)
     return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form, capture)
 
 
-def _in_world(obj, settings, alone):
-    world = np.array(obj.matrix_world, dtype=np.float64)
-    linear, offset = np.ascontiguousarray(world[:3, :3]), world[:3, 3].copy()
-    turn, stretch = _turn_and_stretch(obj)
+def _in_world(obj, world, settings, alone):
+    matrix = np.array(world, dtype=np.float64)
+    linear, offset = np.ascontiguousarray(matrix[:3, :3]), matrix[:3, 3].copy()
+    turn, stretch = _turn_and_stretch(world)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
     orientation = _axes(settings).T @ _into_space(obj, settings, turn) @ turn.T
@@ -190,7 +213,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     CubicCraftError
         The space is FRAME and no frame object is set, or the object's matrix is not finite.
     """
-    turn, stretch = _turn_and_stretch(obj)
+    turn, stretch = _turn_and_stretch(_world(obj))
     return stretch, _axes(settings).T @ _into_space(obj, settings, turn)
 
 
@@ -204,7 +227,7 @@ def world_axes(obj: bpy.types.Object, settings: Settings):
     CubicCraftError
         As `stretch_and_orientation`.
     """
-    turn, _ = _turn_and_stretch(obj)
+    turn, _ = _turn_and_stretch(_world(obj))
     return turn @ _into_space(obj, settings, turn).T @ _axes(settings)
 
 
@@ -218,7 +241,7 @@ def axes_of_angles(obj: bpy.types.Object, settings: Settings) -> np.ndarray:
     CubicCraftError
         As `stretch_and_orientation`.
     """
-    return _into_space(obj, settings, _turn_and_stretch(obj)[0])
+    return _into_space(obj, settings, _turn_and_stretch(_world(obj))[0])
 
 
 def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
@@ -226,18 +249,16 @@ def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
 
     Of the 24 equivalent rotations of a cube, these are the smallest.
     """
-    turn, _ = _turn_and_stretch(obj)
+    turn, _ = _turn_and_stretch(_world(obj))
     axes = proper(_into_space(obj, settings, turn) @ orientation.T)
     return Matrix(solver.nearest_to_identity(axes.T).T).to_euler()
 
 
-def _turn_and_stretch(obj):
-    world = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
-    if not np.isfinite(world).all():
-        raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
-    if _is_flat(world):
-        return np.array(obj.matrix_world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
-    U, sizes, Vt = np.linalg.svd(world)
+def _turn_and_stretch(world):
+    linear = np.array(world.to_3x3(), dtype=np.float64)
+    if _is_flat(linear):
+        return np.array(world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
+    U, sizes, Vt = np.linalg.svd(linear)
     return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
 
 
