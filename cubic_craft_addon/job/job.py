@@ -168,8 +168,9 @@ class Job:
             if not is_alone:
                 self._drop_changed()
             solved = [task for task in self._tasks if task.solution is not None]
+            looks = [mesh_bridge.Look(task.obj, task.settings.result) for task in solved]
             summary, unwritten = write_all(self._overrides, solved)
-            problems = self._problems + unwritten
+            problems = self._problems + unwritten + _unseen(solved, looks)
             if not summary:
                 raise CubicCraftError("; ".join(problems))
         return summary, problems
@@ -201,6 +202,15 @@ class Job:
         if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
             return ""
         return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'
+
+
+def _unseen(tasks: list[Task], looks: list[mesh_bridge.Look]) -> list[str]:
+    """Return which of the results cannot be seen, and what helps."""
+    found = []
+    for task, look in zip(tasks, looks, strict=True):
+        if task.written is not None and task.solution is not None:
+            found.append(look.problem(task.written, task.solution.positions))
+    return [text for text in found if text]
 
 
 def _meshes(objects: list[bpy.types.Object]) -> list[bpy.types.Mesh]:

@@ -378,6 +378,7 @@ class Session:
             self._plan_problems = [str(error)]
             return
         tasks, self._plan_problems = plan(self._overrides, objects)
+        self._plan_problems += filter(None, map(mesh_bridge.cover_problem, objects))
         self._tasks = {task.uid: task for task in tasks}
         self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
 

@@ -24,6 +24,7 @@ from .memory.original import (
 )
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
+from .result.cover import Look, cover_problem, covers, distance, is_still
 from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
@@ -35,12 +36,16 @@ from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, wr
 __all__ = (
     "KINDS",
     "LastRun",
+    "Look",
     "Preview",
     "Start",
     "carried_attributes",
     "check_editable",
     "check_usable",
+    "cover_problem",
+    "covers",
     "discard_original",
+    "distance",
     "end_all_previews",
     "end_preview",
     "faces_of_triangles",
@@ -49,6 +54,7 @@ __all__ = (
     "has_preview",
     "has_traces",
     "is_edited",
+    "is_still",
     "last_run",
     "link_beside",
     "make_seen",

@@ -61,6 +61,8 @@ class Task:
         """whether the object was made by `mesh_bridge.make_seen`"""
         self.source: bpy.types.Object | None = None
         """what it was made of"""
+        self.written: bpy.types.Object | None = None
+        """what has the cubic shape, once it is written"""
         self._reflections = modifier_reflections(obj)
         self._alone, self.in_world = placements(obj, self.settings)
         self.bones = bone_places(obj) if self.settings.keep_pose else None
@@ -230,9 +232,11 @@ def _write(overrides, task, run):
 
     if task.is_seen:
         solution, source = task.solution, task.source
-        mesh_bridge.write_seen(
+        task.written = mesh_bridge.write_seen(
             task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
         )
         return
     with settings_kept([task.mesh]):
-        pipeline.write(task.obj, task.solution, task.settings.result, remember, asdict(run))
+        task.written = pipeline.write(
+            task.obj, task.solution, task.settings.result, remember, asdict(run)
+        )

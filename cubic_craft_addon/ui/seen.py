@@ -10,8 +10,7 @@ from ..object_properties import object_properties
 from . import job_progress as job_panel
 
 # Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
-_MAKING = {"ARRAY", "BOOLEAN", "MULTIRES", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY"}
-_MAKING |= {"WIREFRAME"}
+_MAKING = {"ARRAY", "BOOLEAN", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY", "WIREFRAME"}
 _ROUNDING = {"SUBSURF", "BEVEL"}
 _COARSE = 2000  # vertices
 _ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
@@ -31,7 +30,11 @@ def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     if is_asked_for or live.current() or job.current() or not _that_matter(obj):
         return
     box = layout.box()
-    box.label(text="Modifiers are ignored", icon="INFO")
+    covers = mesh_bridge.covers(obj)
+    if covers:
+        box.label(text=f"{covers[0]} hides the result", icon="ERROR")
+    else:
+        box.label(text="Modifiers are ignored", icon="INFO")
     _draw_button(box, "Cubify What You See")
 
 
@@ -55,10 +58,10 @@ def _draw_button(layout, text):
 
 
 def _that_matter(obj):
-    """Return the modifiers that make the visible mesh differ, in the viewport."""
+    """Return the names of the modifiers that make the visible mesh differ, in the viewport."""
     is_coarse = len(obj.data.vertices) < _COARSE
-    return [
-        modifier
+    return mesh_bridge.covers(obj) + [
+        modifier.name
         for modifier in obj.modifiers
         if modifier.show_viewport
         and (modifier.type in _MAKING or (is_coarse and modifier.type in _ROUNDING))

@@ -16,8 +16,9 @@ from mathutils import Euler, Matrix, Vector
 
 from .cubify_all import Sculpture
 from .detached import detached_copy
+from .errors import InputError
 from .extension import Extension
-from .mesh_arrays import read
+from .mesh_arrays import positions_of, read
 
 __all__ = (
     "Gallery",
@@ -148,11 +149,34 @@ def _groups(
                 copies.append(copy)
                 places.append(turn @ user.matrix_world)
         bpy.context.view_layer.update()
+        if groups:
+            _check_seen(sculptures, groups[0].copies, copies, extension)
         points = np.concatenate([_points(*pair) for pair in zip(copies, places, strict=True)])
         extent = groups[0].extent if groups else extent_of(points)
         finish = "clay" if number is None else "teal"
         groups.append(Group(label, copies, places, points, extent, finish))
     return groups
+
+
+def _check_seen(
+    sculptures: list[Sculpture],
+    originals: list[bpy.types.Object],
+    copies: list[bpy.types.Object],
+    extension: Extension,
+) -> None:
+    """Raise InputError if the picture of a copy would be that of the original."""
+    bridge = extension.mesh_bridge
+    users = [user for sculpture in sculptures for user in sculpture.users]
+    for user, original, copy in zip(users, originals, copies, strict=True):
+        if not copy.modifiers:
+            continue
+        moved = bridge.distance(positions_of(original.data), positions_of(copy.data))
+        before, now = (bridge.read_evaluated_points(obj)[0] for obj in (original, copy))
+        if moved > 0.0 and bridge.is_still(before, now, moved):
+            raise InputError(
+                f'"{user.name}": one of its modifiers shows the original still;'
+                " --with-modifiers makes that cubic"
+            )
 
 
 def extent_of(points: np.ndarray) -> float:

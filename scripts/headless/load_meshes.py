@@ -2,7 +2,7 @@
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import bpy
@@ -46,6 +46,8 @@ class Loaded:
     """what the form is made from"""
     capture: bpy.types.Object | None = None
     """what the normal capture is made from"""
+    covered: list[str] = field(default_factory=list)
+    """names of objects of which what is seen was taken, as nothing else would be"""
 
 
 def empty_blender() -> None:
@@ -58,6 +60,8 @@ def load(
     name: str | None,
     verbose: bool,
     seen_by: Extension | None = None,
+    *,
+    is_all_seen: bool = True,
 ) -> Loaded:
     """Load the mesh objects of a file, or the subdivided monkey.
 
@@ -67,6 +71,7 @@ def load(
     name : only the object of this name
     verbose : show what Blender prints
     seen_by : take what is seen, as this extension makes it, in place of the meshes of the file
+    is_all_seen : not only of those meshes whose modifiers hide what they are
 
     Returns
     -------
@@ -84,15 +89,19 @@ def load(
     with captured(verbose):
         _import(path, layout)
         bpy.context.view_layer.update()
+    covered = []
     if seen_by is not None:
-        show_as_meshes(seen_by)
+        taken = show_as_meshes(seen_by, only_covered=not is_all_seen)
+        covered = [] if is_all_seen else taken
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if layout is not None:
         match_objects(layout, found)
     if path.suffix.lower() in (".glb", ".gltf"):
         for mesh in {obj.data for obj in found}:
             weld(mesh)
-    return Loaded(_choose(found, name, str(path)), layout, is_whole=name is None)
+    chosen = _choose(found, name, str(path))
+    covered = [obj.name for obj in chosen if obj.name in covered]
+    return Loaded(chosen, layout, is_whole=name is None, covered=covered)
 
 
 def _monkey() -> bpy.types.Object:

@@ -57,10 +57,18 @@ def _run(
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
-        seen_by = extension if options.with_modifiers else None
-        loaded = load(options.input, options.object, options.verbose, seen_by)
+        seen_by = None if options.bake else extension
+        loaded = load(
+            options.input,
+            options.object,
+            options.verbose,
+            seen_by,
+            is_all_seen=options.with_modifiers,
+        )
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None
+    for name in loaded.covered:
+        bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
     if options.bake:
         _bake(loaded, options, extension, bar, seconds, begin)
         return

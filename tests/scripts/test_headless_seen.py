@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from headless import make_blend, run_to_blend
+from headless import headless_shared, make_blend, run_to_blend
 
 MAKE = """
 import sys, bpy
@@ -44,3 +44,48 @@ def test_without_it_the_meshes_below_are_taken(source, tmp_path):
     report, _ = run(source, tmp_path)
     counts = {entry["name"]: entry["vertices"] for entry in report["objects"]}
     assert counts == {"Cube": 8, "Suzanne": 507}
+
+
+FASTEST = ("--device", "numpy", "--max-iterations", 3, "--keep-apart", "off", "--refine", "off")
+COVERED = """
+import sys, bpy
+import numpy as np
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_monkey_add()
+obj, points = bpy.context.object, np.empty(3 * 507, np.float32)
+obj.data.attributes["position"].data.foreach_get("vector", points)
+if "played" in sys.argv[1]:
+    head = b"POINTCACHE2\\0" + np.array([1, 507], "<i4").tobytes()
+    head += np.array([0, 1], "<f4").tobytes() + np.array([1], "<i4").tobytes()
+    open(sys.argv[1] + ".pc2", "wb").write(head + points.tobytes())
+    cache = obj.modifiers.new("Cache", "MESH_CACHE")
+    cache.cache_format, cache.filepath = "PC2", sys.argv[1] + ".pc2"
+else:
+    obj.data.attributes.new("was", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", points)
+    tree = bpy.data.node_groups.new("Was", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    begin, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    put = tree.nodes.new("GeometryNodeSetPosition")
+    named = tree.nodes.new("GeometryNodeInputNamedAttribute")
+    named.data_type, named.inputs["Name"].default_value = "FLOAT_VECTOR", "was"
+    tree.links.new(begin.outputs[0], put.inputs["Geometry"])
+    tree.links.new(named.outputs["Attribute"], put.inputs["Position"])
+    tree.links.new(put.outputs[0], end.inputs[0])
+    obj.modifiers.new("Was", "NODES").node_group = tree
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
+
+
+def test_of_what_a_cache_plays_the_seen_shape_is_taken(tmp_path):
+    source = make_blend(COVERED, tmp_path / "played.blend")
+    done = headless_shared(source, *FASTEST, "--save-mesh", "out.blend", cwd=tmp_path)
+    assert done.returncode == 0 and '"Suzanne": what is seen is taken' in done.stdout + done.stderr
+
+
+def test_no_picture_of_the_original_is_passed_off_as_a_result(tmp_path):
+    source = make_blend(COVERED, tmp_path / "nodes.blend")
+    refused = headless_shared(source, *FASTEST, "--output", "p.png", cwd=tmp_path)
+    assert refused.returncode == 2 and not (tmp_path / "p.png").exists()
+    line = refused.stderr.splitlines()[-1]
+    assert '"Suzanne": one of its modifiers' in line and "--with-modifiers" in line
