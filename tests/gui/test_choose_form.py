@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: sid
-"""Choose a form by hand, see it, follow an object that is edited in Live, and flatten the sides."""
+"""Cubify by the search, choose a form by hand, see it, follow an object that is edited in Live, and flatten the sides."""
 
 import bpy
 import guidrive as gui
@@ -28,6 +28,19 @@ def add_form_object():
         bpy.context.view_layer.objects.active = monkey
         bpy.ops.ed.undo_push(message="Add the cone")
     return cone
+
+
+def by_search(original):
+    yield from gui.move_mouse(gui.viewport_point())
+    yield from gui.keys("F3")
+    yield 1.0
+    yield from gui.type_text("cubicc")
+    yield 1.0
+    yield from gui.screenshot("search.png")
+    yield from gui.keys("RET")
+    yield from gui.wait_until(lambda: scene.positions() != original, what="Cubify by the search")
+    yield from gui.undo()
+    assert scene.positions() == original
 
 
 def by_click(original):
@@ -76,7 +89,7 @@ def test():
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()
-    for moment in (by_click, in_live):
+    for moment in (by_search, by_click, in_live):
         gui.log(moment.__name__)
         yield from moment(original)
 

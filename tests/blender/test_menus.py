@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's search and Quick Favorites find what is in menus; all is in Object > CubicCraft."""
+
+import importlib
+
+import bpy
+import pytest
+from scene import add_monkey
+
+NAME = "VIEW3D_MT_object_cubic_craft"
+
+
+class Recorder:
+    """A layout that notes what is drawn."""
+
+    def __init__(self):
+        self.drawn = []
+
+    def operator(self, identifier, **_):
+        self.drawn.append(identifier)
+
+    def menu(self, name, **_):
+        self.drawn.append(name)
+
+    def prop(self, _data, name, **_):
+        self.drawn.append(name)
+
+    def separator(self):
+        pass
+
+
+@pytest.fixture
+def menus(extension):
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.menus")
+
+
+def _drawn(draw, owner):
+    owner.layout = Recorder()
+    draw(owner, bpy.context)
+    return owner.layout.drawn
+
+
+class Owner:
+    """Stands for the menu that is drawn."""
+
+
+@pytest.mark.parametrize("parent", ["VIEW3D_MT_object", "VIEW3D_MT_object_context_menu"])
+def test_both_menus_of_objects_lead_to_it(menus, parent):
+    draws = getattr(bpy.types, parent).draw._draw_funcs
+    assert _drawn(draws[-1], Owner()) == [NAME] and draws[-1] is menus._draw_entry
+    menus.unregister()
+    assert menus._draw_entry not in draws and not hasattr(bpy.types, NAME)
+    menus.register()
+    assert menus._draw_entry in draws
+
+
+@pytest.mark.parametrize("has_mesh", [False, True])
+def test_each_entry_is_an_operator(menus, has_mesh):
+    if has_mesh:
+        add_monkey()
+    drawn = _drawn(getattr(bpy.types, NAME).draw, Owner())
+    operators = [name.split(".") for name in drawn if "." in name]
+    assert all(hasattr(getattr(bpy.ops, module), name) for module, name in operators)
+    assert ["cubic_craft", "cubify"] in operators and ["cubic_craft", "live"] in operators
+    assert ("keep_pose" in drawn) == has_mesh
