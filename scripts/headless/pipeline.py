@@ -58,7 +58,8 @@ def _run(
     seconds: dict[str, float] = {}
     with _timed("load", seconds):
         seen_by = extension if options.with_modifiers else None
-        loaded = load(options.input, options.object, options.verbose, seen_by)
+        own = bool(options.worker)
+        loaded = load(options.input, options.object, options.verbose, seen_by, own)
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None
     if options.bake:

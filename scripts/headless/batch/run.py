@@ -16,6 +16,7 @@ from typing import Any
 from ..errors import InputError
 from ..output_files import check_writable, write_json
 from ..progress import ProgressBar
+from ..trust.links import refuse_links
 from .engine import results_of, workers_for
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
@@ -122,8 +123,10 @@ def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:
+    folders = {path.parent for job in jobs for path in (*job.outputs, job.record)}
+    refuse_links("--output-folder", output_folder, folders)
     try:
-        for folder in {path.parent for job in jobs for path in (*job.outputs, job.record)}:
+        for folder in folders:
             folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
