@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from .fbx import check_fbx
 from .gltf import check_gltf
 from .obj import restricted_copy
 from .trial import CRASHING, try_to_read
@@ -33,6 +34,8 @@ def readable(path: Path, importer: str, has_own_process: bool) -> Iterator[Path]
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):
         check_gltf(path)
+    if suffix == ".fbx":
+        check_fbx(path)
     if suffix in (".usd", ".usda", ".usdc", ".usdz"):
         check_usd(path)
     if suffix in CRASHING and not has_own_process:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..errors import InputError
 
-__all__ = ("is_inside", "refuse_outside", "refuse_special", "say_left_out")
+__all__ = ("is_inside", "is_special", "refuse_outside", "refuse_special", "say_left_out")
 
 
 def is_inside(path: str | Path, folder: Path) -> bool:
@@ -20,7 +20,7 @@ def is_inside(path: str | Path, folder: Path) -> bool:
     """
     try:
         place = Path(os.path.realpath(folder / path))
-        return place.is_relative_to(folder) and not _is_special(place)
+        return place.is_relative_to(folder) and not is_special(place)
     except (OSError, ValueError):  # such as a name with a zero byte
         return False
 
@@ -39,7 +39,7 @@ def refuse_outside(source: Path, references: list[str]) -> None:
 
 def refuse_special(source: Path) -> None:
     """Raise InputError for a device or a pipe, which may have no end."""
-    if _is_special(source):
+    if is_special(source):
         raise InputError(f"{source}: is a device or a pipe; give a file")
 
 
@@ -50,5 +50,6 @@ def say_left_out(source: Path, names: list[str]) -> None:
         print(f"{source}: left out, because its folder has no such file: {what}", file=sys.stderr)
 
 
-def _is_special(path: Path) -> bool:
+def is_special(path: Path) -> bool:
+    """Return whether there is a device or a pipe, or something else that is no file."""
     return path.exists() and not path.is_file() and not path.is_dir()
