@@ -138,7 +138,7 @@ group = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
 modifier = cube.modifiers.new("Nodes", "NODES")
 modifier.node_group, modifier.bake_directory = group, str(outside / "bake")
 """,
-        ['"Nodes"', "baked to files"],
+        ['"Nodes"', "baked to another place"],
     ),
     "mesh cache": (
         'cube.modifiers.new("Cache", "MESH_CACHE").filepath = str(outside / "a.pc2")',
@@ -176,6 +176,12 @@ def test_a_blend_that_would_write_or_read_elsewhere_is_refused(folder, case):
     before = sorted(folder.parent.rglob("*"))
     headless_refused(source.name, *MESH, "--save-mesh", "a.obj", words=words, cwd=folder)
     assert sorted(folder.parent.rglob("*")) == before
+
+
+def test_a_name_cannot_speak_to_the_terminal(folder):
+    fluid, _ = REFUSED["fluid"]
+    source = blend(folder, 'cube.name = "a\\x1b[2J\\nb"\n', fluid)
+    headless_refused(source.name, *MESH, "--save-mesh", "a.obj", words=["\\x1b[2J"], cwd=folder)
 
 
 def test_nodes_that_read_files_are_refused(folder):
@@ -284,11 +290,15 @@ def test_no_pipe_is_waited_for(folder):
 def test_no_layer_outside_is_read_for_a_usd(folder, inputs, name):
     shutil.copy(inputs / "awkward.usdc", folder.parent / "secret.usdc")
     crate = crate_with(b"../secret.usdc")
+    (folder / "b.usda").write_text(USDA.replace("1.0", "1.0\n(subLayers = [@./a.usda@])"))
     layer = b'#usda 1.0\ndef Xform "x" (references = @../secret.usdc@</root>)\n{\n}\n'
     content = {"a.usda": layer, "a.usdc": crate, "a.usdz": b"PK\3\4" + bytes(60) + crate}[name]
     (folder / name).write_bytes(content)
     words = [name, "secret.usdc"]
     headless_refused(name, *MESH, "--save-mesh", "a.obj", words=words, cwd=folder)
+    if name == "a.usda":
+        words = ["b.usda", "secret.usdc"]
+        headless_refused("b.usda", *MESH, "--save-mesh", "a.obj", words=words, cwd=folder)
 
 
 def crate_with(text):

@@ -22,6 +22,8 @@ _LOOKS = (
     *(bpy.types.Image, bpy.types.MovieClip, bpy.types.Sound, bpy.types.Text),
     *(bpy.types.VectorFont, bpy.types.Node),
 )
+_BUILT_IN = "<builtin>"
+"""path of Blender's own font"""
 _IMPORTS = "GeometryNodeImport"
 """first letters of the nodes that read files, whose paths may be computed"""
 _ON_DISK = ("use_disk_cache", "use_external")
@@ -75,12 +77,12 @@ def check_opened(path: Path) -> list[str]:
     """
     _emptied.clear()
     bpy.data.use_autopack = False  # which puts the bytes of all files that it names into a .blend
-    for problem in _simulations():
-        raise InputError(f"{path}: {problem}")
     home, left_out = path.resolve().parent, []
+    for problem in _simulations(home):
+        raise InputError(f"{path}: {problem}")
     for owner, holder in _holders():
         text = holder.filepath
-        if not text or _is_allowed(owner, text, home):
+        if text in ("", _BUILT_IN) or _is_allowed(owner, text, home):
             continue
         if not isinstance(holder, _LOOKS):
             raise InputError(
@@ -117,7 +119,7 @@ def with_all_paths() -> Iterator[None]:
             image.filepath = ""
 
 
-def _simulations() -> Iterator[str]:
+def _simulations(home: Path) -> Iterator[str]:
     """Say what would write files, or read some that are not said to be read."""
     for obj in bpy.data.objects:
         for modifier in obj.modifiers:
@@ -135,10 +137,10 @@ def _simulations() -> Iterator[str]:
                 )
             own = [getattr(place, "bake_directory", "")]
             own += [bake.directory for bake in getattr(place, "bakes", ())]
-            if any(own):
+            if not all(is_inside(_absolute(obj, folder), home) for folder in own if folder):
                 yield (
-                    f'the simulation "{place.name}" of "{obj.name}" is baked to files; pack it, or '
-                    "clear its folder"
+                    f'the simulation "{place.name}" of "{obj.name}" is baked to another place; '
+                    "pack it, or clear its folder"
                 )
     for scene in bpy.data.scenes:
         world = scene.rigidbody_world

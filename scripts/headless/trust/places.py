@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from ..errors import InputError
+from ..one_line import one_line
 
 __all__ = ("is_inside", "is_special", "refuse_outside", "refuse_special", "say_left_out")
 
@@ -47,7 +48,8 @@ def say_left_out(source: Path, names: list[str]) -> None:
     """Tell what of a file is not read, and why."""
     if names:
         what = ", ".join(dict.fromkeys(names))
-        print(f"{source}: left out, because its folder has no such file: {what}", file=sys.stderr)
+        words = f"{source}: left out, because its folder has no such file: {what}"
+        print(one_line(words), file=sys.stderr)
 
 
 def is_special(path: Path) -> bool:
