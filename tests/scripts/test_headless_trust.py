@@ -187,14 +187,15 @@ def test_a_name_cannot_speak_to_the_terminal(folder):
 def test_nodes_that_read_files_are_refused(folder):
     lines = """
 group = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
-if hasattr(bpy.types, "GeometryNodeImportSTL"):
-    group.nodes.new("GeometryNodeImportSTL")
 cube.modifiers.new("Nodes", "NODES").node_group = group
+if hasattr(bpy.types, "GeometryNodeImportSTL"):  # Blender 4.5
+    group.nodes.new("GeometryNodeImportSTL")
+    (outside / "has nodes").touch()
 """
-    process = headless_shared(
-        blend(folder, lines), *MESH, "--save-mesh", "a.obj", cwd=folder
-    )  # Blender before 4.5 has no such nodes
-    assert process.returncode == 0 or '"Nodes" read a file' in process.stderr
+    source = blend(folder, lines)
+    process = headless_shared(source, *MESH, "--save-mesh", "a.obj", cwd=folder)
+    is_refused = process.returncode == 2 and '"Nodes" read a file' in process.stderr
+    assert is_refused == (folder.parent / "has nodes").exists()
 
 
 def test_nothing_in_a_blend_runs(folder):
