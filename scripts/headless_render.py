@@ -24,6 +24,7 @@ from headless.checks import refuse_empty  # noqa: E402
 from headless.errors import InputError  # noqa: E402
 from headless.extension import read_version  # noqa: E402
 from headless.interruption import end_on_signals, end_with_input  # noqa: E402
+from headless.one_line import one_line  # noqa: E402
 from headless.output_files import replacing  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 from headless.threads import thread_variables  # noqa: E402
@@ -78,7 +79,7 @@ def main() -> int:
             return run_batch(options, command_of_worker, read_version(ROOT), PROGRAM, begin)
         run_one(options, begin)
     except InputError as error:
-        print(f"{PROGRAM}: error: {error}", file=sys.stderr)
+        print(f"{PROGRAM}: error: {one_line(str(error))}", file=sys.stderr)
         return 2
     return 0
 
@@ -98,7 +99,7 @@ def run_one(options: Namespace, begin: float) -> None:
     except InputError as error:
         if not options.error_file:
             raise
-        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        print(f"{PROGRAM}: {one_line(str(error))}", file=sys.stderr)
         with replacing(options.error_file) as temporary:
             temporary.write_text(f"{error}\n", encoding="utf-8")
 

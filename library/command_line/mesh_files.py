@@ -7,6 +7,7 @@ errors, and notes of what a format cannot hold.
 
 import contextlib
 import io
+import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,6 +48,8 @@ def read(path: Path) -> MeshFile:
         It is missing or cannot be read, or is no surface.
     """
     try:
+        if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():
+            raise InputError(f"{path}: is a device or a pipe; give a file")
         if not path.stat().st_size:
             raise InputError(f"{path}: the file is empty; export it again")
         if path.suffix.lower() == ".obj":

@@ -48,6 +48,7 @@ def replacing(path: Path) -> Iterator[Path]:
     stem = path.stem[:_LONGEST_STEM]
     temporary = path.with_name(f".{stem}.cubic_craft-{os.getpid()}{path.suffix}")
     try:
+        temporary.unlink(missing_ok=True)  # it might be a link to another place
         yield temporary
         if not temporary.is_file() or not temporary.stat().st_size:
             raise InputError(f"{path}: nothing was written; is the disk full?")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify every frame of an animation, into one file that other programs play back."""
 
+import glob
 import shutil
 from argparse import Namespace
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from .output_files import replacing
 from .pose import handles_of_all
 from .progress import ProgressBar
 from .quiet import captured
+from .trust.links import refuse_links_in
 
 __all__ = ("bake_frames",)
 
@@ -58,6 +60,7 @@ def bake_frames(
     scene = bpy.context.scene
     start, end = options.frames or (scene.frame_start, scene.frame_end)
     folder = path.with_name(f"{path.name}.unfinished")
+    refuse_links_in("--bake", path.parent.glob(f"{glob.escape(folder.name)}*"))
     given = _Given(loaded, options, extension, handles_of_all(loaded, options, extension))
     count = len(range(start, end + 1))
     part = extension.parts.part_of(count, *options.part) if options.part else None

@@ -7,6 +7,7 @@ from pathlib import Path
 from .errors import InputError
 from .formats import ANIMATED, KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
 from .output_files import check_writable, numbered, per_cubeness
+from .trust.places import refuse_special
 
 __all__ = ("check_batch", "check_single", "refuse_empty")
 
@@ -175,6 +176,7 @@ def _check_format(path: Path) -> None:
 
 def _check_input(path: Path) -> None:
     _check_format(path)
+    refuse_special(path)
     try:
         with path.open("rb"):
             pass

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
+import contextlib
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +15,9 @@ from .finite_check import refuse_infinite
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .quiet import captured
 from .seen_objects import show_as_meshes
+from .trust.before_reading import readable
+from .trust.opened import check_opened, checked_before_evaluation
+from .trust.places import say_left_out
 from .weld import weld
 
 __all__ = ("Loaded", "empty_blender", "load")
@@ -62,8 +66,9 @@ def load(
     seen_by: Extension | None = None,
     *,
     is_all_seen: bool = True,
+    has_own_process: bool = False,
 ) -> Loaded:
-    """Load the mesh objects of a file, or the subdivided monkey.
+    """Load the mesh objects of a file, which may be a stranger's, or the subdivided monkey.
 
     Parameters
     ----------
@@ -72,6 +77,7 @@ def load(
     verbose : show what Blender prints
     seen_by : take what is seen, as this extension makes it, in place of the meshes of the file
     is_all_seen : not only of those meshes whose modifiers hide what they are
+    has_own_process : whoever started this process reports if the file crashes it
 
     Returns
     -------
@@ -86,9 +92,15 @@ def load(
     if path is None:
         return Loaded(_choose([_monkey()], name, "Blender's monkey"))
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
-    with captured(verbose):
-        _import(path, layout)
+    if path.suffix.lower() in (".ply", ".stl"):
+        refuse_infinite(path)
+    if path.suffix.lower() == ".abc":
+        _refuse_broken_alembic(path)
+    importer = _importer(path)
+    with readable(path, importer, has_own_process) as source, captured(verbose):
+        left_out = _import(path, source, importer, layout)
         bpy.context.view_layer.update()
+    say_left_out(path, left_out)
     covered = []
     if seen_by is not None:
         taken = show_as_meshes(seen_by, only_covered=not is_all_seen)
@@ -114,26 +126,31 @@ def _monkey() -> bpy.types.Object:
     return monkey
 
 
-def _import(path: Path, layout: ObjLayout | None) -> None:
-    """Run Blender's importer for the file."""
+def _importer(path: Path) -> str:
+    """Return the name of Blender's operator that reads the file."""
     suffix = path.suffix.lower()
-    if suffix in (".ply", ".stl"):
-        refuse_infinite(path)
-    if suffix == ".abc":
-        _refuse_broken_alembic(path)
-    name, how = IMPORTERS[suffix], {}
+    if suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
+        return "import_scene.fbx"
+    return IMPORTERS[suffix]
+
+
+def _import(path: Path, source: Path, importer: str, layout: ObjLayout | None) -> list[str]:
+    """Run Blender's importer for a file, on what of it may be read; return what is left out."""
+    suffix, how, check = path.suffix.lower(), {}, contextlib.nullcontext([])
     if layout is not None:
         how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
     elif suffix == ".blend":
         how = {"load_ui": False, "use_scripts": False}
-    elif suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
-        name = "import_scene.fbx"
-    try:
-        result = operator(name, path)(filepath=str(path.resolve()), **how)
-    except RuntimeError as error:
-        raise InputError(f"{path}: cannot be read ({reason(error)}); export it again") from error
+        check = checked_before_evaluation(path)
+    with check as left_out:
+        try:
+            result = operator(importer, path)(filepath=str(source), **how)
+        except RuntimeError as error:
+            message = f"{path}: cannot be read ({reason(error)}); export it again"
+            raise InputError(message) from error
     if "FINISHED" not in result:
         raise InputError(f"{path}: cannot be read (not a {path.suffix} file); export it again")
+    return left_out if suffix == ".blend" else check_opened(path)
 
 
 def _refuse_broken_alembic(path: Path) -> None:

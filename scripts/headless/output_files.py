@@ -6,6 +6,7 @@ import json
 import os
 import platform
 import re
+import shutil
 import sys
 import tempfile
 import threading
@@ -78,18 +79,28 @@ def check_writable(option: str, paths: list[Path]) -> None:
 
 
 @contextlib.contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
     """Give a temporary path beside ``path`` and move it there if the block succeeds.
 
     The temporary file has the same suffix and folder, so that exporters see the right format and
     relative paths stay right, and it is removed however the block ends. What runs that were killed
-    have left of the same file is removed as well.
+    have left of the same file is removed as well, and what lies where it shall be written, which
+    might be a link.
+
+    Parameters
+    ----------
+    has_own_name : it gets the name of ``path``, in a folder of its own, because the format writes
+        its name into the file
     """
     remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
     temporary = begin.with_name(f"{begin.name}{path.suffix}")
     _begins.append(begin)
     try:
+        _remove(begin)
+        if has_own_name:
+            begin.mkdir()
+            temporary = begin / path.name
         yield temporary
         if not temporary.is_file() or not temporary.stat().st_size:
             raise InputError(f"{path}: nothing was written; is the disk full?")
@@ -124,7 +135,7 @@ def remove_left_behind(path: Path) -> None:
     for other, number in _temporaries(path.with_name(_prefix(path))):
         if number.isdecimal() and _has_ended(int(number)):
             with contextlib.suppress(OSError):
-                other.unlink(missing_ok=True)
+                _discard(other)
 
 
 def _prefix(path: Path) -> str:
@@ -142,7 +153,15 @@ def _remove(begin: Path) -> None:
     with contextlib.suppress(OSError):
         while found := [path for path, rest in _temporaries(begin) if not rest]:
             for path in found:
-                path.unlink(missing_ok=True)
+                _discard(path)
+
+
+def _discard(path: Path) -> None:
+    """Remove a file, a link, or a folder with all that is in it."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def _temporaries(begin: Path) -> Iterator[tuple[Path, str]]:

@@ -64,6 +64,7 @@ def _run(
             options.verbose,
             seen_by,
             is_all_seen=options.with_modifiers,
+            has_own_process=bool(options.worker),
         )
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None

@@ -22,6 +22,7 @@ from .mesh_arrays import positions_of
 from .obj_layout import ObjLayout
 from .output_files import replacing
 from .quiet import captured
+from .trust.opened import with_all_paths
 from .write_obj import ObjPart, write_obj
 
 __all__ = ("check_exporter", "save_meshes")
@@ -69,12 +70,14 @@ def _save_blend(
 ) -> None:
     for sculpture in sculptures:
         extension.pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
-    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
+    with with_all_paths():
+        _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
 
 
 def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
     """Have an operator of Blender write a file."""
-    with captured(verbose), replacing(path) as temporary:
+    has_own_name = path.suffix.lower() == ".usdz"  # so that its layer has it, not that of our file
+    with captured(verbose), replacing(path, has_own_name) as temporary:
         try:
             writer(filepath=str(temporary.resolve()))
         except RuntimeError as error:

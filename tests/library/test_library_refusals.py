@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input of the installed command: one line, exit code 2, and nothing is written."""
 
+import os
 import signal
 import subprocess
+import sys
 import time
 
 import meshio
@@ -10,6 +12,7 @@ import numpy as np
 import pytest
 from command import COMMAND, QUICK, refused
 
+from cubic_craft.command_line.output_file import replacing
 from scripts.benchmark.shapes import blob
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -149,3 +152,33 @@ def test_a_run_that_is_stopped_leaves_nothing(number, code, tmp_path):
     said = process.communicate(timeout=60)[1]
     assert process.returncode == code and "Traceback" not in said
     assert [path.name for path in tmp_path.iterdir()] == ["large.ply"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such files")
+def test_no_pipe_is_waited_for_and_no_device_is_read_to_its_end(tmp_path):
+    os.mkfifo(tmp_path / "pipe.obj")
+    (tmp_path / "zero.ply").symlink_to("/dev/zero")
+    for name in ("pipe.obj", "zero.ply"):
+        line = refused(name, "a.obj", folder=tmp_path)
+        assert f"{name}: is a device or a pipe" in line
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it needs rights for links")
+def test_nothing_is_written_through_a_link(tmp_path):
+    secret = tmp_path / "secret.txt"
+    secret.write_text("secret")
+    path = tmp_path / "a.obj"
+    (tmp_path / f".a.cubic_craft-{os.getpid()}.obj").symlink_to(secret)
+    path.symlink_to(secret)
+    with replacing(path) as temporary:
+        temporary.write_text("new")
+    assert (path.read_text(), path.is_symlink(), secret.read_text()) == ("new", False, "secret")
+
+
+def test_entities_that_grow_in_a_vtu_are_refused(tmp_path):
+    entities = '<!ENTITY a0 "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa">'
+    for number in range(1, 9):
+        entities += f'<!ENTITY a{number} "{f"&a{number - 1};" * 10}">'
+    text = f"<!DOCTYPE x [{entities}]><VTKFile>&a8;</VTKFile>"
+    (tmp_path / "grows.vtu").write_text(text)
+    assert "grows.vtu" in refused("grows.vtu", "a.obj", folder=tmp_path)

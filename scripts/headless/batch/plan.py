@@ -46,6 +46,8 @@ class Job(NamedTuple):
     """the report of the run that has made them"""
     arguments: tuple[str, ...]
     """of the process that does it"""
+    folder: Path | None
+    """that the file must lie in, links followed, if it was found in one"""
 
 
 def plan(options: Namespace, sources: list[Source]) -> list[Job]:
@@ -120,4 +122,4 @@ def _job(options: Namespace, source: Source) -> Job:
     if options.bake:
         outputs = [folder / f"{source.name}{options.bake}"]
         arguments.append(f"--bake={outputs[0]}")
-    return Job(source.path, source.label, tuple(outputs), record, tuple(arguments))
+    return Job(source.path, source.label, tuple(outputs), record, tuple(arguments), source.folder)

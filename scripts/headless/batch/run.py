@@ -14,12 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..one_line import one_line
 from ..output_files import check_writable, write_json
 from ..progress import ProgressBar
+from ..trust.links import refuse_links
 from .engine import results_of, workers_for
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
-from .table import one_line, summary, table
+from .table import summary, table
 from .task import DONE, FAILED, KEPT, Batch
 
 __all__ = ("SOME_FAILED", "run_batch")
@@ -122,8 +124,10 @@ def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:
+    folders = {path.parent for job in jobs for path in (*job.outputs, job.record)}
+    refuse_links("--output-folder", output_folder, folders)
     try:
-        for folder in {path.parent for job in jobs for path in (*job.outputs, job.record)}:
+        for folder in folders:
             folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         reason = error.strerror or error

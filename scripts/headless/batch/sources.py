@@ -23,6 +23,8 @@ class Source(NamedTuple):
     """of its results, in the output folder: without suffix, with / between folders"""
     label: str
     """what it is called in what is printed"""
+    folder: Path | None
+    """that was given, and that no link in it may lead out of; None for a file given by its name"""
 
 
 def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) -> list[Source]:
@@ -35,7 +37,7 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
     InputError
         A folder cannot be read, or holds nothing that can.
     """
-    places: dict[Path, PurePath] = {}  # in the folder that was given
+    places: dict[Path, tuple[PurePath, Path | None]] = {}  # in the folder that was given, and that
     for given in inputs:
         paths, folder = [given], given.parent
         if given.is_dir():
@@ -49,7 +51,8 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
         for path in paths:
             # As it can be given to another process; links stay what they are called.
             absolute = Path(os.path.abspath(path))  # noqa: PTH100  # Path.absolute() keeps ".."
-            places.setdefault(absolute, path.relative_to(folder))
+            home = given.resolve() if given.is_dir() else None
+            places.setdefault(absolute, (path.relative_to(folder), home))
     return _named(places)
 
 
@@ -68,13 +71,13 @@ def _refuse(error: OSError) -> None:
     raise InputError(message) from error
 
 
-def _named(places: dict[Path, PurePath]) -> list[Source]:
+def _named(places: dict[Path, tuple[PurePath, Path | None]]) -> list[Source]:
     """Give those that share a name their suffix, then the folder, until none do.
 
     A name depends on nothing but the file and those it is mistaken for, so that it is the same
     when a batch is started again.
     """
-    sources = {path: _names(path, place) for path, place in places.items()}
+    sources = {path: _names(path, *place) for path, place in places.items()}
     while True:
         count = Counter(_folded(names[0].name) for names in sources.values())
         clashes = [path for path, names in sources.items() if count[_folded(names[0].name)] > 1]
@@ -84,7 +87,7 @@ def _named(places: dict[Path, PurePath]) -> list[Source]:
             del sources[path][0]
 
 
-def _names(path: Path, place: PurePath) -> list[Source]:
+def _names(path: Path, place: PurePath, home: Path | None) -> list[Source]:
     """Return a file with its names, each with more of what tells it from others."""
     short, label = place.with_suffix("").as_posix(), place.as_posix()
     long = f"{short}_{path.suffix[1:]}"
@@ -92,7 +95,7 @@ def _names(path: Path, place: PurePath) -> list[Source]:
     digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
     names = {short: label, long: label}
     names |= dict.fromkeys((f"{folder}/{long}", f"{folder}/{long}_{digest}"), f"{folder}/{label}")
-    return [Source(path, name, label) for name, label in names.items()]
+    return [Source(path, name, label, home) for name, label in names.items()]
 
 
 def _folded(name: str) -> str:

@@ -5,10 +5,11 @@ import unicodedata
 from collections.abc import Iterator
 from typing import Any
 
+from ..one_line import one_line
 from .plan import Job
 from .task import FAILED, KEPT
 
-__all__ = ("one_line", "summary", "table")
+__all__ = ("summary", "table")
 
 HEAD = ("file", "cubeness", "vertices", "iterations", "energy", "converged", "seconds", "output")
 LEFT_ALIGNED = (0, 5, 7)
@@ -38,11 +39,6 @@ def summary(about: dict[str, Any]) -> str:
         for run in _runs(about["report"]["objects"])
     )
     return f"{runs}, {about['seconds']:.1f} s"
-
-
-def one_line(text: str) -> str:
-    """Return a text, such as a file's name, as it can be printed in one line."""
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 def _rows(label: str, about: dict[str, Any]) -> Iterator[tuple[str, ...]]:

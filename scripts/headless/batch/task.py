@@ -19,8 +19,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..errors import InputError
 from ..output_files import remove_left_behind
 from ..threads import thread_variables
+from ..trust.places import is_inside, refuse_special
 from .plan import Job
 
 __all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "end_processes", "key_of")
@@ -64,6 +66,9 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         and if it was begun ``words``, what its process wrote to standard error.
     """
     try:
+        refuse_special(job.path)
+        if job.folder is not None and not is_inside(job.path, job.folder):
+            raise InputError("is a link that leads out of the folder; give what it leads to")
         key = key_of(job.path, batch.decides)
         report, made_by = _report(job, key)
         # One of this batch is of a worker that was lost just before it could tell.
@@ -74,6 +79,8 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if report and not code:
             return _success(DONE, report) | {"words": words}
         return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
+    except InputError as error:
+        return {"status": FAILED, "error": str(error).removeprefix(f"{job.path}: ")}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
@@ -95,6 +102,8 @@ def _success(status: str, report: dict[str, Any]) -> dict[str, Any]:
 def _report(job: Job, key: str) -> tuple[dict[str, Any], str]:
     """Return the report of a run with this key, and its batch; nothing if outputs have changed."""
     try:
+        if job.record.is_symlink() or not job.record.is_file():
+            return {}, ""
         report = json.loads(job.record.read_text(encoding="utf-8"))
         made = report.pop("made")
         of, _, by = made["for"].partition(":")
