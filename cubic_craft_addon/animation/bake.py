@@ -10,7 +10,6 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import bpy
 
@@ -27,13 +26,13 @@ from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES, check_format
 from .options import BakeOptions, BakeResult
 from .parts import lead_in
+from .places import Places
 from .playback import play, shown
 from .point_cache import new_point_cache
 from .recording import Recording
 
 _SAVED_EVERY = 10.0  # seconds
 _MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
-_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
 
 
 @dataclass
@@ -85,7 +84,7 @@ class Bake:
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
         check_format(SUFFIXES.get(options.file_format, ""))
-        _make_folder(options.folder)
+        self._places = Places(options)
         self._overrides, self._sources, self._options = overrides, sources, options
         self._problems: list[str] = []
         self._made: list[Animated] = []
@@ -206,8 +205,8 @@ class Bake:
         is_process = self._options.is_process
         start = self._options.process_from
         group = AnimatedGroup(objects, self._overrides, start, is_process=is_process)
-        path = self._path(objects[0], _UNFINISHED)
         options = self._options
+        path = self._places.recording_of(objects[0].source)
         about = {**group.about, "start": options.start}
         if options.is_process:
             about["process"] = len(options.frames)
@@ -285,16 +284,17 @@ class Bake:
                 largest_steps(piece.results(width) for _, piece in everything), frames
             )
         for one, vertices in work.group.parts():
-            path = self._path(one, ".pc2")
-            with new_point_cache(path, frames, one.vertices) as positions:
+            cache, path = self._places.files_of(one.source)
+            with new_point_cache(cache, frames, one.vertices) as positions:
                 for columns, piece in recording.pieces(vertices):
                     results = piece.results(width)
                     if places is not None:
                         results = resampled(results, places)
                     positions[:, columns] = results
             self._made.remove(one)
-            with shown(one.source, one.new, path) as baked:
-                names.append(play(baked, path, self._options.file_format, self._options.start))
+            with shown(one.source, one.new, cache) as baked:
+                options = self._options
+                names.append(play(baked, cache, path, options.file_format, options.start))
             self.baked.append(baked)
             self.results.append(
                 BakeResult(one.source.name, frames, width, *(round(x, 4) for x in ratios))
@@ -328,11 +328,6 @@ class Bake:
             return f"Cubified {count} frames to {what} in {_duration(seconds)}"
         last = frames[count - 1]
         return f"Frames {frames[0]} to {last} of {frames[-1]} are in {what}; bake again to continue"
-
-    def _path(self, one, suffix):
-        name = bpy.path.clean_name(one.source.name)
-        what = "_process" if self._options.is_process else ""
-        return self._options.folder / f"{name}{what}{suffix}"
 
     def _save(self):
         self._next_save = time.perf_counter() + _SAVED_EVERY
@@ -375,13 +370,6 @@ class Bake:
         except ReferenceError:
             pass
         self._frame = None
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CubicCraftError(f'the folder "{folder}" cannot be made: {error.strerror}') from error
 
 
 def _duration(seconds: float) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.new_file import replacing
-from .exchange import SUFFIXES, export_frames
+from .exchange import export_frames
 from .point_cache import read_point_cache
 from .properties import SOURCE
 
@@ -83,10 +83,24 @@ def _mesh_exchanged(baked, mesh):
         bpy.data.meshes.remove(before)
 
 
-def play(baked: bpy.types.Object, cache: Path, file_format: str, start: int) -> str:
+def play(baked: bpy.types.Object, cache: Path, path: Path, file_format: str, start: int) -> str:
     """Make a baked object play back the frames of a point cache from a frame on.
 
-    Returns the name of the file, or of the shape keys.
+    Parameters
+    ----------
+    baked : bpy.types.Object
+    cache : Path
+        The point cache, which is removed where another format plays.
+    path : Path
+        The file to play back, which is the cache itself in the format CACHE.
+    file_format : str
+    start : int
+        The first frame.
+
+    Returns
+    -------
+    str
+        The name of the file, or of the shape keys.
 
     Raises
     ------
@@ -99,9 +113,8 @@ def play(baked: bpy.types.Object, cache: Path, file_format: str, start: int) -> 
         return f"shape keys of {baked.name}"
     modifier = _play_cache(baked, cache, start)
     if file_format == "CACHE":
-        return cache.name
+        return path.name
     frames = len(read_point_cache(cache))
-    path = cache.with_suffix(SUFFIXES[file_format])
     with replacing(path) as partial:
         export_frames([baked], partial, start, start + frames - 1)
     baked.modifiers.remove(modifier)

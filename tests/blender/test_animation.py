@@ -147,6 +147,64 @@ def test_objects_that_are_kept_together(extension, bending, tmp_path):
         np.testing.assert_allclose(played, read_pc2(tmp_path / f"{name}.pc2")[3], atol=1e-6)
 
 
+def flat_faces(name, size):
+    """Add a plane of one face, which takes no time."""
+    bpy.ops.mesh.primitive_plane_add(size=size)
+    bpy.context.object.name = name
+    return bpy.context.object
+
+
+@pytest.mark.parametrize("names", [("Eye.L", "Eye_L"), ("Bär", "Bör"), ("arm", "Arm")])
+@pytest.mark.parametrize("is_one_click", [True, False])
+def test_objects_whose_names_give_one_file_have_their_own(
+    extension, empty_file, tmp_path, names, is_one_click
+):
+    objects = [flat_faces(name, size) for size, name in enumerate(names, 1)]
+    bpy.context.scene.frame_end = 2
+    for chosen in [objects] if is_one_click else [[obj] for obj in objects]:
+        select(*chosen)
+        assert bake(tmp_path) == {"FINISHED"}
+    files = sorted(path.name for path in tmp_path.iterdir())
+    assert len(files) == len({name.casefold() for name in files}) == 2
+    for size, obj in enumerate(objects, 1):
+        played = shown(bpy.data.objects[f"{obj.name} Cubic"], 1)
+        np.testing.assert_allclose(np.ptp(played, axis=0)[:2], size, atol=1e-4)
+    select(*(bpy.data.objects[f"{obj.name} Cubic"] for obj in objects))
+    assert bake(tmp_path) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.iterdir()) == files, "names have changed"
+
+
+@pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "SHAPE_KEYS"])
+def test_a_file_that_another_object_plays_is_not_replaced(
+    extension, empty_file, tmp_path, file_format
+):
+    old = flat_faces("Ball", 1.0)
+    bpy.context.scene.frame_end = 2
+    bake(tmp_path)
+    cubic, written = bpy.context.object, (tmp_path / "Ball.pc2").read_bytes()
+    old.name = "Leg"
+    flat_faces("Ball", 2.0)
+    for _ in range(2):  # and it replaces its own
+        assert bake(tmp_path, format=file_format) == {"FINISHED"}
+    assert (tmp_path / "Ball.pc2").read_bytes() == written
+    np.testing.assert_allclose(np.ptp(shown(cubic, 1), axis=0)[:2], 1.0, atol=1e-4)
+    more = {"CACHE": ["Ball.2.pc2"], "ALEMBIC": ["Ball.abc"], "SHAPE_KEYS": []}[file_format]
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*more, "Ball.pc2"])
+
+
+def test_names_of_files(extension, empty_file, part):
+    names = part("environment.file_names")
+    long = "身体" * 10
+    items = [bpy.data.objects.new(name, None) for name in ("a.b", "a_b", "A_B", "c", long * 3)]
+    stems = list(names.file_stems(items).values())
+    assert stems[3] == "c"
+    assert len({stem.casefold() for stem in stems}) == len(stems)
+    assert all(stem.casefold().startswith("a_b.") for stem in stems[:3])
+    assert names.file_stem(long) == long
+    assert names.file_stem(long * 9) != names.file_stem(long * 8)
+    assert len(names.file_stem(long * 9).encode()) < 120
+
+
 def test_a_text_that_grows_is_baked(extension, empty_file, tmp_path):
     bpy.ops.object.text_add()
     text = bpy.context.object
