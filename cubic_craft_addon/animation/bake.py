@@ -16,6 +16,7 @@ import bpy
 from ... import solver
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.lock import BusyError
 from ..job.job import Step
 from ..run.assembly import assemblies
 from ..run.object_frame import Placement, placements
@@ -32,6 +33,7 @@ from .point_cache import new_point_cache
 from .recording import Recording
 
 _SAVED_EVERY = 10.0  # seconds
+_ASKED_EVERY = 0.5  # seconds, while another bake has the files
 _MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
 
 
@@ -105,7 +107,7 @@ class Bake:
     def steps(self) -> Generator[Step]:
         """Solve all frames; each turn does a phase of the solver."""
         yield Step(("Preparing",), 0.0, is_long=True)
-        self._prepare()
+        yield from self._prepare()
         if self._options.is_process:
             yield from self._process_steps()
             return
@@ -197,7 +199,7 @@ class Bake:
             items.append(_Item(one, settings, placements(one.source, settings)[1]))
         for group in assemblies(items):
             try:
-                self._works.append(self._work([item.one for item in group]))
+                self._works.append((yield from self._work([item.one for item in group])))
             except CubicCraftError as error:
                 self._problems.append(str(error))
 
@@ -210,10 +212,20 @@ class Bake:
         about = {**group.about, "start": options.start}
         if options.is_process:
             about["process"] = len(options.frames)
-        recording = Recording(path, about, group.vertices, options.part)
+        recording = yield from self._recording(path, about, group.vertices)
         if recording.state is not None:
             group.continue_from(recording.state, recording.moment, recording.last())
         return _Work(group, recording)
+
+    def _recording(self, folder, about, vertices):
+        while True:
+            try:
+                return Recording(folder, about, vertices, self._options.part)
+            except BusyError:
+                if not self._options.is_patient:
+                    raise
+            yield Step((f'Waiting for another bake to "{folder.name}"',), 0.0)
+            time.sleep(_ASKED_EVERY)
 
     def _solve(self, work, solving, texts, *, is_kept=True):
         frame = yield from self._solved(solving, texts)
@@ -349,8 +361,13 @@ class Bake:
         return ""
 
     def discard(self) -> None:
-        """Keep what is needed to continue, and remove all else."""
-        self._save()
+        """Keep what is needed to continue, remove all else, and let other bakes have the files."""
+        try:
+            self._save()
+        finally:
+            for work in self._works:
+                work.recording.release()
+            self._works.clear()
         for one in self._made:
             try:
                 mesh_bridge.remove_seen(one.new)

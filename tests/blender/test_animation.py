@@ -256,6 +256,75 @@ def test_after_other_settings_it_begins_anew(extension, bending, bakes, tmp_path
     other.discard()
 
 
+def test_what_another_bake_works_on_is_left_to_it(extension, bending, bakes, tmp_path):
+    bpy.context.scene.frame_end = FRAMES
+    work = bakes(tmp_path, bending)
+    advance(work, 3)
+    with pytest.raises(RuntimeError, match=r'"Ball\.unfinished" is being written by another'):
+        bake(tmp_path)
+    work.discard()
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.unfinished"]
+    assert bake(tmp_path) == {"FINISHED"}
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.pc2"]
+
+
+def test_one_process_writes_a_file(part, tmp_path):
+    new_file, lock = part("environment.new_file"), part("environment.lock")
+    path = tmp_path / "file"
+    with new_file.replacing(path) as partial:
+        partial.write_text("ours")
+        with pytest.raises(lock.BusyError, match='"file" is being written'):
+            lock.Lock(path)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    lock.Lock(path).release()
+    assert path.read_text() == "ours"
+
+
+@pytest.fixture
+def recorded(extension, part, tmp_path):
+    """Return a function that continues a recording of three vertices, whose frames are numbers."""
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+    turns = np.tile(np.eye(3), (3, 1, 1))
+    state = solver.SequenceState(*(np.zeros(3) for _ in solver.SequenceState._fields))
+
+    def make(frames, part_of=None):
+        recording = part("animation.recording").Recording(tmp_path / "R", {}, 3, part_of)
+        known = recording.count
+        for number in frames:
+            positions = np.full((3, 3), float(number))
+            recording.append(solver.frame_of(positions, turns, positions), state, "")
+        recording.save_state()
+        pieces = [piece.inputs[:, 0, 0] for _, piece in recording.pieces(slice(0, 3))]
+        recording.release()
+        return known, np.concatenate(pieces).tolist()
+
+    return make
+
+
+def test_frames_that_are_not_those_saved_are_solved_again(recorded, tmp_path):
+    assert recorded([0, 1, 2]) == (0, [0.0, 1.0, 2.0])
+    path = tmp_path / "R" / "frames.f32"
+    frames = path.read_bytes()
+    size = len(frames) // 3
+    path.write_bytes(frames + frames[:size])  # as when ended before the next save
+    assert recorded([3]) == (3, [0.0, 1.0, 2.0, 3.0])
+    path.write_bytes(frames[:size] + frames)  # another process has written, too
+    assert recorded([0]) == (0, [0.0])
+    path.write_bytes(b"")
+    assert recorded([0]) == (0, [0.0])
+    (tmp_path / "R" / "state.npz").write_bytes(b"PK half of it")
+    assert recorded([0]) == (0, [0.0])
+
+
+def test_parts_are_taken_over_where_they_follow_and_are_whole(recorded, tmp_path):
+    recorded([0, 1], range(0, 2))
+    recorded([2, 3], range(2, 4))
+    recorded([4, 5], range(4, 6))
+    path = tmp_path / "R.part_0000004_0000006" / "frames.f32"
+    path.write_bytes(path.read_bytes()[::-1])
+    assert recorded([9]) == (4, [0.0, 1.0, 2.0, 3.0, 9.0])
+
+
 def test_a_mesh_that_changes_its_vertices_is_baked_until_then(extension, bending, tmp_path):
     modifier = bending.modifiers.new("Mask", "MASK")
     modifier.vertex_group = "High"
