@@ -28,7 +28,7 @@ from .exchange import SUFFIXES, check_format
 from .options import BakeOptions, BakeResult
 from .parts import lead_in
 from .places import Places
-from .playback import play, shown
+from .playback import play, shown, stretch
 from .point_cache import new_point_cache
 from .recording import Recording
 
@@ -86,6 +86,7 @@ class Bake:
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
         check_format(SUFFIXES.get(options.file_format, ""))
+        self._stretch = stretch()
         self._places = Places(options)
         self._overrides, self._sources, self._options = overrides, sources, options
         self._problems: list[str] = []
@@ -209,7 +210,7 @@ class Bake:
         group = AnimatedGroup(objects, self._overrides, start, is_process=is_process)
         options = self._options
         path = self._places.recording_of(objects[0].source)
-        about = {**group.about, "start": options.start}
+        about = {**group.about, "start": options.start, "stretch": self._stretch}
         if options.is_process:
             about["process"] = len(options.frames)
         recording = yield from self._recording(path, about, group.vertices)

@@ -18,7 +18,26 @@ from .point_cache import read_point_cache
 from .properties import SOURCE
 
 MODIFIER = "Cubic Animation"
-_KEY_STEP = 10.0  # Blender's distance between absolute shape keys
+_MOST_STRETCH = 100  # of a Mesh Cache modifier
+
+
+def stretch() -> float:
+    """Return how many frames of the scene pass in a frame of its animation, by Time Stretching.
+
+    What is baked counts the former, all that plays is given the latter.
+
+    Raises
+    ------
+    CubicCraftError
+        They are more than Blender can play back.
+    """
+    render = bpy.context.scene.render
+    factor = render.frame_map_new / render.frame_map_old
+    if factor > _MOST_STRETCH:
+        raise CubicCraftError(
+            f"Time Stretching by more than {_MOST_STRETCH} times cannot be played back"
+        )
+    return factor
 
 
 @contextlib.contextmanager
@@ -138,6 +157,7 @@ def _play_cache(baked, cache, start):
     modifier.cache_format = "PC2"
     modifier.filepath = _relative(cache)
     modifier.frame_start = start
+    modifier.frame_scale = stretch()
     baked.modifiers.move(len(baked.modifiers) - 1, 0)
     return modifier
 
@@ -146,6 +166,9 @@ def _play_file(baked, path):
     known = set(bpy.data.cache_files)
     bpy.ops.cachefile.open(filepath=_relative(path))
     file = next(file for file in bpy.data.cache_files if file not in known)
+    if stretch() != 1.0:  # such a file has no factor of its own
+        file.override_frame = True
+        file.driver_add("frame").driver.expression = f"frame * {stretch()!r}"
     modifier = baked.modifiers.new(MODIFIER, "MESH_SEQUENCE_CACHE")
     modifier.cache_file = file
     modifier.read_data = {"VERT"}
@@ -169,7 +192,7 @@ def _play_keys(baked, frames, start):
     blocks = keys.key_blocks
     for frame, key in ((start, blocks[0]), (start + len(frames) - 1, blocks[-1])):
         keys.eval_time = key.frame
-        keys.keyframe_insert("eval_time", frame=frame)
+        keys.keyframe_insert("eval_time", frame=frame / stretch())
     _make_linear(keys.animation_data.action)
 
 

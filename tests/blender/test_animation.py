@@ -83,6 +83,40 @@ def test_every_frame_is_cubic_and_played_back(extension, bending, tmp_path, file
     assert not [path for path in tmp_path.iterdir() if path.suffix not in SUFFIXES]
 
 
+@pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "USD", "SHAPE_KEYS"])
+@pytest.mark.parametrize("stretching", [(200, 100), (30, 70)])
+def test_what_is_stretched_in_time_plays_as_its_source(
+    extension, empty_file, tmp_path, file_format, stretching
+):
+    scene, plane = bpy.context.scene, flat_faces("Ball", 2.0)
+    scene.frame_start, scene.frame_end = 3, 3 + FRAMES
+    scene.render.frame_map_old, scene.render.frame_map_new = stretching
+    modifier = plane.modifiers.new("Wide", "SIMPLE_DEFORM")
+    modifier.deform_method = "STRETCH"
+    for frame, modifier.factor in ((1, 1.0), (2 * FRAMES, 5.0)):
+        modifier.keyframe_insert("factor", frame=frame)
+    frames = range(3, 4 + FRAMES)
+    before = np.array([shown(plane, frame) for frame in frames])
+    assert bake(tmp_path, format=file_format) == {"FINISHED"}
+    after = np.array([shown(bpy.context.object, frame) for frame in frames])
+    np.testing.assert_allclose(after, before, atol=1e-4)
+    assert np.ptp(after, axis=0).max() > 0.5, "it does not move"
+
+
+def test_other_stretching_begins_anew_and_too_much_is_refused(extension, bending, bakes, tmp_path):
+    work = bakes(tmp_path, bending)
+    advance(work, 4)
+    work.discard()
+    render = bpy.context.scene.render
+    render.frame_map_new = 200
+    other = bakes(tmp_path, bending)
+    advance(other, 1)
+    other.discard()
+    render.frame_map_old, render.frame_map_new = 1, 101
+    with pytest.raises(RuntimeError, match="Time Stretching by more than 100 times"):
+        bake(tmp_path)
+
+
 def test_the_baked_object_keeps_uvs_materials_and_groups(extension, bending, tmp_path):
     bending.data.materials.append(bpy.data.materials.new("Clay"))
     bake(tmp_path)
