@@ -100,7 +100,7 @@ def test_what_is_stretched_in_time_plays_as_its_source(
     assert bake(tmp_path, format=file_format) == {"FINISHED"}
     after = np.array([shown(bpy.context.object, frame) for frame in frames])
     np.testing.assert_allclose(after, before, atol=1e-4)
-    assert np.ptp(after, axis=0).max() > 0.5, "it does not move"
+    assert np.ptp(after, axis=0).max() > 0.2, "it does not move"
 
 
 def test_other_stretching_begins_anew_and_too_much_is_refused(extension, bending, bakes, tmp_path):
