@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -168,7 +169,8 @@ def _play_file(baked, path):
     file = next(file for file in bpy.data.cache_files if file not in known)
     if stretch() != 1.0:  # such a file has no factor of its own
         file.override_frame = True
-        file.driver_add("frame").driver.expression = f"frame * {stretch()!r}"
+        curve: Any = file.driver_add("frame")
+        curve.driver.expression = f"frame * {stretch()!r}"
     modifier = baked.modifiers.new(MODIFIER, "MESH_SEQUENCE_CACHE")
     modifier.cache_file = file
     modifier.read_data = {"VERT"}
