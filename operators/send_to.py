@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
+from ..cubic_craft_addon.environment.file_names import file_stems
 from ..cubic_craft_addon.send.file import extent, send
 from ..cubic_craft_addon.send.targets import ITEMS, SUFFIXES, Options, exporter
 from ..solver import CubicCraftError
@@ -81,7 +82,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         except CubicCraftError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        name = bpy.path.clean_name(selected_meshes(context)[0].name)
+        name = file_stems(bpy.data.objects)[selected_meshes(context)[0]]
         before = Path(self.filepath or bpy.data.filepath)
         folder = before.parent if before.is_absolute() else Path.home()
         self.filepath = str(folder / f"{name}{SUFFIXES[self.target]}")

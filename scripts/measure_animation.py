@@ -29,7 +29,7 @@ from solver import (
     run,
 )
 from solver.rest_measures import areas_and_normals
-from solver.steadiness import Jumps
+from solver.steadiness import Jumps, Motion
 
 CUBENESS = 0.4
 COUNT = 60
@@ -54,7 +54,8 @@ def main():
     for name, frames in movements(V).items():
         found = recorded(frames, F)
         width, ratios = least_width(lambda found=found: [found])
-        inputs = jumps_of(frames)
+        inputs = Motion()
+        inputs.add(frames)
         curves[name] = {
             "each frame alone": alone(frames, F),
             "from the frame before": found.results(0.0),

@@ -3,9 +3,10 @@
 
 A vertex jumps in frame f by the size of its second difference in time, |x_f+1 - 2 x_f + x_f-1|. A
 stylized surface may jump where the input moves smoothly, when a minimum of the energy vanishes. So
-it is smoothed over time: not the positions, which would blunt the motion, but the offset of each
-vertex from its place in the input, as seen by the surface around it. The motion of the input is
-kept as it is, and so is a limb that turns fast with its offsets.
+where it jumps farther than the input does, and than is small beside its speed and its size, it is
+smoothed over time: not the positions, which would blunt the motion, but the offset of each vertex
+from its place in the input, as seen by the surface around it. The motion of the input is kept as it
+is, and so is a limb that turns fast with its offsets.
 
 Arrays are indexed by frame and vertex, (f,k,...). An animation is passed in pieces of all its
 frames and some of its vertices, so that it need not fit into the memory.
@@ -21,6 +22,8 @@ MOST_JUMPS = 3.0
 """Jumps of the result over those of the input, in the largest and in the 99th percentile"""
 WIDTHS = (0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
 """standard deviations of the Gaussian in frames; the first that keeps `MOST_JUMPS` is used"""
+_STEADY = 0.05  # of the speed: the jumps of what takes 20 frames to reach it
+_UNSEEN = 1e-5  # of the size: less than a pixel in any picture
 _BINS = np.geomspace(1e-12, 1e6, 4001)  # a relative 1 %
 
 
@@ -89,8 +92,8 @@ def frame_of(inputs, turns, positions):
     return Frames(inputs[None], rotations.as_quat()[None], offsets[None])
 
 
-class Jumps:
-    """The sizes of all jumps, collected piece by piece.
+class _Lengths:
+    """The lengths of vectors, collected piece by piece.
 
     Attributes
     ----------
@@ -101,27 +104,74 @@ class Jumps:
         self.largest = 0.0
         self._counts = np.zeros(len(_BINS) + 1, dtype=np.int64)
 
-    def add(self, positions):
-        """Add vertices (f,k,3) in all frames."""
-        second = np.asarray(positions[2:], dtype=np.float64) - positions[1:-1]
-        second += np.asarray(positions[:-2], dtype=np.float64) - positions[1:-1]
-        sizes = np.sqrt((second * second).sum(axis=2)).ravel()
+    def add_vectors(self, vectors):
+        """Add the lengths of vectors (f,k,3)."""
+        sizes = np.sqrt((vectors * vectors).sum(axis=2)).ravel()
         if len(sizes):
             self.largest = max(self.largest, float(sizes.max()))
             self._counts += np.bincount(np.searchsorted(_BINS, sizes), minlength=len(_BINS) + 1)
 
     def percentile(self, q):
-        """Return what q % of the jumps do not exceed, within 1 %."""
+        """Return what q % of the lengths do not exceed, within 1 %."""
         total = self._counts.sum()
         if not total:
             return 0.0
         at = np.searchsorted(np.cumsum(self._counts), q / 100.0 * total)
         return min(float(_BINS[min(at, len(_BINS) - 1)]), self.largest)
 
-    def over(self, others):
-        """Return the ratios to others: of the largest, and of the 99th percentile."""
-        pairs = (self.largest, others.largest), (self.percentile(99), others.percentile(99))
+    @property
+    def measures(self):
+        """The largest, and the 99th percentile."""
+        return self.largest, self.percentile(99)
+
+
+class Jumps(_Lengths):
+    """The sizes of all jumps, collected piece by piece.
+
+    Attributes
+    ----------
+    largest : float
+    """
+
+    def add(self, positions):
+        """Add vertices (f,k,3) in all frames."""
+        second = np.asarray(positions[2:], dtype=np.float64) - positions[1:-1]
+        second += np.asarray(positions[:-2], dtype=np.float64) - positions[1:-1]
+        self.add_vectors(second)
+
+    def over(self, motion):
+        """Return the ratios to those of a `Motion`: of the largest, and of the 99th percentile."""
+        pairs = zip(self.measures, motion.measures, strict=True)
         return tuple(mine / theirs if theirs > 0.0 else 0.0 for mine, theirs in pairs)
+
+
+class Motion(Jumps):
+    """The jumps of an input, where they are more than what nobody sees.
+
+    What moves along straight lines at an even speed has none, and what hardly moves has hardly any.
+    Beside its speed and its size, those of the result may still be small.
+    """
+
+    def __init__(self):
+        super().__init__()
+        self._steps = _Lengths()
+        self._low, self._high = np.inf, -np.inf
+
+    def add(self, positions):
+        """Add vertices (f,k,3) in all frames."""
+        super().add(positions)
+        self._steps.add_vectors(np.diff(np.asarray(positions, dtype=np.float64), axis=0))
+        self._low = np.minimum(self._low, positions.min(axis=1))
+        self._high = np.maximum(self._high, positions.max(axis=1))
+
+    @property
+    def measures(self):
+        """The largest, and the 99th percentile; 0 where nothing moves."""
+        if not self._steps.largest > 0.0:
+            return 0.0, 0.0
+        unseen = _UNSEEN * float(np.max(self._high - self._low))
+        pairs = zip(super().measures, self._steps.measures, strict=True)
+        return tuple(max(jump, _STEADY * step, unseen) for jump, step in pairs)
 
 
 def least_width(pieces, limit=MOST_JUMPS):
@@ -138,7 +188,8 @@ def least_width(pieces, limit=MOST_JUMPS):
     width : float
         In frames.
     ratios : (float, float)
-        See `Jumps.over`.
+        Of the largest jumps and of the 99th percentile to those of the input, which count as at
+        least a small share of its speed and size; 0 where the input lies still.
 
     See Also
     --------
@@ -153,7 +204,7 @@ def least_width(pieces, limit=MOST_JUMPS):
     >>> least_width(lambda: [frames])
     (0.0, (1.0, 1.0))
     """
-    inputs = Jumps()
+    inputs = Motion()
     for piece in pieces():
         inputs.add(piece.inputs)
     ratios = 0.0, 0.0

@@ -10,13 +10,13 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import bpy
 
 from ... import solver
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.lock import BusyError
 from ..job.job import Step
 from ..run.assembly import assemblies
 from ..run.object_frame import Placement, placements
@@ -27,13 +27,14 @@ from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES, check_format
 from .options import BakeOptions, BakeResult
 from .parts import lead_in
-from .playback import play, shown
+from .places import Places
+from .playback import play, shown, stretch
 from .point_cache import new_point_cache
 from .recording import Recording
 
 _SAVED_EVERY = 10.0  # seconds
+_ASKED_EVERY = 0.5  # seconds, while another bake has the files
 _MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
-_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
 
 
 @dataclass
@@ -85,7 +86,8 @@ class Bake:
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
         check_format(SUFFIXES.get(options.file_format, ""))
-        _make_folder(options.folder)
+        self._stretch = stretch()
+        self._places = Places(options)
         self._overrides, self._sources, self._options = overrides, sources, options
         self._problems: list[str] = []
         self._made: list[Animated] = []
@@ -106,7 +108,7 @@ class Bake:
     def steps(self) -> Generator[Step]:
         """Solve all frames; each turn does a phase of the solver."""
         yield Step(("Preparing",), 0.0, is_long=True)
-        self._prepare()
+        yield from self._prepare()
         if self._options.is_process:
             yield from self._process_steps()
             return
@@ -198,7 +200,7 @@ class Bake:
             items.append(_Item(one, settings, placements(one.source, settings, is_posed=True)[1]))
         for group in assemblies(items):
             try:
-                self._works.append(self._work([item.one for item in group]))
+                self._works.append((yield from self._work([item.one for item in group])))
             except CubicCraftError as error:
                 self._problems.append(str(error))
 
@@ -206,15 +208,25 @@ class Bake:
         is_process = self._options.is_process
         start = self._options.process_from
         group = AnimatedGroup(objects, self._overrides, start, is_process=is_process)
-        path = self._path(objects[0], _UNFINISHED)
         options = self._options
-        about = {**group.about, "start": options.start}
+        path = self._places.recording_of(objects[0].source)
+        about = {**group.about, "start": options.start, "stretch": self._stretch}
         if options.is_process:
             about["process"] = len(options.frames)
-        recording = Recording(path, about, group.vertices, options.part)
+        recording = yield from self._recording(path, about, group.vertices)
         if recording.state is not None:
             group.continue_from(recording.state, recording.moment, recording.last())
         return _Work(group, recording)
+
+    def _recording(self, folder, about, vertices):
+        while True:
+            try:
+                return Recording(folder, about, vertices, self._options.part)
+            except BusyError:
+                if not self._options.is_patient:
+                    raise
+            yield Step((f'Waiting for another bake to "{folder.name}"',), 0.0)
+            time.sleep(_ASKED_EVERY)
 
     def _solve(self, work, solving, texts, *, is_kept=True):
         frame = yield from self._solved(solving, texts)
@@ -285,16 +297,17 @@ class Bake:
                 largest_steps(piece.results(width) for _, piece in everything), frames
             )
         for one, vertices in work.group.parts():
-            path = self._path(one, ".pc2")
-            with new_point_cache(path, frames, one.vertices) as positions:
+            cache, path = self._places.files_of(one.source)
+            with new_point_cache(cache, frames, one.vertices) as positions:
                 for columns, piece in recording.pieces(vertices):
                     results = piece.results(width)
                     if places is not None:
                         results = resampled(results, places)
                     positions[:, columns] = results
             self._made.remove(one)
-            with shown(one.source, one.new, path) as baked:
-                names.append(play(baked, path, self._options.file_format, self._options.start))
+            with shown(one.source, one.new, cache) as baked:
+                options = self._options
+                names.append(play(baked, cache, path, options.file_format, options.start))
             self.baked.append(baked)
             self.results.append(
                 BakeResult(one.source.name, frames, width, *(round(x, 4) for x in ratios))
@@ -329,11 +342,6 @@ class Bake:
         last = frames[count - 1]
         return f"Frames {frames[0]} to {last} of {frames[-1]} are in {what}; bake again to continue"
 
-    def _path(self, one, suffix):
-        name = bpy.path.clean_name(one.source.name)
-        what = "_process" if self._options.is_process else ""
-        return self._options.folder / f"{name}{what}{suffix}"
-
     def _save(self):
         self._next_save = time.perf_counter() + _SAVED_EVERY
         for work in self._works:
@@ -354,8 +362,13 @@ class Bake:
         return ""
 
     def discard(self) -> None:
-        """Keep what is needed to continue, and remove all else."""
-        self._save()
+        """Keep what is needed to continue, remove all else, and let other bakes have the files."""
+        try:
+            self._save()
+        finally:
+            for work in self._works:
+                work.recording.release()
+            self._works.clear()
         for one in self._made:
             try:
                 mesh_bridge.remove_seen(one.new)
@@ -375,13 +388,6 @@ class Bake:
         except ReferenceError:
             pass
         self._frame = None
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CubicCraftError(f'the folder "{folder}" cannot be made: {error.strerror}') from error
 
 
 def _duration(seconds: float) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -13,12 +14,31 @@ import numpy as np
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.new_file import replacing
-from .exchange import SUFFIXES, export_frames
+from .exchange import export_frames
 from .point_cache import read_point_cache
 from .properties import SOURCE
 
 MODIFIER = "Cubic Animation"
-_KEY_STEP = 10.0  # Blender's distance between absolute shape keys
+_MOST_STRETCH = 100  # of a Mesh Cache modifier
+
+
+def stretch() -> float:
+    """Return how many frames of the scene pass in a frame of its animation, by Time Stretching.
+
+    What is baked counts the former, all that plays is given the latter.
+
+    Raises
+    ------
+    CubicCraftError
+        They are more than Blender can play back.
+    """
+    render = bpy.context.scene.render
+    factor = render.frame_map_new / render.frame_map_old
+    if factor > _MOST_STRETCH:
+        raise CubicCraftError(
+            f"Time Stretching by more than {_MOST_STRETCH} times cannot be played back"
+        )
+    return factor
 
 
 @contextlib.contextmanager
@@ -83,10 +103,24 @@ def _mesh_exchanged(baked, mesh):
         bpy.data.meshes.remove(before)
 
 
-def play(baked: bpy.types.Object, cache: Path, file_format: str, start: int) -> str:
+def play(baked: bpy.types.Object, cache: Path, path: Path, file_format: str, start: int) -> str:
     """Make a baked object play back the frames of a point cache from a frame on.
 
-    Returns the name of the file, or of the shape keys.
+    Parameters
+    ----------
+    baked : bpy.types.Object
+    cache : Path
+        The point cache, which is removed where another format plays.
+    path : Path
+        The file to play back, which is the cache itself in the format CACHE.
+    file_format : str
+    start : int
+        The first frame.
+
+    Returns
+    -------
+    str
+        The name of the file, or of the shape keys.
 
     Raises
     ------
@@ -99,9 +133,8 @@ def play(baked: bpy.types.Object, cache: Path, file_format: str, start: int) -> 
         return f"shape keys of {baked.name}"
     modifier = _play_cache(baked, cache, start)
     if file_format == "CACHE":
-        return cache.name
+        return path.name
     frames = len(read_point_cache(cache))
-    path = cache.with_suffix(SUFFIXES[file_format])
     with replacing(path) as partial:
         export_frames([baked], partial, start, start + frames - 1)
     baked.modifiers.remove(modifier)
@@ -125,6 +158,7 @@ def _play_cache(baked, cache, start):
     modifier.cache_format = "PC2"
     modifier.filepath = _relative(cache)
     modifier.frame_start = start
+    modifier.frame_scale = stretch()
     baked.modifiers.move(len(baked.modifiers) - 1, 0)
     return modifier
 
@@ -133,6 +167,10 @@ def _play_file(baked, path):
     known = set(bpy.data.cache_files)
     bpy.ops.cachefile.open(filepath=_relative(path))
     file = next(file for file in bpy.data.cache_files if file not in known)
+    if stretch() != 1.0:  # such a file has no factor of its own
+        file.override_frame = True
+        curve: Any = file.driver_add("frame")
+        curve.driver.expression = f"frame * {stretch()!r}"
     modifier = baked.modifiers.new(MODIFIER, "MESH_SEQUENCE_CACHE")
     modifier.cache_file = file
     modifier.read_data = {"VERT"}
@@ -156,7 +194,7 @@ def _play_keys(baked, frames, start):
     blocks = keys.key_blocks
     for frame, key in ((start, blocks[0]), (start + len(frames) - 1, blocks[-1])):
         keys.eval_time = key.frame
-        keys.keyframe_insert("eval_time", frame=frame)
+        keys.keyframe_insert("eval_time", frame=frame / stretch())
     _make_linear(keys.animation_data.action)
 
 

@@ -10,13 +10,16 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import glob
 import json
 import shutil
+import zipfile
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ... import solver
+from ..environment.lock import Lock
 from ..environment.new_file import replacing
 
 _COLUMNS = 10  # input, turn as a quaternion, offset
@@ -26,8 +29,20 @@ _PART = ".part_"  # behind the name of the folder, and before the indices
 _FRAMES, _ABOUT, _STATE = "frames.f32", "about.json", "state.npz"
 
 
+class _Saved(NamedTuple):
+    """The end of a recording."""
+
+    count: int
+    checksum: int
+    """of all frames"""
+    moment: str
+    state: solver.SequenceState
+
+
 class Recording:
     """Frames of vertices in a folder.
+
+    No other process has the folder until it is released.
 
     Parameters
     ----------
@@ -48,6 +63,11 @@ class Recording:
         The end of the last frame, from which the next one is solved.
     moment : str
         What the last frame depended on.
+
+    Raises
+    ------
+    BusyError
+        Another process has the folder, or that of a part.
     """
 
     def __init__(
@@ -55,49 +75,64 @@ class Recording:
     ):
         place = "" if part is None else f"{_PART}{part.start:07}_{part.stop:07}"
         self._folder, self._vertices = folder.with_name(folder.name + place), vertices
-        self.count = 0
+        self.count, self._checksum, self.moment = 0, 0, ""
         self.state: solver.SequenceState | None = None
-        self.moment = ""
-        about = json.loads(json.dumps({**about, "vertices": vertices}))
-        if not self._continue(about):
-            self.remove()
-            self._folder.mkdir(parents=True)
-            (self._folder / _FRAMES).touch()
-            (self._folder / _ABOUT).write_text(json.dumps(about), encoding="utf-8")
-        if part is None:
-            self._take_parts(about)
-
-    def _continue(self, about):
-        """Continue an earlier recording of the same; return whether there is one."""
+        self._about = json.loads(json.dumps({**about, "vertices": vertices}))
+        self._folder.parent.mkdir(parents=True, exist_ok=True)
+        self._held = {self._folder: Lock(self._folder)}
         try:
-            known = json.loads((self._folder / _ABOUT).read_text(encoding="utf-8"))
-            with np.load(self._folder / _STATE) as saved:
-                count, moment = int(saved["count"]), str(saved["moment"])
-                state = _state(saved)
-            size = (self._folder / _FRAMES).stat().st_size
-        except (OSError, ValueError, KeyError):
-            return False
-        if known != about or size < count * self._frame_bytes:
-            return False
-        self.count, self.state, self.moment = count, state, moment
-        with (self._folder / _FRAMES).open("r+b") as file:
-            file.truncate(count * self._frame_bytes)
-        return True
+            self._continue()
+            if part is None:
+                self._take_parts()
+        except BaseException:
+            self.release()
+            raise
 
-    def _take_parts(self, about):
+    def _continue(self):
+        """Continue an earlier recording of the same, or begin."""
+        saved = self._saved_in(self._folder)
+        if saved is None:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder.mkdir()
+            (self._folder / _FRAMES).touch()
+            (self._folder / _ABOUT).write_text(json.dumps(self._about), encoding="utf-8")
+        else:
+            self.count, self._checksum, self.moment, self.state = saved
+
+    def _take_parts(self):
         """Append what was solved apart, as far as each part follows on."""
         for folder in sorted(self._folder.parent.glob(f"{glob.escape(self._folder.name)}{_PART}*")):
-            begin, end = map(int, folder.name.rpartition(_PART)[2].split("_"))
-            part = Recording(self._folder, about, self._vertices, range(begin, end))
-            if begin <= self.count < begin + part.count:
-                with (
-                    (folder / _FRAMES).open("rb") as its,
-                    (self._folder / _FRAMES).open("ab") as file,
-                ):
-                    its.seek((self.count - begin) * self._frame_bytes)
-                    shutil.copyfileobj(its, file)
-                self.count, self.state, self.moment = begin + part.count, part.state, part.moment
-                self.save_state()
+            self._held[folder] = Lock(folder)
+            begin, _end = map(int, folder.name.rpartition(_PART)[2].split("_"))
+            part = self._saved_in(folder)
+            if part is None or not begin <= self.count < begin + part.count:
+                continue
+            with (folder / _FRAMES).open("rb") as its:
+                its.seek((self.count - begin) * self._frame_bytes)
+                while self.count < begin + part.count:
+                    self._write(its.read(self._frame_bytes))
+            self.moment, self.state = part.moment, part.state
+            self.save_state()
+
+    def _saved_in(self, folder) -> _Saved | None:
+        """Return the end of a recording of the same, if all its frames are there."""
+        try:
+            if json.loads((folder / _ABOUT).read_text(encoding="utf-8")) != self._about:
+                return None
+            with np.load(folder / _STATE) as values:
+                saved = _Saved(
+                    int(values["count"]),
+                    int(values["checksum"]),
+                    str(values["moment"]),
+                    solver.SequenceState(*(values[name] for name in solver.SequenceState._fields)),
+                )
+            checksum = 0
+            with (folder / _FRAMES).open("rb") as file:
+                for _ in range(saved.count):
+                    checksum = zlib.crc32(file.read(self._frame_bytes), checksum)
+        except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile):
+            return None
+        return saved if checksum == saved.checksum else None
 
     @property
     def _frame_bytes(self):
@@ -106,17 +141,23 @@ class Recording:
     def append(self, frame: solver.Frames, state: solver.SequenceState | None, moment: str) -> None:
         """Add a frame, and what the next one continues from."""
         values = np.concatenate([part[0] for part in frame], axis=1, dtype=np.float32)
-        with (self._folder / _FRAMES).open("ab") as file:
-            file.write(np.ascontiguousarray(values).data)
-        self.count += 1
+        self._write(np.ascontiguousarray(values).tobytes())
         self.state, self.moment = state, moment
+
+    def _write(self, frame):
+        with (self._folder / _FRAMES).open("r+b") as file:
+            file.seek(self.count * self._frame_bytes)  # what lies there was never saved
+            file.write(frame)
+        self._checksum = zlib.crc32(frame, self._checksum)
+        self.count += 1
 
     def save_state(self) -> None:
         """Make sure that the recording can continue after its last frame."""
         if self.state is None:
             return
         with replacing(self._folder / _STATE) as partial:
-            np.savez(partial, count=self.count, moment=self.moment, **self.state._asdict())
+            known = {"count": self.count, "checksum": self._checksum, "moment": self.moment}
+            np.savez(partial, **known, **self.state._asdict())
 
     def pieces(self, vertices: slice) -> Iterator[tuple[slice, solver.Frames]]:
         """Yield `Frames` of a part of the vertices by pieces, each with its place in that part."""
@@ -134,17 +175,22 @@ class Recording:
     def last(self) -> solver.Frames:
         """Return the last frame."""
         values = np.fromfile(
-            self._folder / _FRAMES, np.float32, offset=(self.count - 1) * self._frame_bytes
+            self._folder / _FRAMES,
+            np.float32,
+            count=self._vertices * _COLUMNS,
+            offset=(self.count - 1) * self._frame_bytes,
         )
         values = values.reshape(1, self._vertices, _COLUMNS)
         return solver.Frames(values[..., :3], values[..., 3:7], values[..., 7:])
 
     def remove(self) -> None:
-        """Remove the folder."""
+        """Remove the folder, and those of the parts."""
         self.state = None
-        shutil.rmtree(self._folder, ignore_errors=True)
+        for folder in self._held:
+            shutil.rmtree(folder, ignore_errors=True)
 
-
-def _state(saved):
-    state = solver.SequenceState
-    return state(*(saved[name] for name in state._fields))
+    def release(self) -> None:
+        """Let other processes have the folders; nothing can be done with this afterwards."""
+        for lock in self._held.values():
+            lock.release()
+        self._held.clear()

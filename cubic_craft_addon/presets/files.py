@@ -13,6 +13,7 @@ from typing import Any
 import bpy
 
 from ...solver import CubicCraftError
+from ..environment.file_names import folded
 from ..object_properties import PROPERTY
 
 SUBFOLDER = "cubic_craft"
@@ -103,7 +104,7 @@ def save(name: str, properties: Any) -> Path:
     Raises
     ------
     CubicCraftError
-        The name is invalid, or the file cannot be written.
+        The name is invalid, or gives the file of another one, or that cannot be written.
     """
     stem = name.strip().translate(_FORBIDDEN).strip("_")
     if not stem:
@@ -111,6 +112,10 @@ def save(name: str, properties: Any) -> Path:
     taken = {preset.identifier.lower() for preset in presets() if preset.is_included}
     if stem.lower() in taken:
         raise CubicCraftError(f'"{name}" is included with CubicCraft; choose another name')
+    shown = name.strip().replace("_", " ")
+    for preset in presets():
+        if folded(preset.identifier) == folded(stem) and preset.name != shown:
+            raise CubicCraftError(f'"{name}" would replace "{preset.name}"; choose another name')
     lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
     folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.file_names import file_stem
 from ..run.facets import flat_facets
 from . import low_poly
 from .bake import bake_normals, check_cycles
@@ -191,7 +192,7 @@ def _keep(image: bpy.types.Image) -> list[str]:
     if not bpy.data.filepath:
         image.pack()
         return []
-    stem = bpy.path.clean_name(image.name)
+    stem = file_stem(image.name)
     folder = Path(bpy.path.abspath("//"))
     names = itertools.chain([f"{stem}.png"], (f"{stem}_{n}.png" for n in itertools.count(2)))
     path = next(folder / name for name in names if not (folder / name).exists())

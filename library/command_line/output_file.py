@@ -3,6 +3,7 @@
 
 import contextlib
 import os
+import platform
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -46,7 +47,7 @@ def replacing(path: Path) -> Iterator[Path]:
         The file cannot be written.
     """
     stem = path.stem[:_LONGEST_STEM]
-    temporary = path.with_name(f".{stem}.cubic_craft-{os.getpid()}{path.suffix}")
+    temporary = path.with_name(f".{stem}.cubic_craft-{platform.node()}-{os.getpid()}{path.suffix}")
     try:
         temporary.unlink(missing_ok=True)  # it might be a link to another place
         yield temporary

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cubify every frame of an animation, into one file that other programs play back."""
 
+import contextlib
 import glob
 import shutil
 from argparse import Namespace
@@ -44,7 +45,8 @@ def bake_frames(
     """Bake the frames to the file of ``--bake``, and return what there is to report.
 
     What is solved stays in a folder beside the file until that is written: a run that was ended
-    continues there, and one with ``--part`` leaves it for the one that writes.
+    continues there, and one with ``--part`` leaves it for the one that writes. While another run
+    is there with the same frames, this one waits, and continues if that was ended.
 
     Raises
     ------
@@ -64,7 +66,7 @@ def bake_frames(
     given = _Given(loaded, options, extension, handles_of_all(loaded, options, extension))
     count = len(range(start, end + 1))
     part = extension.parts.part_of(count, *options.part) if options.part else None
-    bake_options = extension.bake.BakeOptions(start, end, folder, part=part)
+    bake_options = extension.bake.BakeOptions(start, end, folder, is_patient=True, part=part)
     work = extension.bake.Bake(given, loaded.objects, bake_options)
     try:
         with bar.task(f"{len(part or range(count))} frames") as task:
@@ -74,15 +76,18 @@ def bake_frames(
             summary, problems = work.write(is_alone=True)
             task.describe("frames")
             task.finish(summary)
+        found = [result.frames for result in work.results]
+        if problems and (part is not None or found != [count] * len(loaded.objects)):
+            raise extension.solver.CubicCraftError("; ".join(problems))
+        if part is not None:
+            return {"frames": [start + part.start, start + part.stop - 1], "objects": []}
+        _export(path, work.baked, (start, end), extension, options.verbose)
+        for obj in work.baked:
+            _cache_of(obj).unlink()
     finally:
         work.discard()
-    found = [result.frames for result in work.results]
-    if problems and (part is not None or found != [count] * len(loaded.objects)):
-        raise extension.solver.CubicCraftError("; ".join(problems))
-    if part is not None:
-        return {"frames": [start + part.start, start + part.stop - 1], "objects": []}
-    _export(path, work.baked, (start, end), extension, options.verbose)
-    shutil.rmtree(folder)
+    with contextlib.suppress(OSError):  # another run waits in it
+        folder.rmdir()
     bar.say(f"wrote {path}")
     for problem in problems:  # of all frames: how steady they are
         bar.warn(problem)
@@ -92,7 +97,11 @@ def bake_frames(
 def _export(path, baked, frames, extension, verbose):
     with captured(verbose), replacing(path) as temporary:
         if path.suffix == ".pc2":
-            cache = Path(bpy.path.abspath(baked[0].modifiers[0].filepath))
-            shutil.copyfile(cache, temporary)
+            shutil.copyfile(_cache_of(baked[0]), temporary)
         else:
             extension.exchange.export_frames(baked, temporary, *frames)
+
+
+def _cache_of(obj):
+    """Return the point cache that a baked object plays."""
+    return Path(bpy.path.abspath(obj.modifiers[0].filepath))

@@ -83,6 +83,40 @@ def test_every_frame_is_cubic_and_played_back(extension, bending, tmp_path, file
     assert not [path for path in tmp_path.iterdir() if path.suffix not in SUFFIXES]
 
 
+@pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "USD", "SHAPE_KEYS"])
+@pytest.mark.parametrize("stretching", [(200, 100), (30, 70)])
+def test_what_is_stretched_in_time_plays_as_its_source(
+    extension, empty_file, tmp_path, file_format, stretching
+):
+    scene, plane = bpy.context.scene, flat_faces("Ball", 2.0)
+    scene.frame_start, scene.frame_end = 3, 3 + FRAMES
+    scene.render.frame_map_old, scene.render.frame_map_new = stretching
+    modifier = plane.modifiers.new("Wide", "SIMPLE_DEFORM")
+    modifier.deform_method = "STRETCH"
+    for frame, modifier.factor in ((1, 1.0), (2 * FRAMES, 5.0)):
+        modifier.keyframe_insert("factor", frame=frame)
+    frames = range(3, 4 + FRAMES)
+    before = np.array([shown(plane, frame) for frame in frames])
+    assert bake(tmp_path, format=file_format) == {"FINISHED"}
+    after = np.array([shown(bpy.context.object, frame) for frame in frames])
+    np.testing.assert_allclose(after, before, atol=1e-4)
+    assert np.ptp(after, axis=0).max() > 0.2, "it does not move"
+
+
+def test_other_stretching_begins_anew_and_too_much_is_refused(extension, bending, bakes, tmp_path):
+    work = bakes(tmp_path, bending)
+    advance(work, 4)
+    work.discard()
+    render = bpy.context.scene.render
+    render.frame_map_new = 200
+    other = bakes(tmp_path, bending)
+    advance(other, 1)
+    other.discard()
+    render.frame_map_old, render.frame_map_new = 1, 101
+    with pytest.raises(RuntimeError, match="Time Stretching by more than 100 times"):
+        bake(tmp_path)
+
+
 def test_the_baked_object_keeps_uvs_materials_and_groups(extension, bending, tmp_path):
     bending.data.materials.append(bpy.data.materials.new("Clay"))
     bake(tmp_path)
@@ -147,6 +181,64 @@ def test_objects_that_are_kept_together(extension, bending, tmp_path):
         np.testing.assert_allclose(played, read_pc2(tmp_path / f"{name}.pc2")[3], atol=1e-6)
 
 
+def flat_faces(name, size):
+    """Add a plane of one face, which takes no time."""
+    bpy.ops.mesh.primitive_plane_add(size=size)
+    bpy.context.object.name = name
+    return bpy.context.object
+
+
+@pytest.mark.parametrize("names", [("Eye.L", "Eye_L"), ("Bär", "Bör"), ("arm", "Arm")])
+@pytest.mark.parametrize("is_one_click", [True, False])
+def test_objects_whose_names_give_one_file_have_their_own(
+    extension, empty_file, tmp_path, names, is_one_click
+):
+    objects = [flat_faces(name, size) for size, name in enumerate(names, 1)]
+    bpy.context.scene.frame_end = 2
+    for chosen in [objects] if is_one_click else [[obj] for obj in objects]:
+        select(*chosen)
+        assert bake(tmp_path) == {"FINISHED"}
+    files = sorted(path.name for path in tmp_path.iterdir())
+    assert len(files) == len({name.casefold() for name in files}) == 2
+    for size, obj in enumerate(objects, 1):
+        played = shown(bpy.data.objects[f"{obj.name} Cubic"], 1)
+        np.testing.assert_allclose(np.ptp(played, axis=0)[:2], size, atol=1e-4)
+    select(*(bpy.data.objects[f"{obj.name} Cubic"] for obj in objects))
+    assert bake(tmp_path) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.iterdir()) == files, "names have changed"
+
+
+@pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "SHAPE_KEYS"])
+def test_a_file_that_another_object_plays_is_not_replaced(
+    extension, empty_file, tmp_path, file_format
+):
+    old = flat_faces("Ball", 1.0)
+    bpy.context.scene.frame_end = 2
+    bake(tmp_path)
+    cubic, written = bpy.context.object, (tmp_path / "Ball.pc2").read_bytes()
+    old.name = "Leg"
+    flat_faces("Ball", 2.0)
+    for _ in range(2):  # and it replaces its own
+        assert bake(tmp_path, format=file_format) == {"FINISHED"}
+    assert (tmp_path / "Ball.pc2").read_bytes() == written
+    np.testing.assert_allclose(np.ptp(shown(cubic, 1), axis=0)[:2], 1.0, atol=1e-4)
+    more = {"CACHE": ["Ball.2.pc2"], "ALEMBIC": ["Ball.abc"], "SHAPE_KEYS": []}[file_format]
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*more, "Ball.pc2"])
+
+
+def test_names_of_files(extension, empty_file, part):
+    names = part("environment.file_names")
+    long = "身体" * 10
+    items = [bpy.data.objects.new(name, None) for name in ("a.b", "a_b", "A_B", "c", long * 3)]
+    stems = list(names.file_stems(items).values())
+    assert stems[3] == "c"
+    assert len({stem.casefold() for stem in stems}) == len(stems)
+    assert all(stem.casefold().startswith("a_b.") for stem in stems[:3])
+    assert names.file_stem(long) == long
+    assert names.file_stem(long * 9) != names.file_stem(long * 8)
+    assert len(names.file_stem(long * 9).encode()) < 120
+
+
 def test_a_text_that_grows_is_baked(extension, empty_file, tmp_path):
     bpy.ops.object.text_add()
     text = bpy.context.object
@@ -196,6 +288,75 @@ def test_after_other_settings_it_begins_anew(extension, bending, bakes, tmp_path
     other = bakes(tmp_path, bending)
     advance(other, 1)
     other.discard()
+
+
+def test_what_another_bake_works_on_is_left_to_it(extension, bending, bakes, tmp_path):
+    bpy.context.scene.frame_end = FRAMES
+    work = bakes(tmp_path, bending)
+    advance(work, 3)
+    with pytest.raises(RuntimeError, match=r'"Ball\.unfinished" is being written by another'):
+        bake(tmp_path)
+    work.discard()
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.unfinished"]
+    assert bake(tmp_path) == {"FINISHED"}
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.pc2"]
+
+
+def test_one_process_writes_a_file(part, tmp_path):
+    new_file, lock = part("environment.new_file"), part("environment.lock")
+    path = tmp_path / "file"
+    with new_file.replacing(path) as partial:
+        partial.write_text("ours")
+        with pytest.raises(lock.BusyError, match='"file" is being written'):
+            lock.Lock(path)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    lock.Lock(path).release()
+    assert path.read_text() == "ours"
+
+
+@pytest.fixture
+def recorded(extension, part, tmp_path):
+    """Return a function that continues a recording of three vertices, whose frames are numbers."""
+    solver = importlib.import_module(f"{extension.__name__}.solver")
+    turns = np.tile(np.eye(3), (3, 1, 1))
+    state = solver.SequenceState(*(np.zeros(3) for _ in solver.SequenceState._fields))
+
+    def make(frames, part_of=None):
+        recording = part("animation.recording").Recording(tmp_path / "R", {}, 3, part_of)
+        known = recording.count
+        for number in frames:
+            positions = np.full((3, 3), float(number))
+            recording.append(solver.frame_of(positions, turns, positions), state, "")
+        recording.save_state()
+        pieces = [piece.inputs[:, 0, 0] for _, piece in recording.pieces(slice(0, 3))]
+        recording.release()
+        return known, np.concatenate(pieces).tolist()
+
+    return make
+
+
+def test_frames_that_are_not_those_saved_are_solved_again(recorded, tmp_path):
+    assert recorded([0, 1, 2]) == (0, [0.0, 1.0, 2.0])
+    path = tmp_path / "R" / "frames.f32"
+    frames = path.read_bytes()
+    size = len(frames) // 3
+    path.write_bytes(frames + frames[:size])  # as when ended before the next save
+    assert recorded([3]) == (3, [0.0, 1.0, 2.0, 3.0])
+    path.write_bytes(frames[:size] + frames)  # another process has written, too
+    assert recorded([0]) == (0, [0.0])
+    path.write_bytes(b"")
+    assert recorded([0]) == (0, [0.0])
+    (tmp_path / "R" / "state.npz").write_bytes(b"PK half of it")
+    assert recorded([0]) == (0, [0.0])
+
+
+def test_parts_are_taken_over_where_they_follow_and_are_whole(recorded, tmp_path):
+    recorded([0, 1], range(0, 2))
+    recorded([2, 3], range(2, 4))
+    recorded([4, 5], range(4, 6))
+    path = tmp_path / "R.part_0000004_0000006" / "frames.f32"
+    path.write_bytes(path.read_bytes()[::-1])
+    assert recorded([9]) == (4, [0.0, 1.0, 2.0, 3.0, 9.0])
 
 
 def test_a_mesh_that_changes_its_vertices_is_baked_until_then(extension, bending, tmp_path):

@@ -108,6 +108,16 @@ def test_saving_again_replaces_and_removing_leaves_the_settings(files, monkey):
     assert monkey.cubic_craft.cubeness == pytest.approx(0.8)
 
 
+@pytest.mark.parametrize("name", ["My Look?", "my look"])
+def test_another_name_replaces_no_preset_whose_file_it_shares(files, monkey, name):
+    assert save("My Look", cubeness=0.9) == {"FINISHED"}
+    with pytest.raises(RuntimeError, match=re.escape(f'"{name}" would replace "My Look"')):
+        save(name, cubeness=0.8)
+    assert save("My_Look", cubeness=0.7) == {"FINISHED"}, "it is the same name"
+    (preset,) = [preset for preset in files.presets() if not preset.is_included]
+    assert preset.values["cubeness"] == 0.7
+
+
 def test_ours_can_neither_be_replaced_nor_removed(files, monkey):
     with pytest.raises(RuntimeError, match='"Cubic" is included with CubicCraft'):
         bpy.ops.cubic_craft.preset_add(name="Cubic")

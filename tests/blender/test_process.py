@@ -24,8 +24,8 @@ def test_the_process_goes_from_the_original_to_the_result_at_even_speed(
     bpy.context.scene.frame_set(4)
     start = shown(bending, 4)
     assert bpy.ops.cubic_craft.bake_process(folder=str(tmp_path)) == {"FINISHED"}
-    assert [path.name for path in tmp_path.iterdir()] == ["Ball_process.pc2"]
-    frames = read_pc2(tmp_path / "Ball_process.pc2")
+    assert [path.name for path in tmp_path.iterdir()] == ["Ball.process.pc2"]
+    frames = read_pc2(tmp_path / "Ball.process.pc2")
     assert len(frames) == count
     np.testing.assert_allclose(frames[0], start, atol=1e-5)
     steps = np.linalg.norm(np.diff(frames, axis=0), axis=2).max(axis=1)
@@ -107,7 +107,7 @@ def test_the_process_goes_from_other_settings_to_those_of_the_object(
     bpy.context.scene.cubic_craft_animation.process_from = model
     select(bending)
     assert bpy.ops.cubic_craft.bake_process(folder=str(tmp_path)) == {"FINISHED"}
-    frames = read_pc2(tmp_path / "Ball_process.pc2")
+    frames = read_pc2(tmp_path / "Ball.process.pc2")
     way = np.linalg.norm(end - begin, axis=1).max()
     assert np.linalg.norm(frames[0] - begin, axis=1).max() < 0.15 * way, "it begins elsewhere"
     assert np.linalg.norm(frames[-1] - end, axis=1).max() < 0.15 * way, "it ends elsewhere"
@@ -119,7 +119,7 @@ def test_the_object_can_be_named_and_must_be_there(extension, bending, model, tm
     give(model, {"cubeness": 1.0})
     bake = bpy.ops.cubic_craft.bake_process
     assert bake(folder=str(tmp_path), process_from="Begin") == {"FINISHED"}
-    first = read_pc2(tmp_path / "Ball_process.pc2")[0]
+    first = read_pc2(tmp_path / "Ball.process.pc2")[0]
     assert np.abs(first - shown(bending, 1)).max() > 0.1, "it begins with the original"
     with pytest.raises(RuntimeError, match='no object "Bgin"'):
         bake(folder=str(tmp_path), process_from="Bgin")

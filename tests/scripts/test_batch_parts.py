@@ -2,6 +2,7 @@
 """Parts of batches, without Blender."""
 
 import io
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from scripts.headless.arguments import parse
 from scripts.headless.batch.plan import OF_THE_BATCH, Job, decisive, plan, settings_of
 from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.task import Batch, do, key_of
+from scripts.headless.lock import alone_at
 
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj
@@ -185,6 +187,22 @@ def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
     (folder / "a.png").unlink()
     assert do(job, batch) == done
     assert do(job, batch._replace(name="fourth")) == kept
+
+
+def test_a_file_that_is_given_out_twice_is_done_once(folder):
+    job, batch = batch_of(folder, f"import time; time.sleep(0.5)\n{WRITES}")
+    batches = [batch._replace(name=name) for name in ("first", "second", "third")]
+    with ThreadPoolExecutor() as pool:
+        found = list(pool.map(lambda each: do(job, each)["status"], batches))
+    assert sorted(found) == ["done", "kept", "kept"]
+    assert not list(folder.glob(".*"))
+
+
+def test_who_is_not_wanted_any_more_does_not_wait(folder):
+    job, batch = batch_of(folder, WRITES)
+    with alone_at(job.record, lambda: True):
+        result = do(job, batch, is_wanted=lambda: False)
+    assert (result["status"], result["error"]) == ("failed", "another process is at work on it")
 
 
 @pytest.mark.parametrize(

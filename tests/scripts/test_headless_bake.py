@@ -111,6 +111,18 @@ def test_ended_in_the_middle_it_continues_bit_for_bit(rigged, tmp_path):
     assert sorted(tmp_path.iterdir()) == [parts, whole]
 
 
+def test_two_runs_at_once_give_the_frames_of_one(rigged, tmp_path):
+    options = ("--object", "Ball", "--frames", "1", "20", *ROUGH, "--bake")
+    whole, shared = tmp_path / "whole.pc2", tmp_path / "shared.pc2"
+    both = [start_headless(str(rigged), *options, str(shared), cwd=tmp_path) for _ in range(2)]
+    headless_ok(rigged, *options, whole, cwd=tmp_path)
+    for process in both:
+        words = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0, words
+    assert shared.read_bytes() == whole.read_bytes()
+    assert sorted(tmp_path.iterdir()) == [shared, whole]
+
+
 def test_parts_that_do_not_fit_are_solved_again(rigged, tmp_path):
     options = ("--object", "Ball", *ROUGH, "--frames", "1", "6", "--bake")
     whole, parts = tmp_path / "whole.pc2", tmp_path / "parts.pc2"

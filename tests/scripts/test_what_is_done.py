@@ -92,6 +92,8 @@ def test_every_exception_is_still_needed():
 def test_the_manifest_asks_for_files_only():
     """The extension writes Blender's data, Taichi's cache, presets, and what it bakes or sends.
 
+    A lock is an empty file beside such a file, while that is written.
+
     Of the rights that a manifest can ask for, "files" means the artist's files, which baked
     animations, normal maps and what is sent are, and "network" the internet, which the tests above
     look for. Presets go to Blender's own folder of presets, and only when the artist asks for one
@@ -100,7 +102,7 @@ def test_the_manifest_asks_for_files_only():
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
     assert list(manifest["permissions"]) == ["files"]
     writers = {p.relative_to(ROOT).as_posix() for p in EXTENSION if _called(p) & WRITERS}
-    names = ("environment/new_file", "presets/files", "send/normal_map")
+    names = ("environment/lock", "environment/new_file", "presets/files", "send/normal_map")
     animation = ("animation/playback", "animation/point_cache", "animation/recording")
     assert writers == {f"cubic_craft_addon/{name}.py" for name in (*names, *animation)}
 

@@ -7,7 +7,7 @@ from shapes import blob, rotation, sheet
 
 from solver import ProxyOptions, Sequence, Setup, Stylization, rest_mesh, run
 from solver.sequence import STEPS
-from solver.steadiness import MOST_JUMPS, WIDTHS, Frames, Jumps, frame_of, least_width
+from solver.steadiness import MOST_JUMPS, WIDTHS, Frames, Jumps, Motion, frame_of, least_width
 
 PROXIES = [ProxyOptions(), ProxyOptions(solidity=0.5, refine=False)]
 
@@ -177,7 +177,7 @@ def test_no_vertex_jumps_more_than_three_times_as_far_as_in_the_input(move):
     frames = recorded(move(V, 30), F)
     width, ratios = least_width(lambda: [frames])
     assert max(ratios) <= MOST_JUMPS
-    inputs, jumps = Jumps(), Jumps()
+    inputs, jumps = Motion(), Jumps()
     inputs.add(frames.inputs)
     results = frames.results(width)
     jumps.add(results)
@@ -195,10 +195,39 @@ def test_it_is_not_smoothed_more_than_needed():
     width, ratios = least_width(lambda: [noisy])
     assert 0.0 < width < WIDTHS[-1] and max(ratios) <= MOST_JUMPS
     before = WIDTHS[WIDTHS.index(width) - 1]
-    jumps, inputs = Jumps(), Jumps()
+    jumps, inputs = Jumps(), Motion()
     jumps.add(noisy.results(before))
     inputs.add(steps)
     assert max(jumps.over(inputs)) > MOST_JUMPS
+
+
+def jumping(inputs, sizes):
+    """Return `Frames` whose vertices jump by about these sizes, (f,1,1) or one for all."""
+    offsets = np.random.default_rng(3).uniform(-0.25, 0.25, size=inputs.shape) * sizes
+    return Frames(inputs, np.tile([0.0, 0, 0, 1], (*inputs.shape[:2], 1)), offsets)
+
+
+@pytest.mark.parametrize("speed", [1.0, 1e-3, 1e-7])
+def test_what_moves_evenly_is_not_smoothed_for_jumps_that_nobody_sees(speed):
+    points = np.random.default_rng(4).uniform(-1.0, 1.0, size=(50, 3))
+    points[:, 0] += 1.0  # so that it grows along x, and vertices have different speeds
+    steps = speed * np.arange(24.0)[:, None, None] * points * [1.0, 0.0, 0.0]
+    inputs = (points + steps).astype(np.float32).astype(np.float64)
+    assert least_width(lambda: [jumping(inputs, max(0.1 * speed, 1e-5))])[0] == 0.0
+    width, ratios = least_width(lambda: [jumping(inputs, max(speed, 1e-4))])
+    assert 0.0 < width < WIDTHS[-1] and max(ratios) <= MOST_JUMPS
+
+
+def test_what_is_at_rest_may_become_cubic_at_any_speed():
+    inputs = np.tile(np.random.default_rng(5).normal(size=(1, 50, 3)), (12, 1, 1))
+    assert least_width(lambda: [jumping(inputs, 1.0)]) == (0.0, (0.0, 0.0))
+
+
+def test_where_little_moves_the_rest_may_hardly_jump():
+    inputs = np.tile(np.random.default_rng(6).uniform(size=(1, 500, 3)), (24, 1, 1))
+    inputs[:, 0] += np.linspace(0.0, 1.0, 24)[:, None]
+    assert least_width(lambda: [jumping(inputs, 1e-5)])[0] == 0.0
+    assert least_width(lambda: [jumping(inputs, 1e-3)])[0] > 0.0
 
 
 def test_smoothing_keeps_offsets_that_turn_with_the_surface():

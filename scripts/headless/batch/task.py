@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError
+from ..lock import alone_at
 from ..output_files import remove_left_behind
 from ..threads import thread_variables
 from ..trust.places import is_inside, refuse_special
@@ -53,7 +54,7 @@ class Batch(NamedTuple):
 
 
 def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> dict[str, Any]:
-    """Do a file.
+    """Do a file, or wait while another process does it, as one of a batch that runs twice.
 
     Parameters
     ----------
@@ -70,19 +71,26 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if job.folder is not None and not is_inside(job.path, job.folder):
             raise InputError("is a link that leads out of the folder; give what it leads to")
         key = key_of(job.path, batch.decides)
-        report, made_by = _report(job, key)
-        # One of this batch is of a worker that was lost just before it could tell.
-        if report and (made_by == batch.name or not batch.is_forced):
-            return _success(DONE if made_by == batch.name else KEPT, report)
-        code, words = _run(job, batch, key, is_wanted)
-        report, _ = _report(job, key)
-        if report and not code:
-            return _success(DONE, report) | {"words": words}
-        return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
+        with alone_at(job.record, is_wanted) as is_alone:
+            if is_alone:
+                return _do(job, batch, key, is_wanted)
+        return {"status": FAILED, "error": "another process is at work on it"}
     except InputError as error:
         return {"status": FAILED, "error": str(error).removeprefix(f"{job.path}: ")}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
+
+
+def _do(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> dict[str, Any]:
+    report, made_by = _report(job, key)
+    # One of this batch is of a worker that was lost just before it could tell.
+    if report and (made_by == batch.name or not batch.is_forced):
+        return _success(DONE if made_by == batch.name else KEPT, report)
+    code, words = _run(job, batch, key, is_wanted)
+    report, _ = _report(job, key)
+    if report and not code:
+        return _success(DONE, report) | {"words": words}
+    return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
 
 
 def key_of(source: Path, decides: str) -> str:

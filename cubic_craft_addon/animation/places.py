@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which files the frames of an object go to; no other object's are among them."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+
+from ...solver import CubicCraftError
+from ..environment.file_names import file_stems, folded
+from .exchange import SUFFIXES
+from .options import BakeOptions
+from .properties import SOURCE
+
+_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
+_PROCESS = ".process"
+_CACHE = ".pc2"
+
+
+class Places:
+    """The files of a bake, in its folder, which is made.
+
+    Raises
+    ------
+    CubicCraftError
+        The folder cannot be used.
+    """
+
+    def __init__(self, options: BakeOptions):
+        self._options = options
+        self._stems = file_stems(bpy.data.objects)
+        try:
+            options.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise CubicCraftError(
+                f'the folder "{options.folder}" cannot be made: {error.strerror}'
+            ) from error
+
+    def recording_of(self, source: bpy.types.Object) -> Path:
+        """Return the folder of what is solved."""
+        return self._options.folder / f"{self._stem(source)}{_UNFINISHED}"
+
+    def files_of(self, source: bpy.types.Object) -> tuple[Path, Path]:
+        """Return the point cache to write, and the file that is to play, which may be the same.
+
+        What plays is a file that no other object plays: one that was baked under this name and
+        then renamed, or has the file as an input. A cache that is on its way to another format is
+        in the folder of what is solved, where it is in the way of no file.
+        """
+        file_format, stem = self._options.file_format, self._stem(source)
+        played = {_place(path) for path in _played_by_others(source)}
+        names = itertools.chain([stem], (f"{stem}.{number}" for number in itertools.count(2)))
+        suffix = SUFFIXES.get(file_format, _CACHE)
+        paths = (self._options.folder / f"{name}{suffix}" for name in names)
+        path = next(path for path in paths if _place(path) not in played)
+        is_cache = file_format == "CACHE"
+        return path if is_cache else self.recording_of(source) / f"{stem}{_CACHE}", path
+
+    def _stem(self, source):
+        return f"{self._stems[source]}{_PROCESS if self._options.is_process else ''}"
+
+
+def _played_by_others(source: bpy.types.Object) -> Iterator[str]:
+    """Give the files that play in objects which were not baked from this one."""
+    for obj in bpy.data.objects:
+        if getattr(obj, SOURCE) == source:
+            continue
+        for user in (*obj.modifiers, *obj.constraints):
+            if isinstance(user, bpy.types.MeshCacheModifier):
+                yield bpy.path.abspath(user.filepath, library=obj.library)
+            elif file := getattr(user, "cache_file", None):
+                yield bpy.path.abspath(file.filepath, library=file.library)
+
+
+def _place(path: Path | str) -> str:
+    return folded(os.path.realpath(path))
