@@ -18,7 +18,12 @@ def factorize(A):
     """
     cholespy = optional_package("cholespy")  # about twice as fast as SciPy's LU at solving
     if cholespy is not None:
-        return _Cholesky(cholespy, A)
+        try:
+            return _Cholesky(cholespy, A)
+        except MemoryError:
+            raise
+        except Exception:  # noqa: S110 - a broken installation can raise anything; SciPy remains
+            pass
     from scipy.sparse.linalg import splu  # takes a tenth of a second to import
 
     lu = splu(

@@ -6,7 +6,7 @@ import bpy
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
-from ..environment.requirements import check_requirements
+from ..environment.requirements import check_known_requirements
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
@@ -189,7 +189,7 @@ def _problem(context, obj):
     if not is_mode_usable(context):
         return ""  # the panel offers the way out instead of a message
     try:
-        check_requirements()
+        check_known_requirements()
         mesh_bridge.check_usable(obj)
         object_handles(obj)
         properties = object_properties(obj)

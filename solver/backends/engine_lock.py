@@ -7,6 +7,7 @@ time of its import or of a compilation is replaced for all threads. So whatever 
 would wait for them for ever: see `check_not_forked`.
 """
 
+import ctypes
 import functools
 import os
 import sys
@@ -54,18 +55,21 @@ def check_not_forked():
         )
 
 
-def _has_started():
-    """Return whether Taichi has a program, ours or that of others."""
-    taichi = sys.modules.get("taichi")
+def _program():
+    """Return Taichi's program, ours or that of others, or None if it has not started."""
     try:
-        return taichi is not None and taichi.lang.impl.get_runtime().prog is not None
-    except AttributeError:  # it is broken, or not all of it is imported
-        return False
+        return sys.modules["taichi"].lang.impl.get_runtime().prog
+    except (KeyError, AttributeError):  # not imported, not wholly, or broken
+        return None
 
 
 def _begin_in_child():
     global _is_forked
-    _is_forked = _is_forked or _has_started()
+    program = _program()
+    if program is not None:
+        _is_forked = True
+        # One reference for ever: at the end of the process, the program would wait for its threads.
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(program))
     LOCK.release()  # it was taken by this thread, the only one that the child has
 
 
