@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that reads or writes mesh data-blocks.
 
-Only positions are ever written: the ``position`` attribute and the points of shape keys. Besides
-them, the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
+Only positions are ever written, the ``position`` attribute and the points of shape keys, and what
+points somewhere in object space, the free normals. Besides them, the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
 Restore and Apply remove without a trace.
 """
 

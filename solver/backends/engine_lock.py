@@ -21,7 +21,7 @@ _is_forked = False
 
 
 class ForkedError(CubicCraftError):
-    """This process was forked from one in which Taichi had started."""
+    """The process was forked from one in which Taichi had started."""
 
 
 def alone(function):

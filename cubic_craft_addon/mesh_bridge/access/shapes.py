@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All shapes of a mesh: its positions, shape keys and free normals, and how they follow the base."""
+"""All shapes of a mesh: positions, shape keys and free normals, and how keys follow the base."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -16,8 +16,8 @@ from ..memory.cubic_key import remove_keys
 def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Undo what the block did to the mesh if it raises.
 
-    It covers the positions, the points of shape keys, free normals, added shape keys, our attributes and
-    the note. It cannot restore removed shape keys: remove those last.
+    It covers the positions, the points of shape keys, free normals, added shape keys, our
+    attributes and the note. It cannot restore removed shape keys: remove those last.
     """
     state = _State(mesh)
     try:
