@@ -51,7 +51,7 @@ class CUBIC_PT_main(bpy.types.Panel):
         session = live.current()
         obj = panel_object(context) or (session and session.first_object(context))
         if obj is None:
-            seen.draw_other(layout, context.active_object)
+            _draw_other(context, layout)
             return
         if obj != context.active_object:
             layout.label(text=obj.name, icon="MESH_DATA")
@@ -100,6 +100,15 @@ def _draw_cubify(context, layout, obj):
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
     seen.draw_hint(layout, obj)
+
+
+def _draw_other(context, layout):
+    active = context.active_object
+    why = mesh_bridge.why_no_mesh(active) if active is not None else ""
+    if why:
+        _draw_problem(context, layout, why)
+    else:
+        seen.draw_other(layout, active)
 
 
 def _draw_problem(context, layout, text):
@@ -193,6 +202,8 @@ def _problem(context, obj):
         mesh_bridge.check_usable(obj)
         object_handles(obj)
         properties = object_properties(obj)
+        if properties.result == "SHAPE_KEY":
+            mesh_bridge.check_relative_keys(obj)
         if properties.use_regions:
             object_regions(obj)
         if properties.map_group:

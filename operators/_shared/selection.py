@@ -79,7 +79,9 @@ def poll_meshes(operator_class, context):
     if not poll_work(operator_class, context):
         return False
     if not selected_meshes(context):
-        operator_class.poll_message_set("Select a mesh object first")
+        active = context.active_object
+        why = mesh_bridge.why_no_mesh(active) if active is not None else ""
+        operator_class.poll_message_set(why or "Select a mesh object first")
         return False
     return True
 
