@@ -6,13 +6,9 @@ does not fit this Blender, it is there and cannot be imported.
 """
 
 from functools import cache
-from importlib import import_module
 from importlib.util import find_spec
 
 from ...solver import CubicCraftError
-
-_PARTS = ("scipy.sparse", "scipy.spatial", "scipy.spatial.transform")
-"""what every run imports"""
 
 _broken = ""
 """why SciPy cannot be imported, once that was tried"""
@@ -27,9 +23,9 @@ def check_requirements() -> None:
         SciPy is missing, or it cannot be imported.
     """
     check_known_requirements()
-    try:
-        for part in _PARTS:
-            import_module(part)
+    try:  # what every run imports
+        import scipy.sparse
+        import scipy.spatial.transform  # noqa: F401
     except Exception as error:  # a broken installation can raise anything
         global _broken
         _broken = _in_one_line(error)
