@@ -2,6 +2,7 @@
 """Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
 
 import weakref
+from contextlib import suppress
 
 import numpy as np
 
@@ -18,7 +19,8 @@ def factorize(A):
     """
     cholespy = optional_package("cholespy")  # about twice as fast as SciPy's LU at solving
     if cholespy is not None:
-        return _Cholesky(cholespy, A)
+        with suppress(ImportError, AttributeError, TypeError):  # of a broken installation
+            return _Cholesky(cholespy, A)
     from scipy.sparse.linalg import splu  # takes a tenth of a second to import
 
     lu = splu(

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that reads or writes mesh data-blocks.
 
-Only positions are ever written: the ``position`` attribute and the points of shape keys. Besides
-them, the bridge keeps its own attributes and one custom property on the mesh (see `note`), which
-Restore and Apply remove without a trace.
+Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
+normals, which point somewhere in object space. Besides them, the bridge keeps its own attributes
+and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace.
 """
 
 from .access.carried import carried_attributes
-from .access.checks import check_editable, check_usable, mesh_of
+from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
 from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
@@ -41,6 +41,7 @@ __all__ = (
     "Start",
     "carried_attributes",
     "check_editable",
+    "check_relative_keys",
     "check_usable",
     "cover_problem",
     "covers",
@@ -78,6 +79,7 @@ __all__ = (
     "starts_here",
     "triangles",
     "vertex_group",
+    "why_no_mesh",
     "write_mesh",
     "write_new_object",
     "write_ngons",

@@ -23,6 +23,7 @@ from . import pipeline
 from .assembly import Prepared, prepare
 from .bones import bone_places
 from .failures import UNEXPECTED, in_words
+from .hair import hair_left_behind
 from .member import Member, read_member
 from .object_frame import placements
 from .up_to_date import what_matters
@@ -56,6 +57,8 @@ class Task:
         self.obj, self.mesh = obj, mesh_bridge.mesh_of(obj)
         self.uid = obj.session_uid
         self.settings = overrides.settings_for(obj)
+        if self.settings.result == "SHAPE_KEY":
+            mesh_bridge.check_relative_keys(obj)
         self.solution: pipeline.Solution | None = None
         self.is_seen = False
         """whether the object was made by `mesh_bridge.make_seen`"""
@@ -195,20 +198,23 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
         Empty if nothing was written.
     problems : list of str
         Meshes written before a failure stay and need their undo step. If Taichi does not work,
-        this is also reported, once.
+        this is also reported, once, and so is hair that does not follow.
     """
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
     runs = [task.run for task in tasks]
     statuses = [run.status for run in runs]
     waits = [(id(solution.result), solution.total_seconds) for solution in solutions]
+    hair = [hair_left_behind(task.obj, task.settings.result) for task in tasks]
     written, problems = 0, new_taichi_warnings() if tasks else []
     try:
         for task, run in zip(tasks, runs, strict=True):
             _write(overrides, task, run)
+            problems += hair[written]
             written += 1
-    except UNEXPECTED as error:
-        _log.exception("Writing a result failed")  # this object has been restored
+    except UNEXPECTED as error:  # this object has been restored
+        if not isinstance(error, CubicCraftError):
+            _log.exception("Writing a result failed")
         reason = in_words(error)
         problems.append(f"Writing failed ({reason}); meshes that were not written are unchanged")
     if written == 1:

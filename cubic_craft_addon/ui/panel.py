@@ -6,7 +6,7 @@ import bpy
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
-from ..environment.requirements import check_requirements
+from ..environment.requirements import check_known_requirements
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
@@ -51,7 +51,7 @@ class CUBIC_PT_main(bpy.types.Panel):
         session = live.current()
         obj = panel_object(context) or (session and session.first_object(context))
         if obj is None:
-            seen.draw_other(layout, context.active_object)
+            _draw_other(context, layout)
             return
         if obj != context.active_object:
             layout.label(text=obj.name, icon="MESH_DATA")
@@ -100,6 +100,15 @@ def _draw_cubify(context, layout, obj):
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
     seen.draw_hint(layout, obj)
+
+
+def _draw_other(context, layout):
+    active = context.active_object
+    why = mesh_bridge.why_no_mesh(active) if active is not None else ""
+    if why:
+        _draw_problem(context, layout, why)
+    else:
+        seen.draw_other(layout, active)
 
 
 def _draw_problem(context, layout, text):
@@ -189,10 +198,12 @@ def _problem(context, obj):
     if not is_mode_usable(context):
         return ""  # the panel offers the way out instead of a message
     try:
-        check_requirements()
+        check_known_requirements()
         mesh_bridge.check_usable(obj)
         object_handles(obj)
         properties = object_properties(obj)
+        if properties.result == "SHAPE_KEY":
+            mesh_bridge.check_relative_keys(obj)
         if properties.use_regions:
             object_regions(obj)
         if properties.map_group:

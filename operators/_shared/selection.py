@@ -5,6 +5,7 @@ from typing import Any
 
 from ...cubic_craft_addon import job, live, mesh_bridge
 from ...cubic_craft_addon.environment.modes import MESSAGE, is_mode_usable
+from ...cubic_craft_addon.environment.requirements import check_known_requirements
 from ...cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ...cubic_craft_addon.ui import seen
 from ...solver import CubicCraftError
@@ -66,7 +67,7 @@ def selected_sources(context):
 
 def poll_sources(operator_class, context):
     """Return whether an object can be cubified, with or without its modifiers."""
-    if not poll_work(operator_class, context):
+    if not poll_work(operator_class, context) or not _poll_requirements(operator_class):
         return False
     if any(seen.can_be_seen(obj) for obj in selected_sources(context)):
         return True
@@ -78,7 +79,9 @@ def poll_meshes(operator_class, context):
     if not poll_work(operator_class, context):
         return False
     if not selected_meshes(context):
-        operator_class.poll_message_set("Select a mesh object first")
+        active = context.active_object
+        why = mesh_bridge.why_no_mesh(active) if active is not None else ""
+        operator_class.poll_message_set(why or "Select a mesh object first")
         return False
     return True
 
@@ -106,9 +109,21 @@ def poll_object_mode(operator_class, context):
 
 def poll_usable(operator_class, context):
     """Return whether a mesh can be cubified, and set the message of the first one if not."""
-    return poll_meshes(operator_class, context) and poll_any_usable(
-        operator_class, selected_meshes(context)
+    return (
+        poll_meshes(operator_class, context)
+        and _poll_requirements(operator_class)
+        and poll_any_usable(operator_class, selected_meshes(context))
     )
+
+
+def _poll_requirements(operator_class):
+    """Return whether nothing is known to be missing that a run needs."""
+    try:
+        check_known_requirements()
+    except CubicCraftError as error:
+        operator_class.poll_message_set(str(error))
+        return False
+    return True
 
 
 def poll_any_usable(operator_class, objects):

@@ -38,7 +38,7 @@ DEFAULTS = {
 HELP = {
     "inputs": f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
     "files, or folders of them",
-    "--object": "this mesh object only (default: all)",
+    "--object": "this mesh object only (default: all that are shown and rendered)",
     "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
     "--options": "more of these options, in one text: for programs that hand on one",
     "--worker": argparse.SUPPRESS,

@@ -14,7 +14,7 @@ from .extension import Extension
 from .finite_check import refuse_infinite
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .quiet import captured
-from .seen_objects import show_as_meshes
+from .seen_objects import is_in_picture, show_as_meshes
 from .trust.before_reading import readable
 from .trust.opened import check_opened, checked_before_evaluation
 from .trust.places import say_left_out
@@ -172,11 +172,16 @@ def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> lis
             there = ", ".join(f'"{obj.name}"' for obj in found[:8]) or "no mesh object at all"
             raise InputError(f"--object {name}: {source} has no such mesh object; it has {there}")
         return chosen
-    chosen = [obj for obj in found if obj.data.polygons and obj.visible_get()]
+    chosen = [obj for obj in found if obj.data.polygons and is_in_picture(obj)]
     if not chosen:
-        what = "only hidden meshes or meshes without faces" if found else "no mesh"
+        what = (
+            "only meshes that are hidden, are not rendered or have no faces" if found else "no mesh"
+        )
         raise InputError(f"{source}: holds {what}; export it again with a visible mesh with faces")
     for obj in found:
         if obj not in chosen:
-            print(f'"{obj.name}" is left out: it is hidden or has no faces', file=sys.stderr)
+            print(
+                f'"{obj.name}" is left out: it is hidden, is not rendered or has no faces',
+                file=sys.stderr,
+            )
     return chosen

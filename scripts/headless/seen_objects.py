@@ -2,17 +2,35 @@
 """Put what is seen of the objects of the scene in their place, as meshes without modifiers."""
 
 import contextlib
+from collections.abc import Iterator
 from typing import Any
 
 import bpy
 
 from .extension import Extension
 
-__all__ = ("show_as_meshes",)
+__all__ = ("is_in_picture", "show_as_meshes")
+
+
+def is_in_picture(obj: bpy.types.Object) -> bool:
+    """Return whether an object of the scene is shown and rendered.
+
+    What is not rendered is only a tool, such as what a Boolean modifier cuts with.
+    """
+    rendered = _rendered_collections(bpy.context.scene.collection)
+    is_rendered = not obj.hide_render and any(obj.name in c.objects for c in rendered)
+    return is_rendered and obj.visible_get()
+
+
+def _rendered_collections(collection: bpy.types.Collection) -> Iterator[bpy.types.Collection]:
+    if not collection.hide_render:
+        yield collection
+        for child in collection.children:
+            yield from _rendered_collections(child)
 
 
 def show_as_meshes(extension: Extension, *, only_covered: bool = False) -> list[str]:
-    """Replace all that is seen and not yet such a mesh, and return its names.
+    """Replace all that is seen, rendered and not yet such a mesh, and return its names.
 
     Each new object has the name, the children and the place of the one that it stands for. What
     shows no faces stays as it is.
@@ -25,7 +43,7 @@ def show_as_meshes(extension: Extension, *, only_covered: bool = False) -> list[
     pairs = []
     for obj in list(bpy.context.scene.objects):
         is_as_seen = obj.type == "MESH" and not obj.modifiers
-        if is_as_seen or obj.type not in extension.mesh_bridge.KINDS or not obj.visible_get():
+        if is_as_seen or obj.type not in extension.mesh_bridge.KINDS or not is_in_picture(obj):
             continue
         if only_covered and not (obj.type == "MESH" and extension.mesh_bridge.covers(obj)):
             continue

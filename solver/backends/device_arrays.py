@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import CubicCraftError
 from . import taichi_runtime
+from .engine_lock import alone, check_not_forked, is_forked
 
 
 class DeviceArrays:
@@ -26,12 +27,14 @@ class DeviceArrays:
 
     def check(self):
         """Make sure that the arrays still exist."""
+        check_not_forked()
         if _present_program() is not self._program:
             raise CubicCraftError(
                 "what lay on the GPU is lost, because another add-on or another device has reset"
                 " Taichi meanwhile; run it again, or choose the device cpu"
             )
 
+    @alone
     def keep(self, values, of_numbers=False):
         """Return an array with these values; see `HostArrays`."""
         if not len(values):  # of which Taichi makes none, and which no kernel reads
@@ -48,16 +51,19 @@ class DeviceArrays:
                 ) from error
         return array
 
+    @alone
     def fetch(self, array):
         """Return the values in NumPy."""
         self.check()
         return array.to_numpy()
 
+    @alone
     def put(self, array, values):
         """Set all values."""
         self.check()
         array.from_numpy(np.ascontiguousarray(values, numpy_form(array)[1]))
 
+    @alone
     def copy(self, source, target):
         """Set all values to those of another array."""
         self.check()
@@ -86,13 +92,14 @@ def _present_program():
     return taichi_runtime.import_taichi().lang.impl.get_runtime().prog
 
 
+@alone
 def _free(arrays, program):
     """Free arrays of a program that may have ended.
 
     Taichi 1.7 frees arrays of numbers only, and those even where the program is another one by now,
     which may have something else at the same address. So each is freed here, and then forgotten.
     """
-    if _present_program() is program:
+    if not is_forked() and _present_program() is program:
         program.synchronize()  # what waits for a kernel would not be freed
         for array in arrays:
             program.delete_ndarray(array.arr)

@@ -4,11 +4,15 @@
 from functools import partial
 
 from ..errors import CubicCraftError
+from .engine_lock import ForkedError, alone
 from .numpy_local_step import NumpyLocalStep
 from .taichi_local_step import TaichiLocalStep
 from .taichi_runtime import import_taichi, quick_compilation
 
 DEVICES = ("auto", "cpu", "gpu", "numpy")
+
+_TRIES = 3
+"""runs in a row in which an installed Taichi may fail: what hinders it, such as a disk, may pass"""
 
 
 def local_step_class(device="auto", precision=None):
@@ -17,8 +21,8 @@ def local_step_class(device="auto", precision=None):
     Parameters
     ----------
     device : {"auto", "cpu", "gpu", "numpy"}
-        "cpu" and "gpu" are Taichi's; "auto" is "cpu" where Taichi works, else "numpy", for good:
-        see `problem_with_taichi`.
+        "cpu" and "gpu" are Taichi's; "auto" is "cpu" where Taichi works, else "numpy": see
+        `problem_with_taichi`.
     precision : {"f64", "f32"}, optional
         Of Taichi's kernels; by default the best that the device has. NumPy is always f64.
 
@@ -29,34 +33,44 @@ def local_step_class(device="auto", precision=None):
     """
     if device not in DEVICES:
         raise CubicCraftError(f'the device "{device}" is none of {", ".join(DEVICES)}')
-    if device == "numpy" or (device == "auto" and _problem):
+    if device == "numpy" or (device == "auto" and _tries_left == 0):
         return NumpyLocalStep
     return partial(_taichi_local_step, device, precision)
 
 
 def problem_with_taichi():
-    """Return why the device "auto" has come to mean "numpy", "" while it has not."""
+    """Return why the device "auto" means "numpy" at present, "" while it does not."""
     return _problem
 
 
 _problem = ""
+_tries_left = _TRIES
 
 
+@alone
 def _taichi_local_step(device, precision, *arguments):
+    global _problem, _tries_left
+    is_imported = False
     try:
         import_taichi()
+        is_imported = True
         with quick_compilation():
             wanted = "gpu" if device == "gpu" else "cpu"
-            return TaichiLocalStep(*arguments, device=wanted, precision=precision)
-    except (CubicCraftError, MemoryError, KeyboardInterrupt):
+            step = TaichiLocalStep(*arguments, device=wanted, precision=precision)
+    except (MemoryError, KeyboardInterrupt):
         raise
     except BaseException as error:  # a broken installation can raise anything, or want to exit
+        is_for_the_user = isinstance(error, CubicCraftError)
+        if is_for_the_user and not (device == "auto" and isinstance(error, ForkedError)):
+            raise
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
         if device != "auto":
             raise CubicCraftError(
                 f'the device "{device}" needs Taichi, which cannot be used ({reason});'
                 " choose the device auto or numpy"
             ) from error
-        global _problem
-        _problem = reason
+        _problem, _tries_left = reason, _tries_left - 1 if is_imported else 0
         return NumpyLocalStep(*arguments)
+    if device == "auto":
+        _problem, _tries_left = "", _TRIES
+    return step

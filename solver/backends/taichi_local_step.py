@@ -13,6 +13,7 @@ from ..styles.cube import CUBE
 from ..styles.local_problem import LocalProblem
 from . import taichi_runtime
 from .arrays import arrays_for
+from .engine_lock import alone
 from .face_tables import face_tables
 from .numpy_local_step import area_scale, local_captured, local_cubeness
 from .rows import HostRows
@@ -63,6 +64,7 @@ class TaichiLocalStep:
         Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
     """
 
+    @alone
     def __init__(
         self,
         rest,
@@ -153,6 +155,7 @@ class TaichiLocalStep:
         """(n,3,3) rotations, the identity at first."""
         return self.arrays.fetch(self._arguments.R)
 
+    @alone
     def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
         if setup.global_step.is_factorized and not self.arrays.is_resident:
@@ -188,6 +191,7 @@ class TaichiLocalStep:
         self.arrays.put(self._arguments.R, R)
         self.arrays.put(self._arguments.subgradients, self._rest_problem.starting(R))
 
+    @alone
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         self.start_device()
@@ -231,6 +235,7 @@ class TaichiLocalStep:
         fit, cost = problem.energy_terms(R)
         self._rows.put(rows, R, s, fit * area_scale(self._rest.areas[rows]), cost)
 
+    @alone
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
         self.start_device()

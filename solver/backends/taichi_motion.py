@@ -7,6 +7,7 @@ import numpy as np
 
 from ..motion import largest
 from . import taichi_runtime
+from .engine_lock import alone
 from .taichi_cycle import TaichiCycle
 from .warmup import warm_up
 
@@ -29,6 +30,7 @@ class TaichiMotion:
         As in `TaichiLocalStep`.
     """
 
+    @alone
     def __init__(self, setup, local, U, constraints=()):
         self._local, self._is_anchored = local, setup.is_anchored
         self._constraints = constraints
@@ -86,6 +88,7 @@ class TaichiMotion:
         for _ in range(times):
             self.step(np.zeros(len(self._centre)), np.zeros(len(self._centre)), False)
 
+    @alone
     def step(self, momentum, overshoot, keep_rotation):
         """Do one global step; see `Motion.step`."""
         constraints = self._all_constraints(keep_rotation)

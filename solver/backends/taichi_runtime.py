@@ -12,6 +12,7 @@ from pathlib import Path
 from textwrap import TextWrapper
 from typing import Any
 
+from .engine_lock import LOCK, alone, check_not_forked
 from .gpu_arch import gpu_arch
 
 _RTLD_DEEPBIND = 8  # on Linux; the value means something else on macOS
@@ -38,6 +39,7 @@ def set_cache_folder(path):
     _cache_folder = path
 
 
+@alone
 @cache
 def import_taichi() -> Any:
     """Import and return Taichi; an ImportError is raised where it is not installed.
@@ -55,6 +57,7 @@ def import_taichi() -> Any:
     return taichi
 
 
+@alone
 def start(device):
     """Start Taichi on "cpu" or "gpu", unless it runs already, and return the Runtime.
 
@@ -64,9 +67,10 @@ def start(device):
     Raises
     ------
     CubicCraftError
-        There is no GPU.
+        There is no GPU, or the process was forked after Taichi had started.
     """
     global _our_program, _our_device
+    check_not_forked()
     ti = import_taichi()
     program = ti.lang.impl.get_runtime().prog
     is_foreign = program is not None and program is not _our_program
@@ -79,7 +83,7 @@ def start(device):
             folder = tempfile.gettempdir()  # nothing is written to it, but it must be there
         options = {"offline_cache": is_cached, "offline_cache_file_path": folder}
         # It would ask a server for its newest version, and it announces itself whatever the level.
-        with _environment("TI_SKIP_VERSION_CHECK", "ON"), contextlib.redirect_stdout(None):
+        with _environment("TI_SKIP_VERSION_CHECK", "ON"), _silence(ti.lang.misc):
             ti.init(arch=arch, log_level=ti.ERROR, **options)
         _our_program, _our_device = ti.lang.impl.get_runtime().prog, device
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
@@ -111,7 +115,7 @@ def quick_compilation():
     broken. Versions of Taichi that do without are left alone.
     """
     module: Any = sys.modules.get("taichi.lang.ast.ast_transformer_utils")
-    with _quick_module_search():
+    with LOCK, _quick_module_search():
         if getattr(module, "TextWrapper", None) is not TextWrapper:
             yield
             return
@@ -150,6 +154,16 @@ def _quick_module_search():
         yield
     finally:
         inspect.getmodule = search
+
+
+@contextlib.contextmanager
+def _silence(module: Any):
+    """Let a module print nothing for a time; what others print in other threads is shown."""
+    module.print = lambda *_, **__: None
+    try:
+        yield
+    finally:
+        del module.print
 
 
 @contextlib.contextmanager

@@ -85,6 +85,71 @@ def test_edit_mode_and_no_mesh_fail_the_poll_with_a_message():
         cubify()
 
 
+def test_instances_are_not_said_to_be_nothing():
+    collection = bpy.data.collections.new("Parts")
+    collection.objects.link(add_monkey())
+    instance = bpy.data.objects.new("Instance", None)
+    instance.instance_type, instance.instance_collection = "COLLECTION", collection
+    bpy.context.scene.collection.objects.link(instance)
+    select(instance)
+    with pytest.raises(RuntimeError, match='"Instance" shows instances of a collection'):
+        cubify()
+
+
+def test_what_is_missing_with_its_file_is_said_to_be_missing(tmp_path):
+    add_monkey()
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, wanted):
+        wanted.objects = ["Suzanne"]
+    linked = bpy.data.objects["Suzanne"]
+    own = bpy.data.objects.new("Own", linked.data)
+    for obj in (linked, own):
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    library.unlink()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    for name in ("Suzanne", "Own"):
+        select(bpy.data.objects[name])
+        with pytest.raises(RuntimeError, match=f'"{name}" is linked from .*where it is missing'):
+            cubify()
+
+
+def test_absolute_shape_keys_are_refused_before_anything_is_solved(extension, monkeypatch, capfd):
+    obj = add_rich_monkey(keys=True)
+    obj.data.shape_keys.use_relative = False
+    select(obj)
+    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    monkeypatch.setattr(pipeline, "start", None)
+    with unchanged(obj, READ), pytest.raises(RuntimeError, match="has absolute shape keys"):
+        cubify(result="SHAPE_KEY")
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
+@pytest.mark.parametrize(
+    ("result", "is_deformed", "is_behind"),
+    [
+        ("MESH", False, True),
+        ("MESH", True, True),
+        ("SHAPE_KEY", False, True),
+        ("SHAPE_KEY", True, False),
+        ("NEW_OBJECT", False, False),
+    ],
+)
+def test_hair_that_does_not_follow_is_named(capfd, result, is_deformed, is_behind):
+    obj = add_monkey()
+    hair = bpy.data.objects.new("Fur", bpy.data.hair_curves.new("Fur"))
+    hair.data.surface = obj
+    bpy.context.scene.collection.objects.link(hair)
+    if is_deformed:
+        hair.modifiers.new("Deform", "NODES")
+    select(obj)
+    assert cubify(result=result, max_iterations=2) == {"FINISHED"}
+    said = "".join(capfd.readouterr())
+    assert (f'Hair "Fur" does not follow "{obj.name}"' in said) == is_behind
+
+
 def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
     obj, other = add_rich_monkey(keys=True), add_monkey("Other")
     select(other, obj)

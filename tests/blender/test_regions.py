@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Regions: vertex groups with a form, an orientation and a cubeness of their own."""
 
+import importlib
+
 import bmesh
 import bpy
 import numpy as np
@@ -170,6 +172,35 @@ def test_objects_that_are_solved_together_may_have_different_regions():
     assert bits(one) != before[0] and bits(other) != before[1]
     bpy.ops.cubic_craft.restore()
     assert [bits(one), bits(other)] == before
+
+
+def test_shares_never_add_up_to_more_than_all(extension):
+    """Where weights do, they are scaled, so the order of the regions does not matter."""
+    obj = add_ball(1)
+    weights = {"One": 1.0, "Other": 0.6, "Third": 0.4}
+    for name, weight in weights.items():
+        add_group(obj, name, lambda V, weight=weight: np.full(len(V), weight))
+        add_region(obj, name)
+    addon = f"{extension.__name__}.cubic_craft_addon"
+    settings = importlib.import_module(f"{addon}.settings.properties").settings_of(obj, handles=())
+    shares = importlib.import_module(f"{addon}.run.region_shares").region_shares(obj, settings)
+    assert shares is not None
+    np.testing.assert_allclose(shares, np.tile([0.0, 0.5, 0.3, 0.2], (len(shares), 1)), atol=1e-6)
+
+
+def test_two_regions_of_everything_are_half_of_each():
+    """With equal forms it is as one region with the mean of both cubenesses."""
+    shapes = []
+    for cubenesses in ((0.2, 0.6), (0.6, 0.2), (0.4,)):
+        obj = add_ball(3)
+        for number, cubeness in enumerate(cubenesses):
+            add_group(obj, f"All {number}", lambda V: np.ones(len(V)))
+            add_region(obj, f"All {number}", cubeness=cubeness)
+        select(obj)
+        cubify(cubeness=0.0, **OPTIONS)
+        shapes.append(position_of(obj.data))
+    for shape in shapes[1:]:
+        np.testing.assert_allclose(shape, shapes[0], atol=1e-4)
 
 
 def test_the_map_scales_regions_too():

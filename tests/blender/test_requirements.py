@@ -11,6 +11,7 @@ import pytest
 
 CODE = """
     import sys
+    sys.path[:0] = {folders}
     for name in {missing}:
         sys.modules[name] = None  # makes every import of it fail
     import bpy
@@ -23,9 +24,10 @@ CODE = """
 """
 
 
-def run(missing, then):
-    """Run code in a fresh bpy that has the installed extension."""
-    code = textwrap.dedent(CODE.format(missing=missing, then=then))
+def run(missing, then, folders=()):
+    """Run code in a fresh bpy that has the installed extension, with folders of other packages."""
+    then = textwrap.indent(textwrap.dedent(then), "    ").strip()
+    code = textwrap.dedent(CODE.format(missing=missing, then=then, folders=list(folders)))
     return subprocess.run(
         [sys.executable, "-c", code],
         capture_output=True,
@@ -44,6 +46,44 @@ def test_without_scipy_cubify_says_what_is_missing():
     done = run(["scipy"], "bpy.ops.cubic_craft.cubify()")
     assert "CubicCraft needs SciPy" in done.stderr + done.stdout
     assert "No module named" not in done.stderr + done.stdout
+
+
+BROKEN = {
+    "wholly": {"__init__.py": "raise ImportError('DLL load failed.\\nMore of it')"},
+    "in a part": {"__init__.py": "", "sparse.py": "raise ValueError('numpy.dtype size changed')"},
+}
+
+
+@pytest.mark.parametrize("how", BROKEN)
+def test_a_broken_scipy_is_named_and_changes_nothing(tmp_path, how):
+    """As another extension may bring one; the buttons are then disabled, and say the same."""
+    package = tmp_path / "scipy"
+    package.mkdir()
+    for name, code in BROKEN[how].items():
+        (package / name).write_text(code)
+    done = run(
+        [],
+        """
+        mesh = bpy.context.object.data
+        before = [tuple(v.co) for v in mesh.vertices]
+        for name in ("auto_orient", "cubify", "cubify", "live"):
+            try:
+                print(getattr(bpy.ops.cubic_craft, name)())
+            except RuntimeError as error:
+                print(name, str(error).strip().splitlines()[0])
+        print([tuple(v.co) for v in mesh.vertices] == before, len(mesh.attributes))
+        """,
+        [str(tmp_path)],
+    )
+    *lines, last = done.stdout.splitlines()[-5:]
+    reason = "DLL load failed" if how == "wholly" else "numpy.dtype size changed"
+    assert len(lines) == 4, done.stdout + done.stderr
+    for line in lines:
+        assert f"CubicCraft needs SciPy, which does not work here ({reason}): remove or" in line
+        assert f"the extension that brought {tmp_path}" in line
+    assert "poll()" in lines[-1]
+    assert last.startswith("True"), last
+    assert "Traceback" not in done.stdout + done.stderr
 
 
 def test_without_taichi_numpy_takes_over():

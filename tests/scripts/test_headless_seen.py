@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from headless import headless_shared, make_blend, run_to_blend
+from headless import headless_ok, headless_shared, make_blend, run_to_blend
 
 MAKE = """
 import sys, bpy
@@ -14,6 +14,18 @@ bpy.ops.mesh.primitive_monkey_add(location=(4, 0, 0))
 bpy.context.object.parent = bpy.data.objects["Cube"]
 bpy.ops.object.text_add(location=(0, 3, 0))
 bpy.context.object.data.extrude = 0.1
+bpy.ops.mesh.primitive_uv_sphere_add()
+bpy.context.object.name = "Cutter"
+bpy.context.object.hide_render = True
+cut = bpy.data.objects["Suzanne"].modifiers.new("Cut", "BOOLEAN")
+cut.object, cut.show_viewport = bpy.context.object, False
+bpy.ops.mesh.primitive_uv_sphere_add()
+bpy.context.object.name = "In Tools"
+tools = bpy.data.collections.new("Tools")
+tools.hide_render = True
+bpy.context.scene.collection.children.link(tools)
+bpy.context.collection.objects.unlink(bpy.context.object)
+tools.objects.link(bpy.data.objects["In Tools"])
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """
 FAST = ("--device", "numpy", "--max-iterations", 20, "--together", "parts")
@@ -89,3 +101,10 @@ def test_no_picture_of_the_original_is_passed_off_as_a_result(tmp_path):
     assert refused.returncode == 2 and not (tmp_path / "p.png").exists()
     line = refused.stderr.splitlines()[-1]
     assert '"Suzanne": one of its modifiers' in line and "--with-modifiers" in line
+
+
+def test_what_is_not_rendered_is_left_out(source, tmp_path):
+    """As what a Boolean modifier cuts with; the reports of both tests above do not have it."""
+    done = headless_ok(source, *FAST, "--no-render", "--report", "report.json", cwd=tmp_path)
+    for name in ("Cutter", "In Tools"):
+        assert f'"{name}" is left out: it is hidden, is not rendered or has no faces' in done.stderr

@@ -30,6 +30,7 @@ ALLOWED = {
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("solver/optional_packages.py", "import_module"),  # packages named in our code
     ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
+    ("solver/backends/engine_lock.py", "ctypes"),  # keeps Taichi's program for ever
     ("solver/memory.py", "ctypes"),  # asks Windows how much memory is free
     ("scripts/headless/extension.py", "import_module"),  # the extension beside the script
     ("scripts/headless/extension.py", "spec_from_file_location"),

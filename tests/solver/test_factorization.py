@@ -10,6 +10,7 @@ from optional_marks import needs
 
 from solver import factorization
 from solver.cotangents import cotangents
+from solver.optional_packages import optional_package
 from solver.spokes_and_rims import spokes_and_rims
 
 
@@ -25,6 +26,18 @@ def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
     X = solve(B)
     np.testing.assert_allclose(X, np.linalg.solve(A.toarray(), B), rtol=1e-7, atol=1e-8)
     np.testing.assert_array_equal(X, solve(B))
+
+
+def test_a_broken_cholespy_is_done_without(monkeypatch):
+    monkeypatch.setattr(factorization, "optional_package", lambda name: factorization)
+    A = sp.csr_matrix(np.diag([1.0, 2.0, 4.0]))
+    np.testing.assert_allclose(factorization.factorize(A)(np.eye(3)), np.diag([1.0, 0.5, 0.25]))
+
+
+def test_a_folder_left_behind_is_no_package(tmp_path, monkeypatch):
+    (tmp_path / "of_a_package_that_is_gone").mkdir()
+    monkeypatch.syspath_prepend(tmp_path)
+    assert optional_package("of_a_package_that_is_gone") is None
 
 
 @needs("cholespy")

@@ -11,6 +11,7 @@ import sys
 import textwrap
 from pathlib import Path
 
+import pytest
 from taichi_marks import needs_taichi
 
 ROOT = Path(__file__).parents[2]
@@ -160,6 +161,87 @@ def test_quick_compilation_changes_no_bit_and_leaves_taichi_as_it_was(tmp_path):
         assert ast_transformer_utils.TextWrapper is TextWrapper
         """
     )
+
+
+@needs_taichi
+def test_threads_may_be_the_first_to_use_it():
+    """Whatever is replaced for a time is put back, and each gets what it would get alone."""
+    output = passes(
+        """
+        import inspect, os
+        from concurrent.futures import ThreadPoolExecutor
+        from solver import problem_with_taichi
+        before = sys.stdout, inspect.getmodule, dict(os.environ)
+        def one(scale):
+            return stylize(scale * V * (1, 1, scale), F, max_iterations=3)
+        scales = (1.0, 1.1, 1.2, 1.3)
+        with ThreadPoolExecutor(4) as threads:
+            together = list(threads.map(one, scales))
+        assert (sys.stdout, inspect.getmodule, dict(os.environ)) == before
+        assert problem_with_taichi() == ""
+        for scale, result in zip(scales, together):
+            assert result.device == "taichi-cpu"
+            np.testing.assert_array_equal(result.positions, one(scale).positions)
+        """
+    )
+    assert output == ""
+
+
+@needs_taichi
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+def test_a_forked_process_has_numpy_instead_of_waiting_for_threads():
+    """Also one whose parent is in the middle of a run, and it ends as any other."""
+    output = passes(
+        """
+        import os, signal, threading, warnings
+        from solver import Setup, Stylization, problem_with_taichi, rest_mesh
+        warnings.simplefilter("ignore")  # newer versions of Python warn of forks beside threads
+        def in_child(work):
+            child = os.fork()
+            if child:
+                assert os.waitpid(child, 0)[1] == 0
+                return
+            signal.alarm(60)  # ends it if it waits
+            work()
+            sys.exit(0)
+        def new_run(device):
+            assert stylize(V, F, max_iterations=2).device == device
+        def go_on():
+            for step in (stylization.step, lambda: stylize(V, F, device="cpu")):
+                try:
+                    step()
+                except ValueError as error:
+                    assert "forked" in str(error) and "\\n" not in str(error)
+                else:
+                    raise AssertionError("not refused")
+        def all_of_it():
+            new_run("numpy")
+            assert "forked" in problem_with_taichi()
+            go_on()
+
+        in_child(lambda: new_run("taichi-cpu"))  # it has not started yet
+        stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="cpu")
+        stylization.step()
+        in_child(all_of_it)
+        in_child(lambda: None)
+        stylization.step()
+        new_run("taichi-cpu")
+
+        # a fork waits for what another thread does
+        from solver.backends.engine_lock import LOCK
+        inside, leave = threading.Event(), threading.Event()
+        def hold():
+            with LOCK:
+                inside.set()
+                leave.wait(0.2)
+        thread = threading.Thread(target=hold)
+        thread.start()
+        inside.wait()
+        in_child(all_of_it)
+        thread.join()
+        """
+    )
+    assert output == ""
 
 
 def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):

@@ -14,6 +14,7 @@ import re
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import bpy
 import numpy as np
@@ -27,7 +28,10 @@ ROTATION = "cubic_craft_rotation"
 LIVE = "cubic_craft_live"
 KEY = "cubic_craft_key"
 
-_ENDINGS = r"\.position|\.key\d+|\.written|\.mark|\.base"
+NORMALS = f"{ORIGINAL}.normals"
+"""as `free_normals`, on points, corners or faces; all others are on points"""
+
+_ENDINGS = r"\.position|\.normals|\.key\d+|\.written|\.mark|\.base"
 _NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
 
 
@@ -64,19 +68,22 @@ def check_names(mesh: bpy.types.Mesh) -> None:
             )
 
 
-def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
-    """Add a point attribute.
+def add_attribute(
+    mesh: bpy.types.Mesh, name: str, values: np.ndarray, domain: Any = "POINT"
+) -> None:
+    """Add an attribute.
 
     Parameters
     ----------
     mesh : the mesh, not in Edit Mode, without an attribute of that name
     name : name of the attribute
     values : (n,3) numpy float32 array of vectors, or (n,4) of quaternions
+    domain : what they belong to
     """
     with active_kept(mesh):
         data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"
         free = free_name()
-        mesh.attributes.new(free, data_type, "POINT")
+        mesh.attributes.new(free, data_type, domain)
         mesh.attributes[free].name = name
         attribute = mesh.attributes[name]
         if isinstance(attribute, bpy.types.FloatVectorAttribute):
@@ -93,17 +100,19 @@ def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
         mesh.attributes.remove(mesh.attributes[free])
 
 
-def read_attribute(mesh: bpy.types.Mesh, name: str, size: int) -> np.ndarray | None:
-    """Read a point attribute of vectors (size 3) or quaternions (size 4).
+def read_attribute(
+    mesh: bpy.types.Mesh, name: str, size: int, domain: str = "POINT"
+) -> np.ndarray | None:
+    """Read an attribute of vectors (size 3) or quaternions (size 4).
 
     Returns
     -------
     (n,size) numpy float32 array, or None if there is no such attribute of that kind
     """
     attribute = mesh.attributes.get(name)
-    if attribute is None or attribute.domain != "POINT":
+    if attribute is None or attribute.domain != domain:
         return None
-    values = np.empty((len(mesh.vertices), size), np.float32)
+    values = np.empty((len(attribute.data), size), np.float32)
     if size == 3 and isinstance(attribute, bpy.types.FloatVectorAttribute):
         attribute.data.foreach_get("vector", values.reshape(-1))
     elif size == 4 and isinstance(attribute, bpy.types.QuaternionAttribute):
@@ -127,7 +136,8 @@ def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
 
 def _is_ours(attribute: bpy.types.Attribute) -> bool:
     """Return whether an attribute with one of our names is ours."""
-    return attribute.domain == "POINT" and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
+    is_in_domain = attribute.domain == "POINT" or attribute.name == NORMALS
+    return is_in_domain and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
 
 
 def free_name() -> str:

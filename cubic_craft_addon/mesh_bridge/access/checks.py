@@ -33,12 +33,17 @@ def check_usable(obj: bpy.types.Object) -> None:
         attributes.
     """
     mesh = mesh_of(obj)
+    if mesh.is_editmode and obj.mode != "EDIT":
+        raise CubicCraftError(
+            f'"{obj.name}" shares its mesh with an object that is in Edit Mode: go back to Object '
+            "Mode first"
+        )
     check_writable(mesh, obj.name)
     if obj.mode == "SCULPT":
         # Sculpt Mode keeps its own copy of what it edits.
         raise CubicCraftError(f'"{obj.name}" is in Sculpt Mode: go back to Object Mode first')
     if obj.users_scene and not obj.visible_get():  # objects in no scene are ours, see `make_seen`
-        raise CubicCraftError(f'"{obj.name}" is hidden: show it and its collection first')
+        raise CubicCraftError(f'"{obj.name}" {_why_hidden(obj)}')
     if len(mesh.vertices) < 3:
         raise CubicCraftError(
             f'"{obj.name}" has fewer than 3 vertices: add geometry with faces first'
@@ -61,9 +66,38 @@ def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
     """
     if not isinstance(obj.data, bpy.types.Mesh):
         raise CubicCraftError(
-            f'"{obj.name}" is not a mesh: select a mesh or convert it (Object > Convert > Mesh)'
+            why_no_mesh(obj)
+            or f'"{obj.name}" is not a mesh: select a mesh or convert it (Object > Convert > Mesh)'
         )
     return obj.data
+
+
+def why_no_mesh(obj: bpy.types.Object) -> str:
+    """Return why an object that looks like a mesh, or was one, is none; empty for others."""
+    if obj.is_missing:
+        return _missing(obj, obj.name)
+    if obj.instance_type == "COLLECTION" and obj.instance_collection is not None:
+        return (
+            f'"{obj.name}" shows instances of a collection, not a mesh of its own: make them real '
+            "first (Object > Apply > Make Instances Real)"
+        )
+    return ""
+
+
+def check_relative_keys(obj: bpy.types.Object) -> None:
+    """Check that a mesh object can take a shape key as a result.
+
+    Raises
+    ------
+    CubicCraftError
+        It has absolute shape keys.
+    """
+    keys = mesh_of(obj).shape_keys
+    if keys is not None and not keys.use_relative:
+        raise CubicCraftError(
+            f'"{obj.name}" has absolute shape keys, which have no value to adjust: enable '
+            "Relative (Object Data > Shape Keys) or choose another result"
+        )
 
 
 def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
@@ -74,8 +108,10 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     Raises
     ------
     CubicCraftError
-        Linked or overridden data, or Edit Mode.
+        Linked, missing or overridden data, or Edit Mode.
     """
+    if mesh.is_missing:
+        raise CubicCraftError(_missing(mesh, name))
     if is_linked(mesh):
         raise CubicCraftError(
             f'"{name}" has mesh data linked from another file: make it local first '
@@ -110,3 +146,21 @@ def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
                 f'"{name}" has coordinates that are not finite{where} (vertex {broken[0]}, '
                 f"the first of {len(broken)}): delete those vertices in Edit Mode first"
             )
+
+
+def _why_hidden(obj: bpy.types.Object) -> str:
+    if obj.name not in bpy.context.view_layer.objects:
+        return "is not in this view layer: show its scene, or enable its collection there first"
+    if obj.hide_viewport:
+        return "is hidden in viewports: click its monitor icon in the Outliner first"
+    if obj.hide_get():
+        return "is hidden: show it first (Object > Show/Hide > Show Hidden Objects)"
+    return "is in a hidden collection: show the collection first"
+
+
+def _missing(block: bpy.types.ID, name: str) -> str:
+    path = block.library.filepath if block.library is not None else "another file"
+    return (
+        f'"{name}" is linked from {path}, where it is missing: bring the file back, or set its '
+        "path (Outliner > Blender File)"
+    )

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The solver's arrays prepared for writing: rounded and checked, with no needless changes."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
+from .free_normals import turned
 from .rotations import quaternions_from_matrices
 from .shapes import Shapes, carry
 
@@ -70,7 +73,7 @@ def rotations_for_storage(
 def carry_finite(
     mesh: bpy.types.Mesh, original: Shapes, base: np.ndarray, rotations: np.ndarray
 ) -> Shapes:
-    """Do what `carry` does, and refuse shape keys that have become infinite.
+    """Do what `carry` does, turn the free normals, and refuse shape keys that became infinite.
 
     Raises
     ------
@@ -80,7 +83,9 @@ def carry_finite(
     carried = carry(original, base, rotations)
     for name, points in carried.keys.items():
         check_shape(mesh, points, base.shape, f'shape key "{name}"')
-    return carried
+    if original.normals is None:
+        return carried
+    return replace(carried, normals=turned(mesh, original.normals, rotations))
 
 
 def check_shape(mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...], what: str) -> None:

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All shapes of a mesh: its positions and shape keys, and how keys follow the base."""
+"""All shapes of a mesh: positions, shape keys and free normals, and how keys follow the base."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
 from .arrays import mark_moved, read_key, read_position, write_key, write_position
+from .free_normals import read_free_normals, write_free_normals
 
 
 @dataclass(frozen=True)
@@ -16,12 +17,14 @@ class Shapes:
 
     `keys` and `relative` go by the names of the shape keys. Every key but the reference (the
     first) is in `relative`, in an order in which the key that it is relative to comes before it.
+    `normals` are the free normals (see `free_normals`), None if there are none, or to leave them.
     """
 
     position: np.ndarray
     keys: dict[str, np.ndarray]
     reference: str | None
     relative: dict[str, str]
+    normals: np.ndarray | None = None
 
     @property
     def base(self) -> np.ndarray:
@@ -34,7 +37,7 @@ def read_shapes(mesh: bpy.types.Mesh, skip: bpy.types.ShapeKey | None = None) ->
     position = read_position(mesh)
     blocks = mesh.shape_keys.key_blocks if mesh.shape_keys is not None else ()
     keys = {key.name: read_key(mesh, key) for key in blocks if key != skip}
-    return assembled(mesh, position, keys)
+    return replace(assembled(mesh, position, keys), normals=read_free_normals(mesh))
 
 
 def assembled(mesh: bpy.types.Mesh, position: np.ndarray, keys: dict[str, np.ndarray]) -> Shapes:
@@ -53,6 +56,8 @@ def write_shapes(mesh: bpy.types.Mesh, shapes: Shapes) -> None:
         for name, points in shapes.keys.items():
             write_key(mesh.shape_keys.key_blocks[name], points)
     write_position(mesh, shapes.position)
+    if shapes.normals is not None:
+        write_free_normals(mesh, shapes.normals)
     mark_moved(mesh)
 
 
@@ -65,7 +70,8 @@ def carry(
     """Move the base, and every shape key with it.
 
     Each key keeps its offset from the key that it is relative to, turned by the rotation of its
-    vertex. Where nothing moves and nothing turns, a key keeps its bits.
+    vertex. Where nothing moves and nothing turns, a key keeps its bits. The free normals are left
+    out.
 
     Parameters
     ----------

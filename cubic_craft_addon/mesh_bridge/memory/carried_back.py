@@ -54,7 +54,7 @@ def carry_back(
     keys = {present.reference: base}
     if not present.relative:
         return keys
-    back = _ways_back(recognised, quaternions, len(base))
+    back = ways_back(recognised, quaternions, len(base))
     is_flattened = _is_flattened(recognised, len(base))
     for name, other in present.relative.items():
         if name in known:
@@ -78,7 +78,8 @@ def carry_back(
     return keys
 
 
-def _ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: int) -> _Turned:
+def ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: int) -> _Turned:
+    """Return the maps that carry offsets back, which a result was written with (n,4) rotations."""
     alone = np.broadcast_to(np.eye(3), (count, 3, 3))
     if quaternions is not None:
         # Vertices of meshes that were joined, or made in between, may have no rotation.

@@ -7,6 +7,7 @@ or in parts, the original is transformed alike. If vertices have been moved by h
 choose to start from there or from the original (`Start`).
 """
 
+from dataclasses import replace
 from typing import Any, Literal
 
 import bpy
@@ -15,6 +16,7 @@ import numpy as np
 from ....solver.errors import CubicCraftError
 from ..access.arrays import read_key, read_position
 from ..access.attributes import (
+    NORMALS,
     ORIGINAL,
     ROTATION,
     add_attribute,
@@ -23,9 +25,10 @@ from ..access.attributes import (
     remove_attribute,
 )
 from ..access.fingerprint import fingerprint
+from ..access.free_normals import domain_of_free_normals, turned
 from ..access.note import read_note, write_note
 from ..access.shapes import Shapes, read_shapes
-from .carried_back import carry_back
+from .carried_back import carry_back, ways_back
 from .cubic_key import find_cubic_key
 from .marks import make_marks
 from .recognition import UNCHANGED, Recognised, recognise
@@ -139,6 +142,12 @@ def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
     recognised = _start_of(mesh, start)
     if recognised is None:
         return present
+    shapes = _shapes_before(mesh, present, recognised)
+    return replace(shapes, normals=_normals_before(mesh, present, recognised))
+
+
+def _shapes_before(mesh: bpy.types.Mesh, present: Shapes, recognised: Recognised) -> Shapes:
+    """Return the positions and the shape keys as they were before a result."""
     stored_base = _stored_base(mesh)
     base = recognised.moved(stored_base, present.base)
     if present.reference is None:
@@ -157,6 +166,21 @@ def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
     position = read_attribute(mesh, _POSITION, 3) if recognised.is_whole else None
     position = base if position is None else recognised.moved(position, present.position)
     return Shapes(position, keys, present.reference, present.relative)
+
+
+def _normals_before(
+    mesh: bpy.types.Mesh, present: Shapes, recognised: Recognised
+) -> np.ndarray | None:
+    """Return the free normals as they were before a result; those that are new are turned back."""
+    noted = read_note(mesh).get("mesh", {}).get("normals")
+    if present.normals is None or noted is None:  # a version that did not turn them wrote it
+        return present.normals
+    stored = read_attribute(mesh, NORMALS, 3, domain_of_free_normals(mesh) or "")
+    if stored is not None and noted == fingerprint(present.normals):
+        return stored
+    quaternions = read_attribute(mesh, ROTATION, 4)
+    back = ways_back(recognised, quaternions, len(mesh.vertices))
+    return turned(mesh, present.normals, back.with_mesh)
 
 
 def store_original(
@@ -183,7 +207,10 @@ def store_original(
         add_attribute(mesh, attribute, original.keys[name])
         seen = fingerprint(written.keys[name])
         entries.append({"name": name, "fingerprint": seen, "attribute": attribute})
-    result = {"fingerprint": fingerprint(written.base), "keys": entries}
+    result = {"fingerprint": fingerprint(written.base), "keys": entries, "normals": ""}
+    if original.normals is not None and written.normals is not None:
+        add_attribute(mesh, NORMALS, original.normals, domain_of_free_normals(mesh))
+        result["normals"] = fingerprint(written.normals)
     write_note(mesh, read_note(mesh) | {"mesh": result})
 
 

@@ -54,7 +54,8 @@ class Preview:
         end_preview(mesh)
         cubic_key = find_cubic_key(mesh)
         self._cubic_key = cubic_key.name if cubic_key is not None else None
-        self._original = original_shapes(mesh, start)
+        # A preview moves no free normals, which it would have to store first.
+        self._original = replace(original_shapes(mesh, start), normals=None)
         self._loose = loose_vertices(mesh)
         self._keys = _key_names(mesh)
         present = read_shapes(mesh)

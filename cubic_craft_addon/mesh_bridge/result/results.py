@@ -10,10 +10,9 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ....solver.errors import CubicCraftError
 from ..access.arrays import loose_vertices, mark_moved
 from ..access.attributes import check_names
-from ..access.checks import check_writable, mesh_of
+from ..access.checks import check_relative_keys, check_writable, mesh_of
 from ..access.rotations import matrices_from_quaternions
 from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from ..access.shapes import write_shapes
@@ -87,11 +86,7 @@ def write_shape_key(
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
-    if mesh.shape_keys is not None and not mesh.shape_keys.use_relative:
-        raise CubicCraftError(
-            f'"{obj.name}" has absolute shape keys, which have no value to adjust: enable '
-            "Relative (Object Data > Shape Keys) or choose another result"
-        )
+    check_relative_keys(obj)
     end_preview(mesh)
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, start)

@@ -16,8 +16,8 @@ from ..memory.cubic_key import remove_keys
 def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Undo what the block did to the mesh if it raises.
 
-    It covers the positions, the points of shape keys, added shape keys, our attributes and
-    the note. It cannot restore removed shape keys: remove those last.
+    It covers the positions, the points of shape keys, free normals, added shape keys, our
+    attributes and the note. It cannot restore removed shape keys: remove those last.
     """
     state = _State(mesh)
     try:
@@ -36,10 +36,11 @@ class _State:
         self.note = read_note(mesh)
         self.ours = {}
         for name in our_attributes(mesh):
+            domain = mesh.attributes[name].domain
             for size in (3, 4):
-                values = read_attribute(mesh, name, size)
+                values = read_attribute(mesh, name, size, domain)
                 if values is not None:
-                    self.ours[name] = values
+                    self.ours[name] = values, domain
 
     def put_back(self) -> None:
         """Undo all changes since the state was taken."""
@@ -49,7 +50,7 @@ class _State:
             remove_keys(mesh, added[::-1])
         for name in our_attributes(mesh):
             remove_attribute(mesh, name)
-        for name, values in self.ours.items():
-            add_attribute(mesh, name, values)
+        for name, (values, domain) in self.ours.items():
+            add_attribute(mesh, name, values, domain)
         write_note(mesh, self.note)
         write_shapes(mesh, self.shapes)

@@ -38,7 +38,7 @@ def test_edit_mode_of_another_user_of_the_mesh(bridge, error, plain_monkey):
     twin = bpy.data.objects.new("Twin", plain_monkey.data)
     bpy.context.collection.objects.link(twin)
     bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(error, match='"Twin" is in Edit Mode'):
+    with pytest.raises(error, match='"Twin" shares its mesh with an object that is in Edit Mode'):
         bridge.check_editable(twin)
 
 
@@ -74,17 +74,18 @@ def test_hidden(bridge, error, monkey):
     collection.objects.link(monkey)
     bpy.context.scene.collection.objects.unlink(monkey)
     layer = bpy.context.view_layer.layer_collection.children["Room"]
-    for hide, value in (
-        (lambda v: monkey.hide_set(v), True),
-        (lambda v: setattr(monkey, "hide_viewport", v), True),
-        (lambda v: setattr(collection, "hide_viewport", v), True),
-        (lambda v: setattr(layer, "exclude", v), True),
+    for hide, reason in (
+        (lambda v: monkey.hide_set(v), "is hidden: show it"),
+        (lambda v: setattr(monkey, "hide_viewport", v), "is hidden in viewports"),
+        (lambda v: setattr(collection, "hide_viewport", v), "is in a hidden collection"),
+        (lambda v: setattr(layer, "hide_viewport", v), "is in a hidden collection"),
+        (lambda v: setattr(layer, "exclude", v), "is not in this view layer"),
     ):
         bridge.check_editable(monkey)
-        hide(value)
-        with pytest.raises(error, match='"Suzanne" is hidden: show it'):
+        hide(True)
+        with pytest.raises(error, match=f'"Suzanne" {reason}'):
             bridge.check_editable(monkey)
-        hide(not value)
+        hide(False)
     bridge.check_editable(monkey)
 
 
