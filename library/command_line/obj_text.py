@@ -16,6 +16,7 @@ __all__ = ("ObjText",)
 
 PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
+_WITH_NAMES = ("o", "g", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj")
 _MOST_DECIMALS = 100  # rounding would overflow
 
 
@@ -111,14 +112,18 @@ class ObjText:
 
 
 def _logical_lines(text: str) -> list[str]:
-    """Return the lines, those that end in a backslash joined."""
+    """Return the lines, those of numbers that end in a backslash joined.
+
+    A name in another encoding may end in the byte of a backslash, and a comment in a path.
+    """
     lines, pending = [], ""
-    for line in text.split("\n"):
-        if line.endswith("\\") and "#" not in pending + line:
-            pending += line[:-1] + " "
-            continue
-        lines.append(pending + line)
-        pending = ""
+    for end in text.split("\n"):
+        line, pending = pending + end, ""
+        is_continued = line.endswith("\\") and "#" not in line
+        if is_continued and line.split(None, 1)[0] not in _WITH_NAMES:
+            pending = line[:-1] + " "
+        else:
+            lines.append(line)
     if pending:
         lines.append(pending)
     if lines and not lines[-1]:  # behind the last newline

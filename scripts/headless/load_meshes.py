@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
+import contextlib
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,9 @@ import bpy
 from .blender_operator import operator, reason
 from .errors import InputError
 from .extension import Extension
+from .far_away import warn_if_rounded
 from .finite_check import refuse_infinite
+from .obj_copy import readable_copy
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .quiet import captured
 from .seen_objects import show_as_meshes
@@ -81,14 +84,20 @@ def load(
     if path is None:
         return Loaded(_choose([_monkey()], name, "Blender's monkey"))
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
-    with captured(verbose):
-        _import(path, layout)
+    with captured(verbose), contextlib.ExitStack() as copies:
+        source = path
+        if layout is not None and not layout.is_plain:
+            copy = readable_copy(path, layout.encoding, layout.offset)
+            source = copies.enter_context(copy)
+        _import(path, source, layout)
         bpy.context.view_layer.update()
     if seen_by is not None:
         show_as_meshes(seen_by)
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if layout is not None:
         match_objects(layout, found)
+    else:
+        warn_if_rounded(path, found)
     if path.suffix.lower() in (".glb", ".gltf"):
         for mesh in {obj.data for obj in found}:
             weld(mesh)
@@ -105,8 +114,8 @@ def _monkey() -> bpy.types.Object:
     return monkey
 
 
-def _import(path: Path, layout: ObjLayout | None) -> None:
-    """Run Blender's importer for the file."""
+def _import(path: Path, source: Path, layout: ObjLayout | None) -> None:
+    """Run Blender's importer for the file, or for a copy of it."""
     suffix = path.suffix.lower()
     if suffix in (".ply", ".stl"):
         refuse_infinite(path)
@@ -120,7 +129,7 @@ def _import(path: Path, layout: ObjLayout | None) -> None:
     elif suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
         name = "import_scene.fbx"
     try:
-        result = operator(name, path)(filepath=str(path.resolve()), **how)
+        result = operator(name, path)(filepath=str(source.resolve()), **how)
     except RuntimeError as error:
         raise InputError(f"{path}: cannot be read ({reason(error)}); export it again") from error
     if "FINISHED" not in result:

@@ -63,6 +63,7 @@ def _run(
         loaded.capture = make_form(capture, options.capture.stem) if capture else None
     if options.bake:
         _bake(loaded, options, extension, bar, seconds, begin)
+        _say_if_moved(loaded, options.bake, bar)
         return
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
@@ -75,6 +76,7 @@ def _run(
             paths = per_cubeness(options.save_mesh, options.cubeness)
             save_meshes(paths, sculptures, loaded, extension, options.verbose)
             bar.say(f"wrote {', '.join(map(str, paths))}")
+            _say_if_moved(loaded, options.save_mesh, bar)
     with _timed("render", seconds):
         if options.output:
             gallery = build_gallery(sculptures, options, extension)
@@ -104,6 +106,14 @@ def _bake(
     if options.report:
         write_animation_report(options.report, animation, options, extension, seconds)
         bar.say(f"wrote {options.report}")
+
+
+def _say_if_moved(loaded: Loaded, path: Path, bar: ProgressBar) -> None:
+    """Say of a file that lies far away what formats of 32 bits cannot hold."""
+    layout = loaded.obj_layout
+    if layout is not None and layout.offset.any() and path.suffix.lower() != ".obj":
+        offset = " ".join(f"{x:.16g}" for x in layout.offset)
+        bar.warn(f"{path}: lies at the origin, as 32 bits are too few at {offset} in the .obj file")
 
 
 @contextlib.contextmanager
