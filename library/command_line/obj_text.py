@@ -18,6 +18,7 @@ PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
 _WITH_NAMES = ("o", "g", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj")
 _MOST_DECIMALS = 100  # rounding would overflow
+_MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 
 
 class ObjText:
@@ -102,8 +103,8 @@ class ObjText:
             index = int(word.partition("/")[0])
         except ValueError:
             raise self._error(number, f"{word!r} is no corner of a face") from None
-        if index == 0 or index < -count:
-            raise self._error(number, f"there is no vertex {index}")
+        if index == 0 or not -count <= index <= _MOST_VERTICES:
+            raise self._error(number, f"there is no vertex {word.partition('/')[0]}")
         return index - 1 if index > 0 else count + index
 
     def _error(self, number: int, reason: str) -> InputError:
