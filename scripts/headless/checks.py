@@ -74,7 +74,10 @@ def check_batch(options: Namespace) -> None:
             options.output,
             "--output: is for one file; in --output-folder pictures are named as their inputs",
         ),
-        (options.error_file, "--error-file: is for one file; here --report has all that failed"),
+        (
+            options.error_file and not options.only,
+            "--error-file: is for one file, or --only; here --report has all that failed",
+        ),
         (options.part, "--part: is for one file"),
         (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
         (
@@ -92,6 +95,7 @@ def check_batch(options: Namespace) -> None:
             raise InputError(f"{path}: there is no such file or folder; check the path")
         if not path.is_dir():
             _check_format(path)
+            _check_regular(path)
     if options.save_mesh is not None:
         _check_ending("--save-mesh", options.save_mesh)
         _check_mesh_suffix(Path(f"name{options.save_mesh}"))
@@ -101,8 +105,9 @@ def check_batch(options: Namespace) -> None:
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report:
         _check_suffix("--report", report, (".json",))
-        if report.parent.resolve() != folder.resolve():  # which is made later
-            check_writable("--report", [report])
+    for option, path in (("--report", report), ("--error-file", options.error_file)):
+        if path and path.parent.resolve() != folder.resolve():  # which is made later
+            check_writable(option, [path])
 
 
 def refuse_empty(path: Path) -> None:
@@ -173,8 +178,15 @@ def _check_format(path: Path) -> None:
         raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
 
 
+def _check_regular(path: Path) -> None:
+    """Refuse a pipe and a device, which may have no end."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise InputError(f"{path}: is no regular file; give a file")
+
+
 def _check_input(path: Path) -> None:
     _check_format(path)
+    _check_regular(path)
     try:
         with path.open("rb"):
             pass
