@@ -162,7 +162,9 @@ def _fitting(
     """Return the mesh with its new positions as far as a format can hold it."""
     mesh, surface = file.mesh, file.surface
     dtype = np.float32 if kind.is_float32 or mesh.points.dtype.itemsize == 4 else np.float64
-    if np.abs(positions).max(initial=0.0) > np.finfo(dtype).max:
+    with np.errstate(over="ignore"):
+        is_held = np.isfinite(positions.astype(dtype)).all()
+    if not is_held:
         raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
     cells = [(block.type, _native(block.data)) for block in mesh.cells]
     cell_data = {name: [_native(x) for x in data] for name, data in mesh.cell_data.items()}
