@@ -23,11 +23,12 @@ from headless.batch.run import run_batch  # noqa: E402
 from headless.checks import refuse_empty  # noqa: E402
 from headless.errors import InputError  # noqa: E402
 from headless.extension import read_version  # noqa: E402
-from headless.interruption import end_on_signals, end_with_input  # noqa: E402
+from headless.interruption import before_ending, end_on_signals, end_with_input  # noqa: E402
 from headless.one_line import one_line  # noqa: E402
-from headless.output_files import replacing  # noqa: E402
+from headless.output_files import remove_left_behind, replacing, written  # noqa: E402
 from headless.quiet import mute_stdout  # noqa: E402
 from headless.threads import thread_variables  # noqa: E402
+from headless.watched_process import Limits, end_processes, finish, start  # noqa: E402
 
 IS_INSIDE_BLENDER = "bpy" in sys.modules
 PROGRAM = "headless_render.py"
@@ -72,23 +73,27 @@ def main() -> int:
     begin = time.perf_counter()
     try:
         options = parse(arguments_of_script())
-        if options.worker:
+        if options.worker or options.limited:
             end_with_input()
         mute_stdout(options.verbose)
         if options.output_folder:
             return run_batch(options, command_of_worker, read_version(ROOT), PROGRAM, begin)
-        run_one(options, begin)
+        return run_one(options, begin)
     except InputError as error:
         print(f"{PROGRAM}: error: {one_line(str(error))}", file=sys.stderr)
         return 2
-    return 0
 
 
-def run_one(options: Namespace, begin: float) -> None:
-    """Run with one file, or the monkey; with --error-file say there why it cannot be used."""
+def run_one(options: Namespace, begin: float) -> int:
+    """Run with one file, or the monkey; with --error-file say there why it cannot be used.
+
+    Returns the exit code.
+    """
     try:
         if options.input is not None:
             refuse_empty(options.input)
+        if (options.timeout or options.memory) and not options.limited:
+            return run_limited(options)
         os.environ.update(thread_variables(options.threads))
         # Late, because it takes Blender a second to start: --help and mistyped options need none.
         from headless.pipeline import run
@@ -102,6 +107,29 @@ def run_one(options: Namespace, begin: float) -> None:
         print(f"{PROGRAM}: {one_line(str(error))}", file=sys.stderr)
         with replacing(options.error_file) as temporary:
             temporary.write_text(f"{error}\n", encoding="utf-8")
+    return 0
+
+
+def run_limited(options: Namespace) -> int:
+    """Run with one file in another process, and return its exit code.
+
+    Raises
+    ------
+    InputError
+        It has exceeded a limit.
+    """
+    before_ending(end_processes)
+    command = [word or sys.executable for word in command_of_worker(options.threads)]
+    process = start([*command, *arguments_of_script(), "--limited"])
+    exceeded = finish(process, Limits(options.timeout, options.memory))
+    pictures_and_meshes = (options.output, options.turntable, options.save_mesh, options.cubeness)
+    for path in (*written(*pictures_and_meshes), options.bake, options.report):
+        if path is not None:
+            remove_left_behind(path)
+    if exceeded:
+        raise InputError(f"{options.input or 'monkey'}: {exceeded}")
+    code = process.returncode
+    return code if code >= 0 else 128 - code
 
 
 if __name__ == "__main__":

@@ -22,6 +22,8 @@ class Format(NamedTuple):
     is_float32: bool = False
     options: dict[str, bool] = {}
     """of the writer"""
+    writer: str = ""
+    """as meshio calls it, if not by the name"""
 
 
 FORMATS = {
@@ -29,6 +31,9 @@ FORMATS = {
     ".ply": Format("ply", has_polygons=True, has_point_data=True),
     ".stl": Format("stl", has_polygons=False, is_float32=True, options={"binary": True}),
     ".off": Format("off", has_polygons=False),
-    ".vtk": Format("vtk", has_polygons=True, has_point_data=True, has_cell_data=True),
+    # What meshio writes as version 5.1 has types of data that VTK does not read.
+    ".vtk": Format(
+        "vtk", has_polygons=True, has_point_data=True, has_cell_data=True, writer="vtk42"
+    ),
     ".vtu": Format("vtu", has_polygons=True, has_point_data=True, has_cell_data=True),
 }

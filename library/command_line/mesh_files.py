@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Read and write mesh files through meshio; see `obj_text` and `ply_header` for what it gets wrong.
+"""Read and write mesh files through meshio.
+
+See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong.
 
 meshio prints its messages, and ends the process where a file cannot be read. Here they become
 errors, and notes of what a format cannot hold.
@@ -16,16 +18,19 @@ from typing import Any
 import meshio
 import numpy as np
 
+from .decompression import within_memory
 from .errors import InputError
 from .formats import FORMATS, Format
 from .obj_text import ObjText
 from .ply_header import readable_ply
 from .surface import Surface
+from .vtk_file import read_vtk, with_quoted_names
 
 __all__ = ("MeshFile", "read", "write")
 
 _FACES = ("triangle", "quad", "polygon")
 _NORMALS = ("nx", "ny", "nz")
+_LARGEST = 1e75  # the fourth power is finite
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,7 @@ def read(path: Path) -> MeshFile:
             raise InputError(f"{path}: the file is empty; export it again")
         if path.suffix.lower() == ".obj":
             obj = ObjText(path)
+            _check_size(path, obj.points)
             blocks = [(_cell_type(block), block.astype(np.int32)) for block in obj.faces]
             return MeshFile(Surface(obj.points, obj.faces), meshio.Mesh(obj.points, blocks), obj)
     except FileNotFoundError:
@@ -64,6 +70,7 @@ def read(path: Path) -> MeshFile:
     faces = [block.data for block in mesh.cells if block.type in _FACES]
     _check_kind(path, mesh)
     points = np.array(mesh.points, dtype=np.float64)
+    _check_size(path, points)
     for block in faces:
         if block.shape[1] < 3:
             message = f"a face has {block.shape[1]} corners; is the file cut off?"
@@ -101,7 +108,7 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
     mesh = _fitting(file, kind, positions, rotations, notes)
     with _quiet() as said:
         try:
-            meshio.write(path, mesh, file_format=kind.name, **kind.options)
+            meshio.write(path, mesh, file_format=kind.writer or kind.name, **kind.options)
         except OSError:
             raise
         except (Exception, SystemExit) as error:
@@ -118,7 +125,9 @@ def _read_with_meshio(path: Path) -> Any:
         try:
             if kind.name == "ply":
                 return meshio.read(io.BytesIO(readable_ply(path.read_bytes())), "ply")
-            return meshio.read(path, kind.name)
+            mesh = read_vtk(path) if kind.name == "vtk" else None
+            with within_memory():
+                return meshio.read(path, kind.name) if mesh is None else mesh
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
         except (Exception, SystemExit) as error:  # its readers raise anything
@@ -141,12 +150,25 @@ def _check_kind(path: Path, mesh: Any) -> None:
             )
 
 
+def _check_size(path: Path, points: np.ndarray) -> None:
+    """Refuse finite positions (n,3) whose areas and volumes are not."""
+    sizes = np.abs(points).max(axis=1, initial=0.0)
+    (found,) = np.nonzero((sizes > _LARGEST) & np.isfinite(sizes))
+    if len(found):
+        reason = f"vertex {found[0] + 1} has a coordinate of {sizes[found[0]]:.3g}"
+        raise InputError(f"{path}: {reason}, which is too large; repair the file, or scale it down")
+
+
 def _fitting(
     file: MeshFile, kind: Format, positions: np.ndarray, rotations: np.ndarray, notes: list[str]
 ) -> Any:
     """Return the mesh with its new positions as far as a format can hold it."""
     mesh, surface = file.mesh, file.surface
     dtype = np.float32 if kind.is_float32 or mesh.points.dtype.itemsize == 4 else np.float64
+    with np.errstate(over="ignore"):
+        is_held = np.isfinite(positions.astype(dtype)).all()
+    if not is_held:
+        raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
     cells = [(block.type, _native(block.data)) for block in mesh.cells]
     cell_data = {name: [_native(x) for x in data] for name, data in mesh.cell_data.items()}
     point_data = {name: _native(data) for name, data in mesh.point_data.items()}
@@ -161,6 +183,8 @@ def _fitting(
         notes.append(f"left out of the cells: {', '.join(cell_data)}")
         cell_data = {}
     point_data = _with_turned_normals(point_data, rotations)
+    if kind.name == "vtk":
+        point_data, cell_data = with_quoted_names(point_data), with_quoted_names(cell_data)
     lost = [x for x, data in point_data.items() if not kind.has_point_data or _too_wide(data, kind)]
     if lost:
         notes.append(f"left out of the points: {', '.join(lost)}")

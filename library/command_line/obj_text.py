@@ -16,7 +16,9 @@ __all__ = ("ObjText",)
 
 PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
+_WITH_NAMES = ("o", "g", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj")
 _MOST_DECIMALS = 100  # rounding would overflow
+_MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 
 
 class ObjText:
@@ -101,8 +103,8 @@ class ObjText:
             index = int(word.partition("/")[0])
         except ValueError:
             raise self._error(number, f"{word!r} is no corner of a face") from None
-        if index == 0 or index < -count:
-            raise self._error(number, f"there is no vertex {index}")
+        if index == 0 or not -count <= index <= _MOST_VERTICES:
+            raise self._error(number, f"there is no vertex {word.partition('/')[0]}")
         return index - 1 if index > 0 else count + index
 
     def _error(self, number: int, reason: str) -> InputError:
@@ -111,14 +113,18 @@ class ObjText:
 
 
 def _logical_lines(text: str) -> list[str]:
-    """Return the lines, those that end in a backslash joined."""
+    """Return the lines, those of numbers that end in a backslash joined.
+
+    A name in another encoding may end in the byte of a backslash, and a comment in a path.
+    """
     lines, pending = [], ""
-    for line in text.split("\n"):
-        if line.endswith("\\") and "#" not in pending + line:
-            pending += line[:-1] + " "
-            continue
-        lines.append(pending + line)
-        pending = ""
+    for end in text.split("\n"):
+        line, pending = pending + end, ""
+        is_continued = line.endswith("\\") and "#" not in line
+        if is_continued and line.split(None, 1)[0] not in _WITH_NAMES:
+            pending = line[:-1] + " "
+        else:
+            lines.append(line)
     if pending:
         lines.append(pending)
     if lines and not lines[-1]:  # behind the last newline

@@ -22,7 +22,7 @@ class Surface:
     """(m,3) int, a virtual triangulation of the faces"""
 
     def __post_init__(self):
-        with np.errstate(over="ignore", invalid="ignore"):  # such positions the solver refuses
+        with np.errstate(over="ignore", invalid="ignore"):  # infinite ones the solver refuses
             parts = [triangulate(self.points, block) for block in self.faces]
         triangles = np.concatenate(parts) if parts else np.empty((0, 3), np.int64)
         object.__setattr__(self, "triangles", triangles)

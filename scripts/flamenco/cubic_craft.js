@@ -32,6 +32,14 @@ const JOB_TYPE = {
             description: "Format in which the results are saved",
         },
         {
+            key: "timeout", type: "int32", required: true, default: 3600,
+            description: "Seconds after which a mesh is given up",
+        },
+        {
+            key: "memory", type: "float", required: true, default: 32,
+            description: "Gigabytes of memory beyond which a mesh is given up",
+        },
+        {
             key: "options", type: "string", required: false, default: "",
             description: "More options of headless_render.py, such as: --solidity 0.3 --samples 64",
         },
@@ -88,6 +96,7 @@ function scriptArguments(settings, name, result) {
     }
     // A mesh that cannot be used must not fail its task: after three, Flamenco blames the worker.
     args.push("--report", output + ".json", "--error-file", output + ".error.txt");
+    args.push("--timeout", String(settings.timeout), "--memory", String(settings.memory));
     return args.concat(words(settings.options || ""));
 }
 

@@ -40,8 +40,11 @@ HELP = {
     "files, or folders of them",
     "--object": "this mesh object only (default: all that are shown and rendered)",
     "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
+    "--timeout": "for each file: one that takes longer is given up (default: none)",
+    "--memory": "for each file: one that takes more is given up (default: none)",
     "--options": "more of these options, in one text: for programs that hand on one",
     "--worker": argparse.SUPPRESS,
+    "--limited": argparse.SUPPRESS,
     "--verbose": "show Blender's own messages",
     "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
     "--form": "what a ball would become (default: cube)",
@@ -99,7 +102,7 @@ HELP = {
     "are solved, the same command without --part writes the file",
     "--report": "numbers of the run",
     "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
-    "for render farms, which would blame the machine",
+    "for render farms, which would blame the machine; in a batch with --only",
     "--output-folder": "for the results, each named as its input; made if it is not there",
     "--recursive": "take folders with the folders in them, and lay the results out alike",
     "--only": "this file of them only, counted from 1: for render farms, where each is a task",
@@ -203,9 +206,12 @@ def _parser() -> argparse.ArgumentParser:
     _add_outputs(_adder(parser.add_argument_group("what is written")))
     _add_batch(_adder(parser.add_argument_group("several files")))
     _add_picture(_adder(parser.add_argument_group("the picture")))
+    add("--timeout", type=_number(1, 1e8), metavar="SECONDS")
+    add("--memory", type=_number(0.001, 1e6), metavar="GB")
     add("--threads", type=_number(1, 1024, int), metavar="N")
     add("--options", default="", metavar="TEXT")
     add("--worker", default="", metavar="KEY:BATCH")
+    add("--limited", action="store_true")
     add("--verbose", action="store_true")
     return parser
 

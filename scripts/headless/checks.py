@@ -75,7 +75,10 @@ def check_batch(options: Namespace) -> None:
             options.output,
             "--output: is for one file; in --output-folder pictures are named as their inputs",
         ),
-        (options.error_file, "--error-file: is for one file; here --report has all that failed"),
+        (
+            options.error_file and not options.only,
+            "--error-file: is for one file, or --only; here --report has all that failed",
+        ),
         (options.part, "--part: is for one file"),
         (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
         (
@@ -93,6 +96,7 @@ def check_batch(options: Namespace) -> None:
             raise InputError(f"{path}: there is no such file or folder; check the path")
         if not path.is_dir():
             _check_format(path)
+            refuse_special(path)
     if options.save_mesh is not None:
         _check_ending("--save-mesh", options.save_mesh)
         _check_mesh_suffix(Path(f"name{options.save_mesh}"))
@@ -102,8 +106,9 @@ def check_batch(options: Namespace) -> None:
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report:
         _check_suffix("--report", report, (".json",))
-        if report.parent.resolve() != folder.resolve():  # which is made later
-            check_writable("--report", [report])
+    for option, path in (("--report", report), ("--error-file", options.error_file)):
+        if path and path.parent.resolve() != folder.resolve():  # which is made later
+            check_writable(option, [path])
 
 
 def refuse_empty(path: Path) -> None:

@@ -11,7 +11,9 @@ import bpy
 from .blender_operator import operator, reason
 from .errors import InputError
 from .extension import Extension
+from .far_away import warn_if_rounded
 from .finite_check import refuse_infinite
+from .obj_copy import readable_copy
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .quiet import captured
 from .seen_objects import is_in_picture, show_as_meshes
@@ -97,7 +99,12 @@ def load(
     if path.suffix.lower() == ".abc":
         _refuse_broken_alembic(path)
     importer = _importer(path)
-    with readable(path, importer, has_own_process) as source, captured(verbose):
+    with contextlib.ExitStack() as copies:
+        source = copies.enter_context(readable(path, importer, has_own_process))
+        if layout is not None and not layout.is_plain:
+            copy = readable_copy(source, layout.encoding, layout.offset)
+            source = copies.enter_context(copy)
+        copies.enter_context(captured(verbose))
         left_out = _import(path, source, importer, layout)
         bpy.context.view_layer.update()
     say_left_out(path, left_out)
@@ -108,6 +115,8 @@ def load(
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if layout is not None:
         match_objects(layout, found)
+    else:
+        warn_if_rounded(path, found)
     if path.suffix.lower() in (".glb", ".gltf"):
         for mesh in {obj.data for obj in found}:
             weld(mesh)

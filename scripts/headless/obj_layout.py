@@ -6,7 +6,6 @@ of the file. To give a result back with the vertices of the file, in its order, 
 once more for the indices alone; the loose vertices are put back into the meshes.
 """
 
-import codecs
 import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -17,7 +16,10 @@ import bpy
 import numpy as np
 
 from .errors import InputError
+from .far_away import middle_if_far
 from .mesh_arrays import positions_of
+from .obj_copy import file_named
+from .obj_lines import ObjLines
 
 __all__ = ("ObjLayout", "match_objects", "read_layout")
 
@@ -27,7 +29,7 @@ class ObjLayout:
     """The vertices of an .obj file and who uses them."""
 
     positions: np.ndarray
-    """(n,3) float32, in the order of the file"""
+    """(n,3) float32, in the order of the file, from `offset`"""
     parts: list[tuple[np.ndarray, np.ndarray]]
     """per object of the file the indices, ascending, that its faces and lines use, and these with
     those that lie in its part of the file and that nothing uses"""
@@ -35,8 +37,15 @@ class ObjLayout:
     """whether Blender may split the file into objects: none shares a vertex with another"""
     library: Path | None
     """the material library, if the file has one"""
-    rows: dict[str, np.ndarray] = field(default_factory=dict)
-    """for each Blender object, by name, the index in the file of each of its vertices"""
+    offset: np.ndarray
+    """(3,) float64: where the origin is put, from `middle_if_far`"""
+    encoding: str
+    """of names in the file: utf-8, or latin-1 for any other"""
+    is_plain: bool
+    """whether Blender reads the file itself right, and not just `readable_copy`"""
+    rows: dict[int, np.ndarray] = field(default_factory=dict)
+    """for each Blender object, by its session_uid, as names may change, the index in the file of
+    each of its vertices"""
 
 
 def read_layout(path: Path) -> ObjLayout:
@@ -45,25 +54,24 @@ def read_layout(path: Path) -> ObjLayout:
     Raises
     ------
     InputError
-        A vertex without three finite coordinates, which Blender would read as zeros, or a byte
-        order mark.
+        A vertex without three finite coordinates, which Blender would read as zeros.
     """
-    coordinates: list[list[str]] = []
+    coordinates: list[list[bytes]] = []
     sections: list[tuple[int, set[int]]] = [(0, set())]  # first vertex, used vertices
-    library = None
-    for line in _logical_lines(path):
-        keyword, *words = line.split() or [""]
-        if keyword == "v":
-            coordinates.append(words[:3])
-        elif keyword in ("f", "l"):
-            sections[-1][1].update(_indices(words, len(coordinates)))
-        elif keyword == "o":
+    library, lines = b"", ObjLines(path)
+    for keyword, rest in lines:
+        if keyword == b"v":
+            coordinates.append(rest.split()[:3])
+        elif keyword in (b"f", b"l"):
+            sections[-1][1].update(_indices(rest.split(), len(coordinates)))
+        elif keyword == b"o":
             sections.append((len(coordinates), set()))
-        elif keyword == "mtllib":
-            library = path.parent / line.partition("mtllib")[2].strip()
+        elif keyword == b"mtllib":
+            library = rest
     positions = _positions(coordinates, path)
     sections = [section for section in sections if section[1]]
     everything = set().union(*(used for _, used in sections))
+    offset = middle_if_far(positions[sorted(everything)])
     is_split = len(everything) == sum(len(used) for _, used in sections)
     if not is_split:
         sections = [(0, everything)]
@@ -74,7 +82,15 @@ def read_layout(path: Path) -> ObjLayout:
     for number, (_, used) in enumerate(sections):
         indices = np.array(sorted(used), np.int64)
         parts.append((indices, np.union1d(indices, loose[part_of_loose == number])))
-    return ObjLayout(positions, parts, is_split, library)
+    return ObjLayout(
+        (positions - offset).astype(np.float32),
+        parts,
+        is_split,
+        file_named(library, path.parent, lines.encoding) if library else None,
+        offset,
+        lines.encoding,
+        lines.is_plain and not offset.any(),
+    )
 
 
 def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
@@ -88,33 +104,16 @@ def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
             if _has_positions(obj.data, layout.positions[used]):
                 if len(rows) > len(used):
                     _add_loose(obj.data, used, rows, layout.positions)
-                layout.rows[obj.name] = rows
+                layout.rows[obj.session_uid] = rows
                 unmatched.remove(obj)
                 break
 
 
-def _logical_lines(path: Path) -> Iterator[str]:
-    """Lines of the file without comments, those that end in a backslash joined."""
-    pending = ""
-    with path.open("rb") as file:
-        if file.read(len(codecs.BOM_UTF8)) == codecs.BOM_UTF8:
-            # Blender's importer would pass over the first line, and all numbers would be wrong.
-            raise InputError(f"{path}: begins with a byte order mark; save it as UTF-8 without one")
-    with path.open(encoding="utf-8", errors="replace") as file:
-        for line in file:
-            line = pending + line.partition("#")[0].rstrip()
-            if line.endswith("\\"):
-                pending = line[:-1] + " "
-                continue
-            pending = ""
-            yield line
-
-
-def _indices(words: list[str], count: int) -> Iterator[int]:
+def _indices(words: list[bytes], count: int) -> Iterator[int]:
     """Vertex indices, from 0, of the corners "v/vt/vn" of a face or line."""
     for word in words:
         try:
-            number = int(word.partition("/")[0])
+            number = int(word.partition(b"/")[0])
         except ValueError:
             continue
         index = number - 1 if number > 0 else count + number
@@ -122,15 +121,19 @@ def _indices(words: list[str], count: int) -> Iterator[int]:
             yield index
 
 
-def _positions(coordinates: list[list[str]], path: Path) -> np.ndarray:
-    positions = np.full((len(coordinates), 3), np.nan, np.float32)
+def _positions(coordinates: list[list[bytes]], path: Path) -> np.ndarray:
+    """Return the positions (n,3) float64."""
+    positions = np.full((len(coordinates), 3), np.nan)
     for number, words in enumerate(coordinates):
-        with contextlib.suppress(ValueError), np.errstate(over="ignore"):  # infinite in 32 bit
-            positions[number] = [float(word) for word in words]
-    broken = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+        with contextlib.suppress(ValueError):
+            x, y, z = map(float, words)
+            positions[number] = x, y, z
+    with np.errstate(over="ignore"):  # infinite in 32 bit
+        broken = np.flatnonzero(~np.isfinite(positions.astype(np.float32)).all(axis=1))
     if len(broken):
+        words = b" ".join(coordinates[broken[0]]).decode(errors="replace")
         message = f"{path}: vertex {broken[0] + 1} has no three finite coordinates"
-        raise InputError(f"{message} ({' '.join(coordinates[broken[0]])}); repair the file")
+        raise InputError(f"{message} ({words}); repair the file")
     return positions
 
 

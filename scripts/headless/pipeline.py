@@ -72,6 +72,7 @@ def _run(
         bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
     if options.bake:
         _bake(loaded, options, extension, bar, seconds, begin)
+        _say_if_moved(loaded, options.bake, bar)
         return
     try:
         sculptures = cubify_all(loaded, options, extension, bar)
@@ -84,6 +85,7 @@ def _run(
             paths = per_cubeness(options.save_mesh, options.cubeness)
             save_meshes(paths, sculptures, loaded, extension, options.verbose)
             bar.say(f"wrote {', '.join(map(str, paths))}")
+            _say_if_moved(loaded, options.save_mesh, bar)
     with _timed("render", seconds):
         if options.output:
             gallery = build_gallery(sculptures, options, extension)
@@ -113,6 +115,14 @@ def _bake(
     if options.report:
         write_animation_report(options.report, animation, options, extension, seconds)
         bar.say(f"wrote {options.report}")
+
+
+def _say_if_moved(loaded: Loaded, path: Path, bar: ProgressBar) -> None:
+    """Say of a file that lies far away what formats of 32 bits cannot hold."""
+    layout = loaded.obj_layout
+    if layout is not None and layout.offset.any() and path.suffix.lower() != ".obj":
+        offset = " ".join(f"{x:.16g}" for x in layout.offset)
+        bar.warn(f"{path}: lies at the origin, as 32 bits are too few at {offset} in the .obj file")
 
 
 @contextlib.contextmanager

@@ -49,7 +49,8 @@ def handles_of_all(
         obj.name: [make(group) for group in options.pin if group in obj.vertex_groups]
         for obj in loaded.objects
     }
-    for given in options.handles:
+    offset = np.zeros(3) if loaded.obj_layout is None else loaded.obj_layout.offset
+    for given in (given.moved(-offset) for given in options.handles):
         is_anywhere = False
         for obj in loaded.objects:
             original = extension.mesh_bridge.original_positions(obj.data, start_of(obj))
@@ -96,7 +97,7 @@ def _numbers_in_file(
         raise InputError(
             f"{given.where}: {suffix} files do not keep the numbers of vertices; give a box"
         )
-    rows = loaded.obj_layout.rows.get(obj.name) if loaded.obj_layout is not None else None
+    rows = loaded.obj_layout.rows.get(obj.session_uid) if loaded.obj_layout is not None else None
     if rows is not None:
         count = len(loaded.obj_layout.positions)
     elif len(loaded.objects) > 1:
@@ -125,6 +126,8 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
         return "none of its vertices is part of the mesh"
     if given.box is not None:
         points = np.concatenate([positions_of(obj.data) for obj in loaded.objects], dtype=float)
+        if loaded.obj_layout is not None:
+            points += loaded.obj_layout.offset
         low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))
         return f"no vertex lies in its box; the input extends from {low} to {high}"
     there, has = groups_of(loaded.objects)

@@ -3,6 +3,7 @@
 
 import contextlib
 import os
+import uuid
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
@@ -56,7 +57,7 @@ def save_meshes(
             if path.suffix.lower() == ".obj":
                 _save_obj(path, copies, loaded)
             else:
-                _export(path, copies, verbose)
+                _export(path, [copy for copy, _ in copies], verbose)
 
 
 def check_exporter(path: Path) -> None:
@@ -88,8 +89,8 @@ def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
 @contextlib.contextmanager
 def _copies(
     sculptures: list[Sculpture], number: int, extension: Extension
-) -> Iterator[list[bpy.types.Object]]:
-    """Give copies with the results, under the names of the originals, and remove them again."""
+) -> Iterator[list[tuple[bpy.types.Object, bpy.types.Object]]]:
+    """Give copies with the results, each with its original, whose name it has in the block."""
     copies = []
     renamed = []
     try:
@@ -98,43 +99,46 @@ def _copies(
             for user in sculpture.users:
                 copy = detached_copy(user, shape, extension, keep_modifiers=False)
                 bpy.context.scene.collection.objects.link(copy)
-                copies.append(copy)
+                copies.append((copy, user))
                 for original, twin in ((user, copy), (user.data, copy.data)):
                     name = original.name
-                    original.name = f"{name} original"
+                    original.name = uuid.uuid4().hex  # short: of a long one, the end is cut off
                     twin.name = name
                     renamed.append((original, name))
         bpy.context.view_layer.update()
         yield copies
     finally:
-        for copy in copies:
+        for copy, _ in copies:
             bpy.data.meshes.remove(copy.data)  # takes the object along
         for original, name in reversed(renamed):
             original.name = name
 
 
-def _save_obj(path: Path, copies: list[bpy.types.Object], loaded: Loaded) -> None:
+def _save_obj(
+    path: Path, copies: list[tuple[bpy.types.Object, bpy.types.Object]], loaded: Loaded
+) -> None:
     layout, library = loaded.obj_layout, ""
     is_as_in_file = layout is not None and loaded.is_whole
     parts, count = [], 0
-    for copy in copies:
+    for copy, original in copies:
         rows = np.arange(count, count + len(copy.data.vertices))
         count += len(rows)
         if is_as_in_file:
-            rows = _rows_in_file(path, layout, copy.name)
+            rows = _rows_in_file(path, layout, original.session_uid, copy.name)
         parts.append(ObjPart(copy.name, copy.data, _placed_positions(copy), rows))
     positions = layout.positions if is_as_in_file else np.zeros((count, 3), np.float32)
-    if layout is not None and layout.library is not None and layout.library.is_file():
+    if layout is not None and layout.library is not None:
         library = _relative(layout.library, path.parent)
+    offset, encoding = (layout.offset, layout.encoding) if layout else (np.zeros(3), "utf-8")
     with replacing(path) as temporary:
-        write_obj(temporary, parts, positions, library)
+        write_obj(temporary, parts, positions, library, offset, encoding)
 
 
-def _rows_in_file(path: Path, layout: ObjLayout, name: str) -> np.ndarray:
-    if name not in layout.rows:
+def _rows_in_file(path: Path, layout: ObjLayout, uid: int, name: str) -> np.ndarray:
+    if uid not in layout.rows:
         message = f'{path}: Blender has changed the vertices of "{name}" on reading'
         raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
-    return layout.rows[name]
+    return layout.rows[uid]
 
 
 def _relative(target: Path, folder: Path) -> str:

@@ -5,6 +5,7 @@ Blender's own exporter prints six decimals, which ruins meshes that are small, a
 their materials.
 """
 
+from decimal import Decimal
 from itertools import repeat
 from pathlib import Path
 from typing import NamedTuple, TextIO
@@ -13,6 +14,7 @@ import bpy
 import numpy as np
 
 from .mesh_arrays import distinct_rows, read
+from .obj_copy import in_file
 
 __all__ = ("ObjPart", "write_obj")
 
@@ -29,23 +31,34 @@ class ObjPart(NamedTuple):
     """(n,) int: where in the file, from 0, each vertex goes"""
 
 
-def write_obj(path: Path, parts: list[ObjPart], positions: np.ndarray, library: str = "") -> None:
+def write_obj(
+    path: Path,
+    parts: list[ObjPart],
+    positions: np.ndarray,
+    library: str,
+    offset: np.ndarray,
+    encoding: str,
+) -> None:
     """Write the parts to one file.
 
     Parameters
     ----------
     positions : (n,3) numpy float32 array of all vertices of the file, for those in no part
     library : path of a material library to name in the file; none is written
+    offset : (3,) numpy float64 array: what is added to all positions
+    encoding : of names; those that it lacks are in UTF-8, as are paths
     """
     positions = positions.copy()
     for part in parts:
         positions[part.rows] = part.positions
-    with path.open("w", encoding="utf-8", newline="\n") as file:
+    if offset.any():
+        positions = _moved(positions, offset)
+    with path.open("w", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
         file.write(f"mtllib {library}\n" if library else "")
         _write_rows(file, "v", positions)
         counts = [0, 0]
         for part in parts:
-            file.write(f"o {part.name}\n")
+            file.write(f"o {in_file(part.name, encoding)}\n")
             vertices = part.rows[read(part.mesh.loops, "vertex_index", np.int32)] + 1
             columns = [map(str, vertices.tolist())]
             for number, (keyword, values) in enumerate(_of_corners(part.mesh).items()):
@@ -55,8 +68,18 @@ def write_obj(path: Path, parts: list[ObjPart], positions: np.ndarray, library: 
                 columns.append(map(str, indices.tolist()) if len(values) else repeat(""))
                 counts[number] += len(first)
             corners = ["/".join(words).rstrip("/") for words in zip(*columns, strict=False)]
-            _write_faces(file, part.mesh, corners)
+            _write_faces(file, part.mesh, corners, encoding)
             _write_loose_edges(file, part)
+
+
+def _moved(positions: np.ndarray, offset: np.ndarray) -> np.ndarray:
+    """Return float32 positions plus an offset as float64, added as decimals.
+
+    So they get no more digits than float32 has at the origin.
+    """
+    by = [Decimal(repr(x)) for x in offset.tolist()]
+    rows = ((Decimal(str(x)) + y for x, y in zip(row, by, strict=True)) for row in positions)
+    return np.array([[float(x) for x in row] for row in rows])
 
 
 def _of_corners(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
@@ -73,13 +96,14 @@ def _of_corners(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
 
 
 def _write_rows(file: TextIO, keyword: str, values: np.ndarray) -> None:
-    """Write float32 rows with the fewest digits that give the same bits back."""
+    """Write rows with the fewest digits that give the same bits back."""
     texts = np.array([str(value) for value in values.ravel()], object).reshape(values.shape)
     file.writelines(f"{keyword} {' '.join(row)}\n" for row in texts)
 
 
-def _write_faces(file: TextIO, mesh: bpy.types.Mesh, corners: list[str]) -> None:
-    names = [material.name if material else "" for material in mesh.materials]
+def _write_faces(file: TextIO, mesh: bpy.types.Mesh, corners: list[str], encoding: str) -> None:
+    materials = [material.name if material else "" for material in mesh.materials]
+    names = [in_file(name, encoding) for name in materials]
     kinds = {name: np.int32 for name in ("loop_start", "loop_total", "material_index")}
     kinds["use_smooth"] = bool
     columns = [read(mesh.polygons, name, kind).tolist() for name, kind in kinds.items()]

@@ -86,6 +86,15 @@ def test_obj_in_other_encodings_keeps_its_bytes(tmp_path):
     assert (tmp_path / "cubic.obj").read_bytes().startswith(b"o Ger\xe4t\n# a cube")
 
 
+@pytest.mark.parametrize("name", ["表".encode("shift_jis"), "身体".encode("gbk"), b"mats\\"])
+def test_names_that_end_in_the_byte_of_a_backslash_join_no_lines(name, tmp_path):
+    lines = [b"o " + name, b"# C:\\models\\", *OBJ.replace("\\\n  ", "").encode().split(b"\n")]
+    content = b"\n".join([b"usemtl " + name if x == b"usemtl Red" else x for x in lines])
+    (tmp_path / "cube.obj").write_bytes(content)
+    cubic_craft("cube.obj", "same.obj", "--cubeness", "0", *QUICK, folder=tmp_path)
+    assert (tmp_path / "same.obj").read_bytes() == content
+
+
 def test_obj_to_ply_has_the_right_faces(tmp_path):
     (tmp_path / "cube.obj").write_text(OBJ, encoding="utf-8")
     cubic_craft("cube.obj", "cubic.ply", *QUICK, folder=tmp_path)

@@ -72,7 +72,7 @@ def test_the_version_is_that_of_the_extension():
 
 def test_it_says_what_it_needs_and_its_licence():
     needed = {re.match(r"[\w-]+", line)[0] for line in requires("cubic-craft") if ";" not in line}
-    assert needed == {"numpy", "scipy", "meshio"}
+    assert needed == {"numpy", "scipy", "meshio", "mapbox-earcut"}
     metadata = distribution("cubic-craft").metadata
     assert metadata["License-Expression"] == "GPL-3.0-or-later"
     licence = INSTALLED.parent / f"cubic_craft-{version('cubic-craft')}.dist-info"

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from cubic_craft.command_line.polygons import triangulate
+from cubic_craft.command_line.polygons import MANY, triangulate
 
 TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
 
@@ -24,6 +24,15 @@ def comb(teeth):
     return np.array([(0.0, 0.0), (float(teeth), 0.0), *top[::-1]])
 
 
+def on_straight_edges(count):
+    """Return an L whose six edges have so many corners each."""
+    ends = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], float)
+    t = np.arange(count)[:, None] / count
+    return np.concatenate(
+        [a + t * (b - a) for a, b in zip(ends, np.roll(ends, -1, 0), strict=True)]
+    )
+
+
 SHAPES = {
     **{f"star {size}, {seed}": star(size, seed) for size in (4, 5, 7, 20) for seed in range(5)},
     "regular": np.stack([np.cos(np.arange(9) * 0.698), np.sin(np.arange(9) * 0.698)], 1),
@@ -36,6 +45,9 @@ SHAPES = {
         [(0, 0), (3, 0), (3, 3), (0, 3), (0, 0), (1, 1), (1, 2), (2, 2), (2, 1), (1, 1)], float
     ),
     "comb": comb(6),
+    "comb of many teeth": comb(MANY),
+    "star of many": star(2 * MANY, 0),
+    "many corners on straight edges": on_straight_edges(MANY),
 }
 
 
@@ -63,6 +75,27 @@ def test_triangles_cover_the_polygon(name, is_reversed):
     sign = np.sign(area(flat))
     assert (sign * areas > -1e-9).all()  # none is turned over
     assert sign * areas.sum() == pytest.approx(sign * area(flat))
+
+
+def test_corners_on_long_straight_edges_are_joined_across():
+    """Triangles between neighbours on an edge have no area, and hold none of them."""
+    flat = on_straight_edges(MANY)
+    V = np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
+    triangles = triangulate(V, np.arange(len(flat))[None])
+    areas = np.array([area(flat[triangle]) for triangle in triangles])
+    assert set(triangles[areas > 1e-6].ravel()) == set(range(len(flat)))
+
+
+def test_many_corners_take_no_longer_than_their_number():
+    """With their square it would be minutes."""
+    angles = 2 * np.pi * np.arange(60_000) / 60_000
+    radii = 1 + 0.3 * np.sin(9 * angles)
+    flat = radii[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    V = np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
+    triangles = triangulate(V, np.arange(len(flat))[None])
+    a, b, c = (flat[triangles[:, corner]] for corner in range(3))
+    doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    assert doubled.sum() == pytest.approx(2 * area(flat)) and doubled.min() > -1e-9
 
 
 def test_blocks_keep_their_order():

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from command import COMMAND, QUICK, refused
 
+from cubic_craft.command_line import decompression, mesh_files
+from cubic_craft.command_line.errors import InputError
 from cubic_craft.command_line.output_file import replacing
 from scripts.benchmark.shapes import blob
 
@@ -27,6 +29,22 @@ property list uchar int vertex_indices
 property uchar red
 end_header
 """
+VTK = """# vtk DataFile Version 3.0
+by hand
+ASCII
+DATASET POLYDATA
+POINTS 4 double
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+POLYGONS 4 16
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 2 0 3
+"""
+DIGITS = "1" * 30
 
 ARGUMENTS = {
     "no output": (["ok.obj"], "OUTPUT"),
@@ -58,6 +76,8 @@ FILES = {
     "index_0.obj": (TRIANGLE.replace("f 1", "f 0"), "there is no vertex 0"),
     "index_back.obj": (TRIANGLE.replace("f 1", "f -4"), "there is no vertex -4"),
     "two_corners.obj": (TRIANGLE.replace("f 1 2 3", "f 1 2"), "at least 3 corners"),
+    "digits.obj": (TRIANGLE.replace("f 1", f"f {DIGITS}"), f"there is no vertex {DIGITS}"),
+    "too_large.obj": (TRIANGLE.replace("1 0 0", "-1e308 0 0"), "which is too large"),
     "corner.obj": (TRIANGLE.replace("f 1", "f x"), "'x' is no corner"),
     "huge.obj": (TRIANGLE.replace("f 1 2 3", "v 1e999 1 0\nf 1 2 4 3"), "not finite"),
     "binary.obj": ("\x00\x01\x02", "no faces"),
@@ -69,7 +89,11 @@ FILES = {
     "face_colors.ply": (PLY, "property red"),
     "other.off": ("hello", "cannot be read as .off (Expected the first line to be `OFF`.)"),
     "quads.off": ("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "cannot be read as .off"),
-    "other.vtk": ("hello", "cannot be read as .vtk"),
+    "other.vtk": ("hello", "no legacy .vtk file"),
+    "count.vtk": (VTK.replace("POINTS 4", f"POINTS {DIGITS}"), "its counts are wrong"),
+    "section.vtk": (VTK + "HELLO 4\n", "a section 'HELLO', which is not known"),
+    "digits.vtk": (VTK.replace("3 0 2 1", f"3 0 2 {DIGITS}"), "not among the 4"),
+    "huge.vtk": (VTK.replace("1 0 0", "1e308 0 0"), "vertex 2 has a coordinate of 1e+308"),
     "other.vtu": ("hello", "cannot be read as .vtu"),
 }
 
@@ -110,6 +134,25 @@ def test_ply_files_that_were_cut_off_are_refused(rows, tmp_path):
     content = (tmp_path / "whole.ply").read_bytes()
     (tmp_path / "cut.ply").write_bytes(content[: len(content) - int((len(F) - rows) * 13)])
     assert "cut.ply: " in refused("cut.ply", "out.ply", folder=tmp_path)
+
+
+def test_data_that_would_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
+    V, F = blob(2)
+    mesh = meshio.Mesh(V, [("triangle", F.astype(np.int32))])
+    for compression in ("zlib", "lzma"):
+        path = tmp_path / f"{compression}.vtu"
+        mesh.write(path, compression=compression)
+        assert len(mesh_files.read(path).surface.points) == len(V)
+        monkeypatch.setattr(decompression, "free_memory", lambda: 4 * V.nbytes)
+        with pytest.raises(InputError, match=f"{compression}.vtu: its data would take more than"):
+            mesh_files.read(path)
+        monkeypatch.undo()
+
+
+def test_what_a_format_of_32_bits_cannot_hold_is_said(tmp_path):
+    (tmp_path / "large.obj").write_text(TRIANGLE.replace("1 0 0", "1e60 0 0"))
+    line = refused("large.obj", "out.stl", *QUICK, folder=tmp_path)
+    assert "out.stl: its coordinates are too large for this format" in line
 
 
 def test_volumes_and_higher_orders_are_refused(tmp_path):

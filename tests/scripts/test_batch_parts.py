@@ -2,13 +2,19 @@
 """Parts of batches, without Blender."""
 
 import io
+import os
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
+import psutil
 import pytest
 from batch_kit import CUBE
 
 from scripts.headless.arguments import parse
+from scripts.headless.batch.engine import workers_for
 from scripts.headless.batch.plan import OF_THE_BATCH, Job, decisive, plan, settings_of
 from scripts.headless.batch.sources import find_sources
 from scripts.headless.batch.task import Batch, do, key_of
@@ -223,6 +229,57 @@ def test_why_a_file_failed(folder, code, error):
 def test_a_file_that_nobody_waits_for_is_given_up(folder):
     job, batch = batch_of(folder, "import sys; sys.stdin.read(); sys.exit(9)")
     assert "9" in do(job, batch, is_wanted=lambda: False)["error"]
+
+
+@pytest.mark.parametrize(
+    ("limits", "code", "words"),
+    [
+        ((0.5, None), "sys.stdin.read()", "longer than 0.5 seconds (--timeout)"),
+        ((None, 0.2), "x = b'1' * 300_000_000; sys.stdin.read()", "more than 0.2 GB (--memory)"),
+    ],
+)
+def test_a_file_that_takes_more_than_it_may_is_given_up(folder, limits, code, words):
+    job, batch = batch_of(folder, f"import sys; sys.stdin.readline(); {code}")
+    result = do(job, batch._replace(limits=limits))
+    assert (result["status"], result["refused"]) == ("failed", True)
+    assert words in result["error"]
+    assert do(*batch_of(folder, WRITES))["status"] == "done"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has neither")
+def test_pipes_devices_and_hidden_files_are_named_and_not_read(folder):
+    os.mkfifo(folder / "sub" / "pipe.obj")
+    (folder / "sub" / "zero.ply").symlink_to("/dev/zero")
+    (folder / "sub" / "nothing.ply").symlink_to("nowhere")
+    (folder / "sub" / "link.obj").symlink_to(folder / "other" / "b.ply")
+    (folder / "sub" / ".hidden.obj").write_text(CUBE)
+    left_out = []
+    sources = find_sources([folder / "sub"], False, folder / "out", left_out.append)
+    assert [source.path.name for source in sources] == ["a.obj", "link.obj"]
+    names = [".hidden.obj", "nothing.ply", "pipe.obj", "zero.ply"]
+    assert [path.name for path in left_out] == names
+    job, batch = batch_of(folder, WRITES)
+    assert (
+        "is no regular file" in do(job._replace(path=folder / "sub" / "pipe.obj"), batch)["error"]
+    )
+
+
+def test_a_record_that_is_nested_too_deeply_counts_as_none(folder):
+    job, batch = batch_of(folder, WRITES)
+    job.record.write_text("[" * 100_000)
+    assert do(job, batch)["status"] == "done"
+
+
+def test_own_workers_listen_to_this_machine_only_and_show_nothing(folder):
+    with workers_for(batch_options("--jobs", "2"), 2) as client:
+        assert client.submit(int).result() == 0
+        connections = psutil.Process().net_connections()
+        listening = [c.laddr for c in connections if c.status == psutil.CONN_LISTEN]
+        assert {address.ip for address in listening} <= {"127.0.0.1"}
+        for address in listening:
+            for page in ("", "status", "metrics"):
+                with pytest.raises(HTTPError):
+                    urlopen(f"http://127.0.0.1:{address.port}/{page}")
 
 
 def test_a_file_that_is_gone_has_failed(folder):

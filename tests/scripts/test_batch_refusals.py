@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Batches that are not begun: one line on standard error, exit code 2, and nothing written."""
 
+import os
+
 import pytest
 from batch_kit import CUBE
 from headless import PATIENCE, SCRIPT, headless, headless_refused, start_headless
@@ -16,6 +18,8 @@ REFUSALS = {
     "files, no folder": (["a.obj", "b.obj"], ["several", "--output-folder"]),
     "no input": ([*TO], ["--output-folder", "give the files"]),
     "missing file": (["a.obj", "none.obj", *TO], ["none.obj", "no such file"]),
+    "a pipe": (["a.obj", "pipe.obj", *TO], ["pipe.obj", "no regular file"]),
+    "a pipe alone": (["pipe.obj"], ["pipe.obj", "no regular file"]),
     "unknown format": (["a.obj", "notes.txt", *TO], ["notes.txt", ".txt", ".obj"]),
     "the folder is a file": (["a.obj", "--output-folder", "b.obj"], ["--output-folder", "b.obj"]),
     "below a file": (["a.obj", "--output-folder", "b.obj/x"], ["--output-folder", "b.obj"]),
@@ -62,6 +66,7 @@ def folder(tmp_path):
         (tmp_path / name).write_text(CUBE)
     (tmp_path / "notes.txt").write_text("no mesh")
     (tmp_path / "empty").mkdir()
+    os.mkfifo(tmp_path / "pipe.obj")
     return tmp_path
 
 

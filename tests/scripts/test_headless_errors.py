@@ -152,3 +152,16 @@ def test_the_error_file_has_the_reason_until_the_input_can_be_used(folder):
     process = headless_shared("ok.obj", *arguments, cwd=folder)
     assert process.returncode == 0, process.stderr
     assert (folder / "result.obj").exists() and not (folder / "error.txt").exists()
+
+
+@pytest.mark.parametrize("option", ["--timeout", "--memory"])
+def test_a_limit_is_for_one_file_as_well(option, tmp_path):
+    (tmp_path / "ok.obj").write_text(TRIANGLE)
+    value = {"--timeout": "1", "--memory": "0.01"}[option]
+    endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--samples", "65536")
+    headless_refused(
+        *("ok.obj", option, value, *endless),
+        words=["ok.obj: takes", option, value],
+        cwd=tmp_path,
+        run=headless,
+    )

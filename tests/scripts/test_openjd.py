@@ -91,9 +91,18 @@ def test_each_mesh_is_a_task_that_does_what_the_batch_does(meshes, blender, tmp_
     assert sorted(written) == [names[number - 1] for number in good]
 
 
-def test_the_task_of_a_mesh_that_cannot_be_used_fails_and_says_why(meshes, blender):
-    code, words = run(MESH_JOB, **meshes, Blender=blender, Files="2")
-    assert code != 0 and "Broken.obj" in words and "meshes without faces" in words
+def test_a_mesh_that_cannot_be_used_is_named_and_the_next_one_is_done(meshes, blender):
+    code, words = run(MESH_JOB, **meshes, Blender=blender, Files="2-3")
+    assert code == 0 and "Broken.obj" in words and "meshes without faces" in words
+    errors = [path.name for path in meshes["OutputFolder"].glob("*.error.txt")]
+    assert errors == ["2.error.txt"]
+    assert "Broken.obj: " in (meshes["OutputFolder"] / "2.error.txt").read_text(encoding="utf-8")
+    assert (meshes["OutputFolder"] / "it's $HOME.obj").exists()
+
+
+def test_a_mesh_that_takes_too_much_is_given_up(meshes, blender):
+    code, words = run(MESH_JOB, **meshes, Blender=blender, Files="1", Memory=0.01)
+    assert code == 0 and "takes more than 0.01 GB (--memory)" in words
 
 
 def test_a_task_for_which_there_is_no_file_fails(meshes, blender):

@@ -16,13 +16,20 @@ from typing import Any
 
 from ..errors import InputError
 from ..interruption import before_ending
+from ..watched_process import end_processes
 from .plan import Job
-from .task import FAILED, Batch, do, end_processes
+from .task import FAILED, Batch, do
 
 __all__ = ("results_of", "workers_for")
 
 SCRIPTS = str(Path(__file__).resolve().parents[2])
 SECONDS_TO_ANSWER = 10
+WITHOUT_PAGES = {f"distributed.{who}.http.routes": [] for who in ("scheduler", "worker")}
+HERE_ONLY = {
+    **{name: "127.0.0.1:0" for name in ("dashboard_address", "worker_dashboard_address")},
+    "scheduler_kwargs": {"dashboard": False},
+}
+"""what Dask listens on, which it always does: by default for all of the network"""
 
 
 @contextlib.contextmanager
@@ -48,11 +55,16 @@ def workers_for(options: Namespace, files: int) -> Iterator[Any]:
     import dask.config
 
     # That a worker is lost is no news: another one does its file.
-    dask.config.set({"logging.distributed": "critical"})
-    from distributed import Client
+    dask.config.set({"logging.distributed": "critical", **WITHOUT_PAGES})
+    from distributed import Client, Worker
+
+    class WithoutPage(Worker):
+        def __init__(self, *arguments: Any, **how: Any) -> None:
+            super().__init__(*arguments, **how | {"dashboard": False})
 
     threads = {"processes": False, "n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
-    own = {"dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL, **threads}
+    quiet = {"worker_class": WithoutPage, "silence_logs": logging.CRITICAL}
+    own = {**HERE_ONLY, **quiet, **threads}
     try:
         client = Client(address, timeout=SECONDS_TO_ANSWER) if address else Client(**own)
     except (OSError, ValueError) as error:

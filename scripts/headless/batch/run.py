@@ -9,13 +9,12 @@ import uuid
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
 from ..one_line import one_line
-from ..output_files import check_writable, write_json
+from ..output_files import check_writable, replacing, write_json
 from ..progress import ProgressBar
 from ..trust.links import refuse_links
 from .engine import results_of, workers_for
@@ -54,15 +53,17 @@ def run_batch(
     InputError
         Nothing can be done at all; what is wrong with a file is in the table.
     """
-    jobs = plan(options, find_sources(options.inputs, options.recursive, options.output_folder))
+    bar, left_out = ProgressBar(memory=math.inf), []
+    given = (options.inputs, options.recursive, options.output_folder)
+    jobs = plan(options, find_sources(*given, left_out.append))
     threads = options.threads or _share(min(options.jobs or 1, len(jobs)))
     settings, decides = settings_of(options), decisive(options, version)
-    batch = Batch(uuid.uuid4().hex, command(threads), threads, settings, decides, options.force)
-    bar = ProgressBar(memory=math.inf)
+    name, limits = uuid.uuid4().hex, (options.timeout, options.memory)
+    batch = Batch(name, command(threads), threads, settings, decides, options.force, limits)
     with workers_for(options, len(jobs)) as client:
         _make_folders(options.output_folder, jobs)
-        if client is not None and find_spec("bokeh"):
-            bar.say(f"dashboard: {client.dashboard_link}")
+        for path in left_out:
+            bar.say(f"{one_line(str(path))}: left out, {_why_left_out(path)}")
         files = _do_all(jobs, batch, client, options, bar)
     for line in table(files):
         bar.say(line)
@@ -73,6 +74,7 @@ def run_batch(
             report = {
                 "output_folder": str(options.output_folder.resolve()),
                 "counts": counts,
+                "left_out": [str(path.absolute()) for path in left_out],
                 "files": list(files.values()),
                 "seconds": {"total": time.perf_counter() - begin},
             }
@@ -81,6 +83,8 @@ def run_batch(
         except InputError as error:  # which says elsewhere that nothing was begun
             code = SOME_FAILED
             bar.warn(f"{program}: error: {error}")
+    if options.error_file and _write_error(options.error_file, list(files.values())):
+        code = 0
     if counts[FAILED]:
         bar.warn(f"{program}: {counts[FAILED]} of {len(files)} files failed")
     return code
@@ -116,6 +120,21 @@ def _do_all(
         counts = _counts(files).items()
         task.finish(", ".join(f"{count} {status}" for status, count in counts if count))
     return {job: files[job] for job in jobs}
+
+
+def _write_error(path: Path, files: list[dict[str, Any]]) -> bool:
+    """Write why the one file cannot be used; return whether that is so."""
+    (about,) = files
+    if not about.get("refused"):
+        path.unlink(missing_ok=True)
+        return False
+    with replacing(path) as temporary:
+        temporary.write_text(f"{about['input']}: {about['error']}\n", encoding="utf-8")
+    return True
+
+
+def _why_left_out(path: Path) -> str:
+    return "as it is hidden" if path.name[0] == "." else "as it is no regular file"
 
 
 def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:

@@ -5,6 +5,7 @@ import hashlib
 import os
 import unicodedata
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path, PurePath
 from typing import NamedTuple
 
@@ -27,10 +28,20 @@ class Source(NamedTuple):
     """that was given, and that no link in it may lead out of; None for a file given by its name"""
 
 
-def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) -> list[Source]:
+def find_sources(
+    inputs: list[Path],
+    is_recursive: bool,
+    output_folder: Path,
+    say_left_out: Callable[[Path], None] = lambda path: None,
+) -> list[Source]:
     """List the given files and those in the given folders, each once, folders in order of name.
 
-    Hidden files are left out, and what lies in the output folder, as that is results.
+    Hidden files are left out, and what lies in the output folder, as that is results; and what is
+    no regular file, or a link to none, as a pipe or a device may have no end.
+
+    Parameters
+    ----------
+    say_left_out : called with each mesh of a folder that is left out, by how it looks or its name
 
     Raises
     ------
@@ -41,7 +52,12 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
     for given in inputs:
         paths, folder = [given], given.parent
         if given.is_dir():
-            paths, folder = _meshes_in(given, is_recursive, output_folder.resolve()), given
+            paths, folder = [], given
+            for path in _meshes_in(given, is_recursive, output_folder.resolve()):
+                if path.name[0] != "." and path.is_file():
+                    paths.append(path)
+                else:
+                    say_left_out(path)
         if not paths:
             cure = "give another folder" if is_recursive else "give another, or add --recursive"
             raise InputError(
@@ -61,7 +77,7 @@ def _meshes_in(folder: Path, is_recursive: bool, left_out: Path) -> list[Path]:
     for place, folders, names in os.walk(folder, onerror=_refuse):
         inner = [name for name in sorted(folders) if is_recursive and name[0] != "."]
         folders[:] = [name for name in inner if Path(place, name).resolve() != left_out]
-        paths = [Path(place, name) for name in sorted(names) if name[0] != "."]
+        paths = [Path(place, name) for name in sorted(names)]
         found += [path for path in paths if path.suffix.lower() in READABLE]
     return found
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do one file of a batch in a process of its own, unless it is done already.
 
-The standard input of the process is a pipe with its settings. It ends when the process at the
-other end is gone for whatever reason, or closes it: that is how it is told to end, everywhere.
+Its settings are the first line of the standard input of the process.
 """
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -14,7 +14,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,16 +23,15 @@ from ..lock import alone_at
 from ..output_files import remove_left_behind
 from ..threads import thread_variables
 from ..trust.places import is_inside, refuse_special
+from ..watched_process import Limits, finish, start
 from .plan import Job
 
-__all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "end_processes", "key_of")
+__all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "key_of")
 
 DONE, KEPT, FAILED = "done", "kept", "failed"
-PATIENCE = 10.0
-"""seconds in which a process tidies up before it is killed"""
+REFUSED = 2
+"""exit code for an input that cannot be used"""
 FROM_OUTSIDE = [getattr(signal, n, None) for n in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")]
-_ending = threading.Lock()
-_running: set[subprocess.Popen] = set()
 
 
 class Batch(NamedTuple):
@@ -51,6 +49,8 @@ class Batch(NamedTuple):
     """from `plan.decisive`"""
     is_forced: bool
     """to do also what is done already"""
+    limits: tuple[float | None, float | None] = Limits()
+    """of each file, as `Limits`"""
 
 
 def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> dict[str, Any]:
@@ -63,7 +63,8 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
     Returns
     -------
     dict
-        ``status``; of a file that failed ``error``, one line; else ``seconds`` and ``report``;
+        ``status``; of a file that failed ``error``, one line, and if that is the fault of the file
+        and not of the machine ``refused``; else ``seconds`` and ``report``;
         and if it was begun ``words``, what its process wrote to standard error.
     """
     try:
@@ -76,7 +77,8 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
                 return _do(job, batch, key, is_wanted)
         return {"status": FAILED, "error": "another process is at work on it"}
     except InputError as error:
-        return {"status": FAILED, "error": str(error).removeprefix(f"{job.path}: ")}
+        message = str(error).removeprefix(f"{job.path}: ")
+        return {"status": FAILED, "error": message, "refused": True}
     except OSError as error:
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
@@ -86,11 +88,13 @@ def _do(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> dict
     # One of this batch is of a worker that was lost just before it could tell.
     if report and (made_by == batch.name or not batch.is_forced):
         return _success(DONE if made_by == batch.name else KEPT, report)
-    code, words = _run(job, batch, key, is_wanted)
+    code, words, exceeded = _run(job, batch, key, is_wanted)
     report, _ = _report(job, key)
-    if report and not code:
+    if report and not code and not exceeded:
         return _success(DONE, report) | {"words": words}
-    return {"status": FAILED, "error": _why_failed(job, code, words), "words": words}
+    refused = {"refused": True} if exceeded or code == REFUSED else {}
+    why = exceeded or _why_failed(job, code, words)
+    return {"status": FAILED, "error": why, **refused, "words": words}
 
 
 def key_of(source: Path, decides: str) -> str:
@@ -98,6 +102,8 @@ def key_of(source: Path, decides: str) -> str:
 
     Of files that the source refers to (materials, textures, buffers) nothing is in it.
     """
+    if not source.is_file() and source.exists():  # to read a pipe would never end
+        raise OSError(errno.EINVAL, "is no regular file", str(source))
     with source.open("rb") as file:
         content = hashlib.file_digest(file, "sha256").hexdigest()
     return hashlib.sha256(f"{content} {decides}".encode()).hexdigest()
@@ -117,57 +123,35 @@ def _report(job: Job, key: str) -> tuple[dict[str, Any], str]:
         of, _, by = made["for"].partition(":")
         sizes = {path.name: path.stat().st_size for path in job.outputs}
         return (report, by) if (of, made["sizes"]) == (key, sizes) else ({}, "")
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return {}, ""  # there is none, or one of another version
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return {}, ""  # there is none, or it is not one of ours, or of another version
 
 
-def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tuple[int, str]:
-    """Run the process to its end; return its exit code and what it wrote to standard error."""
+def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tuple[int, str, str]:
+    """Run the process to its end.
+
+    Returns
+    -------
+    tuple
+        Its exit code, what it wrote to standard error, and the limit that it has exceeded.
+    """
     job.record.unlink(missing_ok=True)  # from now on the outputs may be others than it says
     command = [*(word or sys.executable for word in batch.command), *job.arguments]
     limit = [f"--threads={batch.threads}"] if batch.threads else []
     with tempfile.TemporaryFile() as words:
-        with _ending:  # or one that is being started would be left behind
-            process = subprocess.Popen(
-                [*command, *limit, f"--worker={key}:{batch.name}"],
-                stdin=subprocess.PIPE,
-                bufsize=0,
-                stdout=subprocess.DEVNULL,
-                stderr=words,
-                env=os.environ | thread_variables(batch.threads),
-                start_new_session=True,  # Ctrl-C is for the batch, which then ends it
-                creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
-            )
-            _running.add(process)
+        process = start(
+            [*command, *limit, f"--worker={key}:{batch.name}"],
+            stdout=subprocess.DEVNULL,
+            stderr=words,
+            env=os.environ | thread_variables(batch.threads),
+        )
         with contextlib.suppress(OSError):  # what ends at once says itself why
             process.stdin.write(f"{batch.settings}\n".encode())
-        while process.returncode is None:
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(1)
-            if not is_wanted():
-                _end(process)
-        with _ending:
-            _running.discard(process)
+        exceeded = finish(process, Limits(*batch.limits), is_wanted)
         for path in (*job.outputs, job.record):
             remove_left_behind(path)
         words.seek(0)
-        return process.returncode, words.read().decode(errors="replace")
-
-
-def end_processes() -> None:
-    """End all that run, and wait until they are gone; nothing more is said of them."""
-    _ending.acquire()
-    for process in _running:
-        process.stdin.close()
-    for process in _running:
-        _end(process)
-
-
-def _end(process: subprocess.Popen) -> None:
-    process.stdin.close()
-    with contextlib.suppress(subprocess.TimeoutExpired):
-        process.wait(PATIENCE)
-    process.kill()
+        return process.returncode, words.read().decode(errors="replace"), exceeded
 
 
 def _why_failed(job: Job, code: int, words: str) -> str:
