@@ -297,7 +297,7 @@ class Bake:
                 largest_steps(piece.results(width) for _, piece in everything), frames
             )
         for one, vertices in work.group.parts():
-            cache, path = self._places.files_of(one.source)
+            cache, path = self._places.files_of(one.source, recording.folder)
             with new_point_cache(cache, frames, one.vertices) as positions:
                 for columns, piece in recording.pieces(vertices):
                     results = piece.results(width)

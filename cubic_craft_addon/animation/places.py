@@ -44,12 +44,12 @@ class Places:
         """Return the folder of what is solved."""
         return self._options.folder / f"{self._stem(source)}{_UNFINISHED}"
 
-    def files_of(self, source: bpy.types.Object) -> tuple[Path, Path]:
+    def files_of(self, source: bpy.types.Object, recording: Path) -> tuple[Path, Path]:
         """Return the point cache to write, and the file that is to play, which may be the same.
 
         What plays is a file that no other object plays: one that was baked under this name and
         then renamed, or has the file as an input. A cache that is on its way to another format is
-        in the folder of what is solved, where it is in the way of no file.
+        in the folder of its recording, where it is in the way of no file.
         """
         file_format, stem = self._options.file_format, self._stem(source)
         played = {_place(path) for path in _played_by_others(source)}
@@ -58,7 +58,7 @@ class Places:
         paths = (self._options.folder / f"{name}{suffix}" for name in names)
         path = next(path for path in paths if _place(path) not in played)
         is_cache = file_format == "CACHE"
-        return path if is_cache else self.recording_of(source) / f"{stem}{_CACHE}", path
+        return path if is_cache else recording / f"{stem}{_CACHE}", path
 
     def _stem(self, source):
         return f"{self._stems[source]}{_PROCESS if self._options.is_process else ''}"

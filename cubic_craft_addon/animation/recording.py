@@ -57,6 +57,8 @@ class Recording:
 
     Attributes
     ----------
+    folder : Path
+        Its own, which others keep away from until it is released.
     count : int
         Number of frames.
     state : SequenceState or None
@@ -74,12 +76,12 @@ class Recording:
         self, folder: Path, about: dict[str, Any], vertices: int, part: range | None = None
     ):
         place = "" if part is None else f"{_PART}{part.start:07}_{part.stop:07}"
-        self._folder, self._vertices = folder.with_name(folder.name + place), vertices
+        self.folder, self._vertices = folder.with_name(folder.name + place), vertices
         self.count, self._checksum, self.moment = 0, 0, ""
         self.state: solver.SequenceState | None = None
         self._about = json.loads(json.dumps({**about, "vertices": vertices}))
-        self._folder.parent.mkdir(parents=True, exist_ok=True)
-        self._held = {self._folder: Lock(self._folder)}
+        self.folder.parent.mkdir(parents=True, exist_ok=True)
+        self._held = {self.folder: Lock(self.folder)}
         try:
             self._continue()
             if part is None:
@@ -90,18 +92,18 @@ class Recording:
 
     def _continue(self):
         """Continue an earlier recording of the same, or begin."""
-        saved = self._saved_in(self._folder)
+        saved = self._saved_in(self.folder)
         if saved is None:
-            shutil.rmtree(self._folder, ignore_errors=True)
-            self._folder.mkdir()
-            (self._folder / _FRAMES).touch()
-            (self._folder / _ABOUT).write_text(json.dumps(self._about), encoding="utf-8")
+            shutil.rmtree(self.folder, ignore_errors=True)
+            self.folder.mkdir()
+            (self.folder / _FRAMES).touch()
+            (self.folder / _ABOUT).write_text(json.dumps(self._about), encoding="utf-8")
         else:
             self.count, self._checksum, self.moment, self.state = saved
 
     def _take_parts(self):
         """Append what was solved apart, as far as each part follows on."""
-        for folder in sorted(self._folder.parent.glob(f"{glob.escape(self._folder.name)}{_PART}*")):
+        for folder in sorted(self.folder.parent.glob(f"{glob.escape(self.folder.name)}{_PART}*")):
             self._held[folder] = Lock(folder)
             begin, _end = map(int, folder.name.rpartition(_PART)[2].split("_"))
             part = self._saved_in(folder)
@@ -145,7 +147,7 @@ class Recording:
         self.state, self.moment = state, moment
 
     def _write(self, frame):
-        with (self._folder / _FRAMES).open("r+b") as file:
+        with (self.folder / _FRAMES).open("r+b") as file:
             file.seek(self.count * self._frame_bytes)  # what lies there was never saved
             file.write(frame)
         self._checksum = zlib.crc32(frame, self._checksum)
@@ -155,13 +157,13 @@ class Recording:
         """Make sure that the recording can continue after its last frame."""
         if self.state is None:
             return
-        with replacing(self._folder / _STATE) as partial:
+        with replacing(self.folder / _STATE) as partial:
             known = {"count": self.count, "checksum": self._checksum, "moment": self.moment}
             np.savez(partial, **known, **self.state._asdict())
 
     def pieces(self, vertices: slice) -> Iterator[tuple[slice, solver.Frames]]:
         """Yield `Frames` of a part of the vertices by pieces, each with its place in that part."""
-        path = self._folder / _FRAMES
+        path = self.folder / _FRAMES
         shape = (self.count, self._vertices, _COLUMNS)
         step = max(1, _PIECE // (8 * _COLUMNS * max(self.count, 1)))
         for begin in range(vertices.start, vertices.stop, step):
@@ -175,7 +177,7 @@ class Recording:
     def last(self) -> solver.Frames:
         """Return the last frame."""
         values = np.fromfile(
-            self._folder / _FRAMES,
+            self.folder / _FRAMES,
             np.float32,
             count=self._vertices * _COLUMNS,
             offset=(self.count - 1) * self._frame_bytes,

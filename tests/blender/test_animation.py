@@ -176,9 +176,11 @@ def test_objects_that_are_kept_together(extension, bending, tmp_path):
     assert bake(tmp_path) == {"FINISHED"}
     assert sorted(path.name for path in tmp_path.iterdir()) == ["Ball.pc2", "Hat.pc2"]
     assert {obj.name for obj in bpy.context.selected_objects} == {"Ball Cubic", "Hat Cubic"}
-    for name in ("Ball", "Hat"):
-        played = shown(bpy.data.objects[f"{name} Cubic"], 4)
-        np.testing.assert_allclose(played, read_pc2(tmp_path / f"{name}.pc2")[3], atol=1e-6)
+    for file_format in ("CACHE", "SHAPE_KEYS"):
+        assert bake(tmp_path, format=file_format) == {"FINISHED"}
+        for name in ("Ball", "Hat"):
+            played = shown(bpy.data.objects[f"{name} Cubic"], 4)
+            np.testing.assert_allclose(played, read_pc2(tmp_path / f"{name}.pc2")[3], atol=1e-6)
 
 
 def flat_faces(name, size):
