@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The menu Object > CubicCraft, also on right click: F3 and Quick Favorites find what is in menus."""
+"""The menu Object > CubicCraft, also on right click: F3 and Quick Favorites search menus."""
 
 from typing import Any
 

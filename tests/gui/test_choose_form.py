@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: sid
-"""Cubify by the search, choose a form by hand, see it, follow an object that is edited in Live, and flatten the sides."""
+"""Cubify by the search, choose a form by hand, follow an edited object, flatten the sides."""
 
 import bpy
 import guidrive as gui
