@@ -167,7 +167,7 @@ def _world(obj, is_posed=False):
         Its scale or rotation is not finite.
     """
     world = obj.matrix_world if is_posed else world_at_rest(obj)
-    if not np.isfinite(world.to_3x3()).all():
+    if not np.isfinite(np.array(world.to_3x3())).all():
         raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
     return world
 

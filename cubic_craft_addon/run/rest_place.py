@@ -35,7 +35,7 @@ def _carried_back(obj):
             bone = rig.pose.bones[name]
             into = rig.matrix_world @ bone.bone.matrix_local @ bone.matrix.inverted_safe()
             moved = into @ rig.matrix_world.inverted_safe()
-            if _is_deforming(rig) and not np.allclose(moved, Matrix(), rtol=0.0, atol=_SAME):
+            if _is_deforming(rig) and np.abs(np.array(moved) - np.eye(4)).max() > _SAME:
                 back = moved @ back
         obj = obj.parent
     return back

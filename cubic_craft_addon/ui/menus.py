@@ -10,7 +10,7 @@ from ..object_properties import object_properties
 
 _PARENTS = ("VIEW3D_MT_object", "VIEW3D_MT_object_context_menu")
 # Names that say what they do where no panel stands around them.
-_ENTRIES = (
+_ENTRIES: tuple[tuple[str, str, Any] | None, ...] = (
     ("cubic_craft.cubify", "Cubify", "MESH_CUBE"),
     ("cubic_craft.live", "Cubify Live", "PLAY"),
     ("cubic_craft.auto_orient", "Auto Orient Cube", "ORIENTATION_GLOBAL"),
@@ -30,6 +30,7 @@ class VIEW3D_MT_object_cubic_craft(bpy.types.Menu):
 
     def draw(self, context):
         """Draw the entries, and the setting that characters need."""
+        assert context is not None
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
         for entry in _ENTRIES:
