@@ -260,7 +260,7 @@ def test_pipes_devices_and_hidden_files_are_named_and_not_read(folder):
     assert [path.name for path in left_out] == names
     job, batch = batch_of(folder, WRITES)
     assert (
-        "is no regular file" in do(job._replace(path=folder / "sub" / "pipe.obj"), batch)["error"]
+        "is a device or a pipe" in do(job._replace(path=folder / "sub" / "pipe.obj"), batch)["error"]
     )
 
 

@@ -357,5 +357,5 @@ def test_a_batch_takes_neither_links_out_of_its_folder_nor_pipes(folder):
     os.mkfifo(meshes / "pipe.obj")
     process = batch("meshes", "--report", "report.json", cwd=folder)
     assert process.returncode == 3, process.stderr
-    assert statuses(folder) == {"link.obj": "failed", "pipe.obj": "failed"}
+    assert statuses(folder) == {"link.obj": "failed"}
     assert "leads out of the folder" in process.stderr and "pipe" in process.stderr

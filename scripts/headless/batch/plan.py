@@ -49,7 +49,7 @@ class Job(NamedTuple):
     """the report of the run that has made them"""
     arguments: tuple[str, ...]
     """of the process that does it"""
-    folder: Path | None
+    folder: Path | None = None
     """that the file must lie in, links followed, if it was found in one"""
 
 
