@@ -7,7 +7,8 @@ midpoints of alike thickness are one node, and nodes that meet on the surface ar
 graph, whose paths lead along a spring and not from one of its turns to the next, nor from finger to
 finger. Around each node, in windows on this graph, the nodes are measured: their extent along their
 main direction, beside the width of what they are the middle of, says how much of a limb they are.
-Neighbors that lie the same way are one straight piece of it, as a bone is.
+Neighbors that lie the same way are one straight piece of it, as a bone is; where such a piece bends
+a little, as a leg does between thigh and shank, it is cut into short ones.
 """
 
 from typing import NamedTuple
@@ -40,6 +41,10 @@ SHORT = 0.8
 """widths: a shorter piece belongs to the next one"""
 WIDEST, THIN, SIDES = 0.75, 0.7, 3
 """of a trunk: its width beside the largest of its body, that of limbs beside it, their number"""
+CUT = 0.8
+"""widths: length of the short pieces of one that bends"""
+BEND = np.cos(np.radians(4.0))
+"""between the directions of a piece that is straight and of each short one"""
 BLUR = 0.35
 """of the width: how far a piece reaches into the next"""
 SMOOTHINGS = 4
@@ -83,6 +88,7 @@ def limbs_of_shape(V, skin, links, part):
     if len(directions):
         piece, directions = _without_short(piece, directions, skeleton, width, distance)
         piece = _without_trunks(piece, len(directions), skeleton.graph, width)
+        piece, directions = _cut(piece, directions, skeleton, direction, confidence, width)
     if not len(directions):
         return no_limbs(len(V))
     shares = np.zeros((len(piece), len(directions)))
@@ -234,6 +240,34 @@ def _without_trunks(piece, count, graph, width):
         if len(np.unique(side[is_thin])) >= SIDES:
             result[is_own] = -1
     return result
+
+
+def _cut(piece, directions, skeleton, direction, confidence, width):
+    """Return pieces (m,) and directions (s,3) of which those that bend are cut into short ones.
+
+    The less of a limb a node is, the more it lies like its whole piece: where a neck begins, what
+    is around a node is also the trunk.
+    """
+    result, found = np.full(len(piece), -1), []
+    for number, axis in enumerate(directions):
+        rows = np.flatnonzero(piece == number)
+        if not len(rows):
+            continue
+        along = skeleton.place[rows] @ axis
+        begin, length = along.min(), np.ptp(along)
+        count = max(round(length / (CUT * width[rows].mean())), 1)
+        place = np.minimum((along - begin) * (count / max(length, 1e-12)), count - 1).astype(int)
+        share = confidence[rows]
+        own = np.copysign(share, direction[rows] @ axis)[:, None] * direction[rows]
+        own += (1.0 - share)[:, None] * axis
+        sums = np.stack([np.bincount(place, x, count) for x in own.T], axis=1)
+        sums[np.bincount(place, minlength=count) == 0] = axis
+        pieces = sums / np.linalg.norm(sums, axis=1)[:, None]
+        if (pieces @ axis > BEND).all():
+            pieces, place = axis[None], np.zeros(len(rows), dtype=int)
+        result[rows] = len(found) + place
+        found += list(pieces)
+    return result, np.array(found).reshape(-1, 3)
 
 
 def _smoothed(of_node, node, skin):

@@ -70,6 +70,15 @@ def test_a_bar_in_any_direction_keeps_it():
     assert angle_between(along_z(U), along_z(V)) < 1.0
 
 
+def test_a_leg_that_bends_a_little_keeps_its_bend():
+    way = [[np.sin(x), 0.0, np.cos(x)] for x in np.radians([40.0] * 40 + [20.0] * 40)]
+    V, F = limb_shapes.tube(np.cumsum(way, axis=0) * 0.035, 0.2)
+    U = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions
+    low, high = V[:, 2] < 0.8 * V[:, 2].mean(), V[:, 2] > 1.2 * V[:, 2].mean()
+    before, after = (angle_between(along_z(x[low]), along_z(x[high])) for x in (V, U))
+    assert before > 17.0 and after > 0.8 * before
+
+
 def test_a_spring_keeps_its_height_and_its_turns_apart():
     V, F = limb_shapes.spring(3)
     result = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT)
