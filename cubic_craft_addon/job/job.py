@@ -7,6 +7,7 @@ any two steps without changing anything.
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
+import logging
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 
@@ -16,11 +17,14 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..handles.baked_pose import rebase_edited_handles
 from ..run.assembly import assemblies
+from ..run.failures import UNEXPECTED
 from ..run.member import Shape
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task, plan, write_all
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept, settings_untouched
+
+_log = logging.getLogger(__name__)
 
 _LONG_SETUP = 15_000  # vertices; larger meshes take noticeable time to factorise
 _MODES = ("OBJECT", "WEIGHT_PAINT")
@@ -170,7 +174,11 @@ class Job:
             solved = [task for task in self._tasks if task.solution is not None]
             looks = [mesh_bridge.Look(task.obj, task.settings.result) for task in solved]
             summary, unwritten = write_all(self._overrides, solved)
-            problems = self._problems + unwritten + _unseen(solved, looks)
+            problems = self._problems + unwritten
+            try:
+                problems += _unseen(solved, looks)
+            except UNEXPECTED:  # what is written is written, and needs its undo step
+                _log.exception("Looking at the results failed")
             if not summary:
                 raise CubicCraftError("; ".join(problems))
         return summary, problems

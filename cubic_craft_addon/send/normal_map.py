@@ -87,10 +87,12 @@ def _make(
 ) -> NormalMap:
     """Make all that stays; `undo` removes it again."""
     with studio() as stage, contextlib.ExitStack() as passing:
-        high = passing.enter_context(_stand_in(stage, obj, _mesh_of_result(stage, obj, present)))
+        high_mesh = _mesh_of_result(stage, obj, present)
+        passing.callback(bpy.data.meshes.remove, high_mesh)
+        high = passing.enter_context(_stand_in(stage, obj, high_mesh))
         low_mesh = _low_mesh(stage, obj, flat, options.triangles)
         undo.callback(bpy.data.meshes.remove, low_mesh)
-        low = passing.enter_context(_stand_in(stage, obj, low_mesh, is_kept=True))
+        low = passing.enter_context(_stand_in(stage, obj, low_mesh))
         rendered = _rendered_uv(low_mesh)
         uv_map = low_poly.choose_uv(stage, low, options.uv, options.resolution, obj.name)
         low_poly.set_hard_edges(low_mesh, uv_map)
@@ -101,7 +103,9 @@ def _make(
         materials = MapMaterials(low_mesh, image)
         undo.callback(materials.remove)
         materials.add(f"{obj.name} Low")
-        baked = passing.enter_context(_stand_in(stage, obj, _with_only(low_mesh, uv_map)))
+        baked_mesh = _with_only(low_mesh, uv_map)
+        passing.callback(bpy.data.meshes.remove, baked_mesh)
+        baked = passing.enter_context(_stand_in(stage, obj, baked_mesh))
         apart = bake_normals(stage, high, baked, image)
         plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
         problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
@@ -141,9 +145,9 @@ def _low_mesh(
 
 @contextlib.contextmanager
 def _stand_in(
-    stage: Studio, obj: bpy.types.Object, mesh: bpy.types.Mesh, *, is_kept: bool = False
+    stage: Studio, obj: bpy.types.Object, mesh: bpy.types.Mesh
 ) -> Iterator[bpy.types.Object]:
-    """Show a mesh in the studio where an object is in the scene, and remove it unless kept."""
+    """Show a mesh in the studio where an object is in the scene."""
     new = bpy.data.objects.new(obj.name, mesh)
     try:
         stage.take(new)
@@ -152,8 +156,6 @@ def _stand_in(
         yield new
     finally:
         bpy.data.objects.remove(new)
-        if not is_kept:
-            bpy.data.meshes.remove(mesh)
 
 
 def _pose(new: bpy.types.Object, mesh: bpy.types.Mesh, name: str) -> None:

@@ -183,9 +183,9 @@ def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> lis
         return chosen
     chosen = [obj for obj in found if obj.data.polygons and is_in_picture(obj)]
     if not chosen:
-        what = (
-            "only meshes that are hidden, are not rendered or have no faces" if found else "no mesh"
-        )
+        what = "only meshes that are hidden, are not rendered or have no faces"
+        if not any(obj.data.polygons for obj in found):
+            what = "only meshes without faces" if found else "no mesh"
         raise InputError(f"{source}: holds {what}; export it again with a visible mesh with faces")
     for obj in found:
         if obj not in chosen:

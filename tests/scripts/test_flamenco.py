@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import pytest
 from batch_kit import CUBE
-from headless import SCRIPT, headless_ok
+from headless import SCRIPT, headless, headless_ok
 
 from scripts.headless.arguments import parse
 from scripts.headless.formats import KEEP_VERTICES, READABLE
@@ -131,7 +131,7 @@ def test_what_the_tasks_write(settings, tmp_path):
     settings |= {"pictures": False, "options": "--device numpy --max-iterations 2"}
     settings |= {"files": json.dumps(["it's $HOME.obj", "-lead.obj", "a.ply"])}
     for arguments in command_lines(settings).values():
-        headless_ok(*arguments, cwd=tmp_path)
+        headless_ok(*arguments, cwd=tmp_path, run=headless)
     done = {"it's $HOME.json", "it's $HOME.obj", "-lead.json", "-lead.obj"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == {*done, "a.error.txt"}
     assert "a.ply: cannot be read" in (tmp_path / "out" / "a.error.txt").read_text()

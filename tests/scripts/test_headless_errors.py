@@ -69,7 +69,7 @@ CONTENT = {
     "noise as .glb": (["noise.glb"], ["noise.glb", "cannot be read"]),
     "noise as .usdc": (["noise.usdc"], ["noise.usdc", "cannot be read"]),
     "Alembic cut off": (["cut.abc"], ["cut.abc", "cut off"]),
-    "no faces": (["points.obj"], ["points.obj", "no faces"]),
+    "no faces": (["points.obj"], ["points.obj", "without faces"]),
     "not a number": (["nan.obj"], ["nan.obj", "vertex 3", "finite"]),
     "infinite binary .ply": (["inf.ply"], ["inf.ply", "vertex 2", "finite"]),
     "infinite text .ply": (["text.ply"], ["text.ply", "vertex 2", "finite"]),
