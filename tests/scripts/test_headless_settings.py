@@ -26,7 +26,7 @@ GIVEN = {
     ),
 }
 READ = """
-import json, sys
+import json, os, sys
 from dataclasses import asdict
 from pathlib import Path
 
@@ -44,6 +44,8 @@ with registered(Path(headless.__file__).parents[2]) as extension:
     for given in sys.argv[1:]:
         options = parse(["--no-render", "--report", "r.json", *given.split()])
         print(json.dumps(asdict(settings_of_object(obj, (), options, extension, loaded).proxy)))
+sys.stdout.flush()
+os._exit(0)  # Blender 4.2 crashes while it is freed
 """
 
 
