@@ -55,10 +55,11 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 		$(PY) $(PYTEST) tests/blender/hostile
 
 # Of the scripts, those that use Blender's data, importers and exporters; batch, benchmark and
-# figures only start these. Faults of Python functions, and signals, are the same in both.
+# figures only start these. Faults of Python functions, leaks, and signals, are the same in both.
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --ignore tests/blender/test_faults.py \
-		--ignore tests/scripts/test_headless_interrupted.py tests/blender tests/scripts/test_headless_*.py
+		--ignore tests/blender/test_leaks.py --ignore tests/scripts/test_headless_interrupted.py \
+		tests/blender tests/scripts/test_headless_*.py
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest

@@ -14,7 +14,7 @@ from live_steps import add_monkey, confirm, tick_to_rest
 from scene import cubify, select
 from world import block_names
 
-ROUNDS = int(os.environ.get("CUBIC_CRAFT_ROUNDS", "50"))
+ROUNDS = int(os.environ.get("CUBIC_CRAFT_ROUNDS", "30"))
 WARM_UP = 20
 # Per round, once warm: far below one copy of the positions of the mesh (507 vertices, 6 KiB).
 BYTES_PER_ROUND = 4096

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """A Cubify that takes long: watched, cancelled in every way, and brought to its end."""
 
 import importlib

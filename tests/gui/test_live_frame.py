@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """The cube of Live: a frame object that is turned and moved by hand, the overlay, Auto Orient."""
 
 import bpy

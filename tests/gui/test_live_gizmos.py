@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Grab a handle in the viewport while Live runs: move, turn and scale it, take back, confirm."""
 
 import math

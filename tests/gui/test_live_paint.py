@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """The cubeness map, painted with the mouse while Live runs: the shape follows each stroke."""
 
 import bpy

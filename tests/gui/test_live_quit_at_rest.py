@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Blender is quit while Live rests, in a second window, too."""
 
 import bpy

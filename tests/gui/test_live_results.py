@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Live for several objects at once, for all kinds of results, and with shape keys."""
 
 import bpy

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """What the artist does to the live object and around it ends Live cleanly or lets it go on."""
 
 import bpy

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Undo while Live runs, of what the artist has done to another object."""
 
 import bpy

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Live in a second window, which is closed; and with its viewport maximized."""
 
 import bpy

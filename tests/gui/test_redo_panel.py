@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Change the cubeness in the redo panel: Cubify runs again, from the original, as one undo step."""
 
 import bpy

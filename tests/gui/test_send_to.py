@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Bake a normal map by a click, look at it, and send the low-poly mesh to a file by the dialog."""
 # Window: 1000x1750
 
