@@ -9,6 +9,7 @@ import numpy as np
 
 from ...solver.contacts.crossings import crossings
 from .. import mesh_bridge
+from .rest_place import world_at_rest
 
 
 def crossing_faces(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, np.ndarray]:
@@ -51,7 +52,7 @@ def _shapes(obj):
     mesh = mesh_bridge.mesh_of(obj)
     now = mesh_bridge.result_positions(obj)
     original = mesh_bridge.original_positions(mesh, "ORIGINAL")
-    matrix = np.array(obj.matrix_world)
+    matrix = np.array(world_at_rest(obj))  # where it was solved
     now, then = (V.astype(float) @ matrix[:3, :3].T + matrix[:3, 3] for V in (now, original))
     return now, then, mesh_bridge.triangles(mesh, original), mesh_bridge.faces_of_triangles(mesh)
 
