@@ -28,9 +28,7 @@ def _carried_back(obj):
     back = Matrix()
     if not obj.users_scene:
         return back
-    for _ in range(_DEPTH):
-        if obj is None:
-            break
+    while obj is not None:
         for rig, name in _bones(obj):
             bone = rig.pose.bones[name]
             into = rig.matrix_world @ bone.bone.matrix_local @ bone.matrix.inverted_safe()
@@ -39,9 +37,6 @@ def _carried_back(obj):
                 back = moved @ back
         obj = obj.parent
     return back
-
-
-_DEPTH = 100  # of parents; Blender allows no rings, but what is broken must not hang
 
 
 def _bones(obj):
