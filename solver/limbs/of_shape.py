@@ -43,6 +43,8 @@ WIDEST, THIN, SIDES = 0.75, 0.7, 3
 """of a trunk: its width beside the largest of its body, that of limbs beside it, their number"""
 CUT = 0.8
 """widths: length of the short pieces of one that bends"""
+OF_NODES = 3
+"""fewest in a short piece, in the mean: fewer do not say how it bends"""
 BEND = np.cos(np.radians(4.0))
 """between the directions of a piece that is straight and of each short one"""
 BLUR = 0.35
@@ -263,7 +265,7 @@ def _cut(piece, directions, skeleton, direction, confidence, width):
         sums = np.stack([np.bincount(place, x, count) for x in own.T], axis=1)
         sums[np.bincount(place, minlength=count) == 0] = axis
         pieces = sums / np.linalg.norm(sums, axis=1)[:, None]
-        if (pieces @ axis > BEND).all():
+        if len(rows) < OF_NODES * count or (pieces @ axis > BEND).all():
             pieces, place = axis[None], np.zeros(len(rows), dtype=int)
         result[rows] = len(found) + place
         found += list(pieces)

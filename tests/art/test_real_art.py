@@ -67,7 +67,8 @@ def test_limbs_keep_their_direction():
     x, _, z = outcome.V.T
     arms, legs = (np.abs(x) > 0.3) & (z > 0.8), (z < 0.85) & (z > 0.15) & (np.abs(x) < 0.3)
     limbs = [part & (side * x > 0) for part in (arms, legs) for side in (1, -1)]
-    assert measures.limbs_turn(outcome.V, outcome.U, limbs) <= 5
+    # 4 if its legs were straight: as they may bend, their ends turn more than their means
+    assert measures.limbs_turn(outcome.V, outcome.U, limbs) <= 6
     swinging = outcome_of("body_as_a_whole")
     assert measures.limbs_turn(swinging.V, swinging.U, limbs) >= 15
 
