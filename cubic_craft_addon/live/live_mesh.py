@@ -61,6 +61,11 @@ class LiveMesh:
         return self.run.solution_of(self.object_uid) if self.run else None
 
     @property
+    def solution_so_far(self):
+        """The current shape as a result, None if nothing of it can be shown yet."""
+        return self.run.solution_so_far(self.object_uid) if self.run else None
+
+    @property
     def is_seen(self):
         """Whether the current run has been shown, if it is shown at all."""
         return self._preview is None or self._shown_moment is not None

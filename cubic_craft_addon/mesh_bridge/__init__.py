@@ -13,6 +13,7 @@ from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group
+from .memory.cubic_key import find_cubic_key
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
@@ -31,6 +32,7 @@ from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
+from .result.rollback import mesh_untouched
 from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
 
 __all__ = (
@@ -50,6 +52,7 @@ __all__ = (
     "end_all_previews",
     "end_preview",
     "faces_of_triangles",
+    "find_cubic_key",
     "group_weights",
     "has_original",
     "has_preview",
@@ -60,6 +63,7 @@ __all__ = (
     "link_beside",
     "make_seen",
     "mesh_of",
+    "mesh_untouched",
     "move_seen",
     "not_hidden",
     "original_positions",
