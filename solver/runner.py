@@ -270,6 +270,11 @@ class Run:
             return self._coarse.energy
         return self.stylization.energy or self._coarse_energy
 
+    @property
+    def seconds(self) -> float:
+        """Time of the iterations so far."""
+        return self._seconds
+
     def advance(self) -> None:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()

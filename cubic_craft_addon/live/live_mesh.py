@@ -98,8 +98,11 @@ class LiveMesh:
             self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
 
-    def show(self, mesh: bpy.types.Mesh) -> bool:
-        """Show the current state of the run; return whether it was new."""
+    def show(self, mesh: bpy.types.Mesh, values: Mapping[str, Any]) -> bool:
+        """Show the current state of the run; return whether it was new.
+
+        `values` are the settings, for a file that is opened with this shape.
+        """
         if self._preview is None or self.run is None:
             return False
         moment = self.run.moment
@@ -109,7 +112,7 @@ class LiveMesh:
         found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
         if found is None:
             return False
-        self._preview.show(mesh, *found)
+        self._preview.show(mesh, *found, {"values": values, "run": self.run.outcome})
         return True
 
     def take_along(self, mesh: bpy.types.Mesh) -> bool:

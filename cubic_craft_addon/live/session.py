@@ -19,7 +19,7 @@ from ..run.assembly import assemblies
 from ..run.failures import UNEXPECTED
 from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
-from ..settings.overrides import SettingsOverrides
+from ..settings.overrides import ALL, SettingsOverrides
 from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
@@ -310,7 +310,8 @@ class Session:
         return self._runs.is_working
 
     def _show(self, objects):
-        shown = [mesh.show(objects[mesh.object_uid].data) for mesh in self.meshes]
+        values = {name: self._values[name] for name in ALL}
+        shown = [mesh.show(objects[mesh.object_uid].data, values) for mesh in self.meshes]
         self._has_written |= any(shown)
         return any(shown)
 

@@ -26,6 +26,7 @@ from .memory.original import (
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.cover import Look, cover_problem, covers, distance, is_still
+from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
@@ -59,6 +60,7 @@ __all__ = (
     "has_traces",
     "is_edited",
     "is_still",
+    "keep_preview",
     "last_run",
     "link_beside",
     "make_seen",
@@ -66,6 +68,7 @@ __all__ = (
     "mesh_untouched",
     "move_seen",
     "not_hidden",
+    "noted_outcome",
     "original_positions",
     "plain_copy",
     "read_evaluated",

@@ -175,6 +175,21 @@ class StepwiseRun:
         return self._so_far[1].get(uid)
 
     @property
+    def outcome(self):
+        """The numbers of a `LastRun`, as values for JSON, while there is something to show."""
+        assert self._run is not None and self.prepared is not None
+        energy = self._run.energy
+        return {
+            "vertices": int(self.prepared.vertices),
+            "objects": len(self.prepared.members),
+            "iterations": int(self._run.iterations),
+            "energy": 0.0 if energy is None else max(float(energy.total), 0.0),
+            "converged": self._run.reason == "converged",
+            "seconds": float(self.prepared.seconds + self._run.seconds),
+            "device": self._run.stylization.device,
+        }
+
+    @property
     def moment(self):
         """Identifier of the state that can be shown, None if there is none."""
         if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):

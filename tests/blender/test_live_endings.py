@@ -2,6 +2,7 @@
 """What may happen to Live from outside or go wrong in it: the shape is never lost."""
 
 import importlib
+import json
 from types import SimpleNamespace
 
 import bpy
@@ -233,11 +234,42 @@ def test_it_goes_on_when_the_file_cannot_be_saved(live, begin, tmp_path):
     assert not session.is_ended and bits(obj) == shown
 
 
-def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp_path):
+@pytest.mark.parametrize("cubified", [False, True])
+def test_a_file_written_behind_its_back_shows_what_was_seen(live, begin, tmp_path, cubified):
     """As Blender's autosave does, which tells nobody."""
+    obj = add_rich_monkey(keys=True)
+    obj.cubic_craft.refine = "OFF"
+    select(obj)
+    original = snapshot_mesh(obj.data)
+    if cubified:
+        bpy.ops.cubic_craft.cubify()
+    before = bits(obj)
+    session = tick_to_rest(begin(obj, cubeness=0.7))
+    shown = bits(obj)
+    path = str(tmp_path / "behind.blend")
+    bpy.data.libraries.write(path, {bpy.context.scene})
+    session.on(live.Event.CANCEL)
+    assert bits(obj) == before != shown
+    name = obj.name
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects[name]
+    check_gone(live)
+    assert bits(obj) == shown
+    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
+    select(obj)
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    # The values of the keys are those of the scene.
+    assert not differences(original, snapshot_mesh(obj.data), ("*is_evaluated*",))
+
+
+@pytest.mark.parametrize("outcome", [None, 1, {"values": {}}, {"values": {"result": "MESH"}}])
+def test_a_file_that_says_anything_else_heals(live, begin, tmp_path, outcome):
     obj = add_monkey()
     original = bits(obj)
     session = tick_to_rest(begin(obj))
+    note = json.loads(obj.data["cubic_craft_note"])
+    note["live"]["outcome"] = outcome
+    obj.data["cubic_craft_note"] = json.dumps(note)
     path = str(tmp_path / "behind.blend")
     bpy.data.libraries.write(path, {bpy.context.scene})
     session.on(live.Event.CANCEL)

@@ -17,7 +17,7 @@ from .actions import is_cubifying, is_live, is_on
 _ALWAYS = (
     ("undo_post", "_heal"),
     ("redo_post", "_heal"),
-    ("load_post", "_heal"),
+    ("load_post", "_keep"),
     ("load_post", "_start_anew"),
     ("depsgraph_update_post", "_follow_updates"),
     ("depsgraph_update_post", "_on_update"),
