@@ -14,6 +14,21 @@ MODES = ("OBJECT", "WEIGHT_PAINT")
 """those in which meshes can be written"""
 
 
+def place_of(context: bpy.types.Context) -> tuple[int | None, int | None]:
+    """Return ``session_uid`` of the workspace and of the scene that the artist is in."""
+    places = context.workspace, context.scene
+    workspace, scene = (None if place is None else place.session_uid for place in places)
+    return workspace, scene
+
+
+def objects_of(context: bpy.types.Context, place: tuple[int | None, int | None]):
+    """Return the objects of the view layer, or those of the scene if the artist has left it."""
+    if context.scene is not None and context.scene.session_uid == place[1]:
+        return context.view_layer.objects
+    scenes = [scene for scene in bpy.data.scenes if scene.session_uid == place[1]]
+    return scenes[0].objects if scenes else []
+
+
 def is_another_mesh_active(objects: list[bpy.types.Object]) -> bool:
     """Return whether a mesh is active that Live has nothing to do with.
 

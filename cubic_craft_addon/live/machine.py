@@ -48,7 +48,8 @@ class Event(Enum):
     """the artist has switched to a mode in which meshes must not be written"""
     SELECTED = auto()
     """the artist has turned to another mesh"""
-    WORKSPACE_LEFT = auto()
+    PLACE_LEFT = auto()
+    """the artist has turned to another workspace or scene"""
     SAVE = auto()
     SAVED = auto()
     LOAD = auto()
@@ -114,7 +115,7 @@ _ENDINGS = {
     Event.FAILED: _GIVE_UP,
     Event.MODE_LEFT: _GO_ON_ELSEWHERE,
     Event.SELECTED: _GO_ON_ELSEWHERE,
-    Event.WORKSPACE_LEFT: _GO_ON_ELSEWHERE,
+    Event.PLACE_LEFT: _GO_ON_ELSEWHERE,
     Event.CLOSED: _CUT_OFF,
     Event.DISABLED: _CUT_OFF,
 }
@@ -124,7 +125,7 @@ _END_MESSAGES = {
     " as before Live",
     Event.MODE_LEFT: "Live has ended because the mode was changed",
     Event.SELECTED: "Live has ended because another mesh was selected",
-    Event.WORKSPACE_LEFT: "Live has ended because the workspace was changed",
+    Event.PLACE_LEFT: "Live has ended because another workspace or scene was chosen",
     Event.LOST: "Live has ended because its object is gone from the scene",
 }
 """messages about endings that the artist did not request and may not have noticed"""

@@ -70,7 +70,7 @@ class Session:
     def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
         self._machine = Machine()
         self._window = context.window
-        self._workspace = context.workspace.session_uid if context.workspace else None
+        self._place = elsewhere.place_of(context)
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
@@ -215,10 +215,9 @@ class Session:
         return True
 
     def look_around(self, context: bpy.types.Context) -> None:
-        """End if the artist has turned to another workspace."""
-        workspace = context.workspace
-        if workspace is not None and workspace.session_uid != self._workspace:
-            self.on(Event.WORKSPACE_LEFT)
+        """End if the artist has turned to another workspace or scene."""
+        if elsewhere.place_of(context) != self._place:
+            self.on(Event.PLACE_LEFT)
 
     def tick(self, context: bpy.types.Context) -> None:
         """Check whether anything has changed, compute for a time slice, and show the result."""
@@ -409,7 +408,7 @@ class Session:
         """Return the objects that still exist, by ``session_uid``, the active one first."""
         uids = set(self._object_uids)
         # It contains None if a script has just removed an object.
-        there = [obj for obj in context.view_layer.objects if obj is not None]
+        there = [obj for obj in elsewhere.objects_of(context, self._place) if obj is not None]
         found = {obj.session_uid: obj for obj in there if obj.session_uid in uids}
         known = {mesh.object_uid: mesh.mesh_uid for mesh in self.meshes}
         return {

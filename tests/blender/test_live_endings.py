@@ -149,8 +149,24 @@ def test_another_workspace_confirms_it(live, begin):
     session.look_around(bpy.context)
     assert not session.is_ended
     other = next(w for w in bpy.data.workspaces if w != bpy.context.workspace)
-    session.look_around(SimpleNamespace(workspace=other))
+    session.look_around(SimpleNamespace(workspace=other, scene=bpy.context.scene))
     assert session.is_ended and session.summary and bits(obj) == shown
+
+
+def test_another_scene_confirms_it(live, begin):
+    obj = add_monkey()
+    session = tick_to_rest(begin(obj))
+    shown = bits(obj)
+    first, other = bpy.context.window.scene, bpy.data.scenes.new("Other")
+    bpy.context.window.scene = other
+    try:
+        session.look_around(bpy.context)
+    finally:
+        bpy.context.window.scene = first
+        bpy.data.scenes.remove(other)
+    assert session.is_ended and session.summary and not session.problems
+    assert bits(obj) == shown
+    check_gone(live)
 
 
 def test_after_cancelling_a_click_starts_where_it_was(live, begin):

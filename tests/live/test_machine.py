@@ -8,7 +8,7 @@ machine = load("machine")
 Action, Event, Machine, State = machine.Action, machine.Event, machine.Machine, machine.State
 
 GIVEN_UP = (Event.CANCEL, Event.NOTHING_LEFT, Event.LOST, Event.LOAD, Event.FAILED)
-ELSEWHERE = (Event.MODE_LEFT, Event.SELECTED, Event.WORKSPACE_LEFT)
+ELSEWHERE = (Event.MODE_LEFT, Event.SELECTED, Event.PLACE_LEFT)
 CUT_OFF = (Event.CLOSED, Event.DISABLED)
 RUNNING = [state for state in State if state is not State.ENDED]
 PATHS = {
@@ -52,7 +52,7 @@ def test_a_mode_is_left_for_as_long_as_is_written(event):
         (Event.NOTHING_LEFT, "undo"),
         (Event.MODE_LEFT, "mode"),
         (Event.SELECTED, "another mesh"),
-        (Event.WORKSPACE_LEFT, "workspace"),
+        (Event.PLACE_LEFT, "workspace"),
         (Event.LOST, "gone"),
     ],
 )

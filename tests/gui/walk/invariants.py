@@ -71,6 +71,7 @@ class Invariants:
         self._errors = _Errors()
         logging.getLogger(scene.EXTENSION).addHandler(self._errors)
         self._functions = set()
+        self._was_live = False
         self._before = meshes.read_all()
         self._shapes = {state.original for state in self._before.values()}
         self._faces = {state.faces for state in self._before.values()}
@@ -90,6 +91,8 @@ class Invariants:
         self._check_live()
         now = meshes.read_all()
         rewrites = action.name in _REWRITE or _REWRITING_BUTTONS.search(text) is not None
+        rewrites |= self._was_live and not is_live()  # whatever has ended it confirms
+        self._was_live = is_live()
         for uid, state in now.items():
             self._check_mesh(state, self._before.get(uid), action, rewrites)
         self._before = now
