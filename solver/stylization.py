@@ -137,6 +137,7 @@ class Stylization:
         rest = self.rest = setup.rest
         lam = self._lam = _spread(cubeness, "cubeness", setup)
         Q = _orientation(orientation, rest, may_mirror=not (form is None and capture is None))
+        self._given_Q = Q
         self._form, self._form_of = form, _numbers(form_of, rest)
         self._capture, self._capture_of = capture, _numbers(capture_of, rest)
         if drawn is None:
@@ -189,6 +190,48 @@ class Stylization:
         still = np.zeros(other.rest.topology.component_count)
         for _ in range(_FIRST_SOLVES):
             other._motion.step(still, still, other._keep_rotation)
+        return other
+
+    def moved(
+        self,
+        setup: Setup,
+        targets: ArrayLike | None = None,
+        hold_matrices: Sequence[np.ndarray] = (),
+    ) -> "Stylization":
+        """Return a Stylization that goes on from here with another rest shape.
+
+        It begins with the present shape, in which each vertex is moved as at rest, turned by its
+        rotation, and needs few steps if the rest shape has hardly changed. Weights, limbs and how
+        much normals count stay as they are, so the end is only near that of a new run.
+
+        Parameters
+        ----------
+        setup : Setup
+            Of `Setup.posed`.
+        targets : (N,3) numpy array, optional
+        hold_matrices : sequence of (4,4) numpy arrays
+            As of a new one.
+        """
+        other = copy(self)
+        other.setup, other.rest, other.is_started = setup, setup.rest, True
+        rest = setup.rest
+        turned = rest.normals - self.rest.normals
+        if self._form is not None or self._capture is not None:
+            turned = turned * rest.outward
+        is_drawn = self._drawn.any(axis=1)
+        other._drawn = _unit(np.where(is_drawn[:, None], self._drawn + turned, 0.0))
+        if self._capture is not None:
+            other._captured = targets_for(
+                self._capture, self._capture_of, self._mu, self._given_Q, other._drawn
+            )
+        other._targets, other._hold_matrices = _targets(targets, setup), hold_matrices
+        R = self.rotations.copy()
+        U = self.positions + np.einsum("nij,nj->ni", R, rest.V - self.rest.V)
+        held = setup.pinned
+        U[held] = rest.V[held] + _moved(setup, other._targets) / rest.box.size
+        other._begin(U)
+        other._local.start_from(R)
+        other.iteration, other.energy = 0, None
         return other
 
     def impose(self, U):
