@@ -17,6 +17,8 @@ from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, in a ring beside held vertices that is left free:
 it moves by less than this length."""
+MOST_STRETCH = 4.0
+"""How often larger or smaller the area around a vertex may be in a pose that the weights suit."""
 
 
 class Setup:
@@ -119,6 +121,15 @@ class Setup:
         if self.hold_fields is not None:
             other.hold_fields = HoldFields(other, self.hold_fields.weights)
         return other
+
+    def serves(self, posed: "Setup") -> bool:
+        """Return whether the weights of this setup still suit a pose of it.
+
+        They do not where the surface was stretched far: see `MOST_STRETCH`.
+        """
+        areas, others = self.rest.areas, posed.rest.areas
+        is_near = (others <= MOST_STRETCH * areas) & (areas <= MOST_STRETCH * others)
+        return bool(is_near.all())
 
     def with_holds(self, weights) -> "Setup":
         """Return the same setup with groups of vertices that keep their place, see `holds.py`.

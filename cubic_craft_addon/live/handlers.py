@@ -38,16 +38,18 @@ def _on_frame(*_):
 @persistent
 def _on_update(_scene, depsgraph):
     """Distinguish what the artist has done from what Live itself has caused."""
-    mesh_uids = _session.mesh_uids
+    mesh_uids, shown_uids = _session.mesh_uids, _session.shown_uids
     for update in depsgraph.updates:
         data = update.id.original
         if isinstance(data, bpy.types.Mesh):
             if update.is_updated_geometry and data.session_uid in mesh_uids:
                 _session.on_mesh_update()
+        elif isinstance(data, bpy.types.Object) and data.mode == "SCULPT":
+            _session.on_mesh_update()  # of a stroke, Blender reports no more
         elif isinstance(data, bpy.types.Object) and (
             update.is_updated_transform
             or not update.is_updated_geometry
-            or (data.data is not None and data.data.session_uid not in mesh_uids)
+            or (data.data is not None and data.data.session_uid not in mesh_uids | shown_uids)
         ):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself;
             # or another object was edited, which a form or a normal capture may be made from.

@@ -70,6 +70,15 @@ class LiveMesh:
         """Whether the current run has been shown, if it is shown at all."""
         return self._preview is None or self._shown_moment is not None
 
+    @property
+    def shown_uid(self):
+        """``session_uid`` of the mesh on which it shows what is on no mesh of the artist; or 0."""
+        return 0
+
+    def shows_on(self, obj: bpy.types.Object) -> bpy.types.Mesh | None:
+        """Return the mesh on which it shows the run of an object."""
+        return mesh_bridge.mesh_of(obj)
+
     def join(self, run: StepwiseRun | None) -> None:
         """Take part in a run that has just been started, or in none."""
         self.run = run
@@ -92,18 +101,30 @@ class LiveMesh:
             if self.run is not None:
                 self.run.forget()
 
-    def begin_preview(self, mesh: bpy.types.Mesh) -> None:
+    def begin_preview(self, obj: bpy.types.Object) -> None:
         """Keep what the preview will overwrite, on the mesh itself."""
-        if self._is_shown:
+        mesh = self.shows_on(obj)
+        if self._is_shown and mesh is not None:
             self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
 
-    def show(self, mesh: bpy.types.Mesh, values: Mapping[str, Any]) -> bool:
+    def take_over(self, other: LiveMesh) -> None:
+        """Take the place of another one of the same object."""
+        self.run, self.member = other.run, other.member
+
+    def put_back(self) -> None:
+        """Remove what was made to show it on; previews have been ended."""
+
+    def settle(self, written: bpy.types.Object) -> None:
+        """Complete an object to which the result was written."""
+
+    def show(self, obj: bpy.types.Object, values: Mapping[str, Any]) -> bool:
         """Show the current state of the run; return whether it was new.
 
         `values` are the settings, for a file that is opened with this shape.
         """
-        if self._preview is None or self.run is None:
+        mesh = self.shows_on(obj)
+        if self._preview is None or self.run is None or mesh is None:
             return False
         moment = self.run.moment
         if moment is None or moment == self._shown_moment:
@@ -115,12 +136,13 @@ class LiveMesh:
         self._preview.show(mesh, *found, {"values": values, "run": self.run.outcome})
         return True
 
-    def take_along(self, mesh: bpy.types.Mesh) -> bool:
+    def take_along(self, obj: bpy.types.Object) -> bool:
         """Transform the data under the preview as the artist has transformed the visible mesh.
 
         Return whether the preview must be restarted, see `Preview.take_along`.
         """
-        return self._preview is not None and self._preview.take_along(mesh)
+        mesh = self.shows_on(obj)
+        return self._preview is not None and mesh is not None and self._preview.take_along(mesh)
 
     def release(self) -> None:
         """Release all arrays."""
@@ -130,4 +152,4 @@ class LiveMesh:
 def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, Any]) -> bool:
     """Do this for all meshes whose objects, by ``session_uid``, exist; return whether any moved."""
     there = [mesh for mesh in meshes if mesh.object_uid in objects]
-    return any([mesh.take_along(objects[mesh.object_uid].data) for mesh in there])
+    return any([mesh.take_along(objects[mesh.object_uid]) for mesh in there])

@@ -4,7 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
@@ -67,6 +67,14 @@ class LiveRuns:
         for uids in painted:
             _join(uids, self._runs[uids], meshes)
         return bool(painted)
+
+    def renew(self, groups: Groups, meshes: Sequence[LiveMesh], moved: Set[int]) -> None:
+        """Read the objects anew that have moved vertices, by ``session_uid``, and solve them."""
+        known = {mesh.object_uid: mesh.member for mesh in meshes if mesh.member}
+        for uids, tasks in groups.items():
+            if uids in self._runs and not moved.isdisjoint(uids):
+                self._runs[uids].renew(tasks, known)
+                _join(uids, self._runs[uids], meshes)
 
     def advance(self, deadline: float) -> None:
         """Advance all runs in turn, so that they visibly move together."""

@@ -29,7 +29,7 @@ def write_for_file(
     kept = [task for task in tasks if not _loses_key(task)]
     with contextlib.ExitStack() as stack:
         meshes = list(dict.fromkeys(task.mesh for task in kept))
-        for mesh in meshes:
+        for mesh in dict.fromkeys(task.mesh for task in kept if not task.is_followed):
             stack.enter_context(mesh_bridge.mesh_untouched(mesh))
         stack.enter_context(settings_untouched(meshes))
         stack.enter_context(_selection_untouched())

@@ -21,6 +21,8 @@ from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL, SettingsOverrides
 from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
+from .followed_mesh import FollowedMesh
+from .following import Following
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
 from .live_runs import LiveRuns
@@ -76,6 +78,7 @@ class Session:
         self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
         self.is_dragged: Callable[[], bool] = lambda: False
         self._has_written = self._may_be_painted = self._is_undone = False
+        self._is_reported = False
         self._undo_steps = UndoSteps()
         self._in_file: contextlib.AbstractContextManager = contextlib.nullcontext()
         self._mode_left, self.has_pushed_undo = "", False
@@ -87,10 +90,14 @@ class Session:
         self._history = History(self._values)
         self.meshes: list[LiveMesh] = []
         self._runs = LiveRuns()
+        self._following = Following(self._runs)
         self._plan(objects)
         seen = set()
         for task in self._tasks.values():
-            self.meshes.append(LiveMesh(task, is_shown=task.mesh not in seen))
+            if task.is_followed:
+                self.meshes.append(FollowedMesh(task))
+            else:
+                self.meshes.append(LiveMesh(task, is_shown=task.mesh not in seen))
             seen.add(task.mesh)
         self._restart_changed()
         if not self._runs.is_working:
@@ -146,6 +153,16 @@ class Session:
         """``session_uid`` of all meshes of the session."""
         return {mesh.mesh_uid for mesh in self.meshes}
 
+    @property
+    def shown_uids(self):
+        """``session_uid`` of the meshes of followers, which only Live changes."""
+        return {mesh.shown_uid for mesh in self.meshes} - {0}
+
+    @property
+    def is_following(self):
+        """Whether followers show the results, and the originals can be worked on."""
+        return any(isinstance(mesh, FollowedMesh) for mesh in self.meshes)
+
     def first_object(self, context: bpy.types.Context) -> bpy.types.Object | None:
         """Return the object whose settings are those of Live, or the next that is left."""
         return next(iter(self._objects(context).values()), None)
@@ -153,7 +170,7 @@ class Session:
     def mesh_of(self, obj: bpy.types.Object) -> LiveMesh | None:
         """Return the run of an object, or of the mesh that it shares."""
         uid = obj.data.session_uid
-        candidates = [mesh for mesh in self.meshes if mesh.mesh_uid == uid]
+        candidates = [mesh for mesh in self.meshes if uid in (mesh.mesh_uid, mesh.shown_uid)]
         own = [mesh for mesh in candidates if mesh.object_uid == obj.session_uid]
         return next(iter(own + candidates), None)
 
@@ -181,13 +198,14 @@ class Session:
         if self._has_written:
             self._has_written = False
         else:
-            self._may_be_painted = True
+            self._may_be_painted = self._is_reported = True
             self.wake()
 
     def on_undo(self) -> None:
         """Record that Blender has undone or redone a step."""
         # Undo steps from before Live have no preview on their meshes; those pushed since do.
-        meshes = [obj.data for obj in self._objects(bpy.context).values()]
+        pairs = self._pairs_of(self._objects(bpy.context))
+        meshes = [mesh.shows_on(obj) for mesh, obj in pairs]
         self._history.record_undo(any(mesh_bridge.has_preview(mesh) for mesh in meshes))
         self._is_undone = True
         self.on(Event.UNDONE)
@@ -216,7 +234,10 @@ class Session:
 
     def look_around(self, context: bpy.types.Context) -> None:
         """End if the artist has turned to another workspace or scene."""
-        if elsewhere.place_of(context) != self._place:
+        workspace, scene = elsewhere.place_of(context)
+        if self.is_following:
+            workspace = self._place[0]  # another one is made for sculpting, for example
+        if (workspace, scene) != self._place:
             self.on(Event.PLACE_LEFT)
 
     def tick(self, context: bpy.types.Context) -> None:
@@ -235,12 +256,13 @@ class Session:
             self.tick(context)
 
     def _tick(self, objects):
-        self.meshes = [mesh for mesh in self.meshes if mesh.object_uid in objects]
+        self._drop_lost(objects)
+        followers = [mesh.follower() for mesh in self.meshes if isinstance(mesh, FollowedMesh)]
         if not self.meshes:
             self.on(Event.LOST)
-        elif any(obj.mode not in elsewhere.MODES for obj in objects.values()):
+        elif not followers and any(obj.mode not in elsewhere.MODES for obj in objects.values()):
             self.on(Event.MODE_LEFT)
-        elif elsewhere.is_another_mesh_active(list(objects.values())):
+        elif elsewhere.is_another_mesh_active([*objects.values(), *followers]):
             self.on(Event.SELECTED)
         if self.is_ended:
             return
@@ -255,7 +277,8 @@ class Session:
         self._runs.advance(begin + SLICE)
         # Not at rest before Blender has evaluated what was shown: a stroke could go unnoticed.
         is_new = self._show(objects)
-        if self._runs.is_working or is_new or self._is_changed_at_rest(list(objects.values())):
+        is_working = self._runs.is_working or self._following.is_waiting or is_new
+        if is_working or self._is_changed_at_rest(list(objects.values())):
             if begin >= self._next_panel:
                 self._next_panel = begin + _PANEL_STEP
                 redraw_panels()
@@ -273,12 +296,18 @@ class Session:
         if not self.is_dragged():
             self._history.record(values, now)
         self._plan(objects)
+        if self._may_be_painted and self.is_following:
+            there = {obj.session_uid: obj for obj in objects}
+            self._following.look(self.meshes, there, now, is_reported=self._is_reported)
+            self._is_reported = False
         is_changed = self._runs.is_changed(self._groups)
         if self._is_too_young(now):
             return
         if is_changed:
             self.on(Event.CHANGED)
-        if self._may_be_painted:
+        if self._following.is_waiting:
+            self._follow_originals(now)
+        elif self._may_be_painted:
             self._may_be_painted = False
             is_changed |= self._runs.restart_painted(self._groups, self.meshes)
         if is_changed:
@@ -289,6 +318,17 @@ class Session:
             self._values = values
         self._is_undone = False
 
+    def _follow_originals(self, now, *, is_hurried=False):
+        is_hurried |= self.is_finishing
+        if self._following.work(self._groups, self.meshes, now, is_hurried=is_hurried):
+            self._may_be_painted = False
+            self._history.record_outside()
+            self._has_written |= self._reads_edit_mode()
+
+    def _reads_edit_mode(self):
+        """Whether reading an object has made Blender report its mesh as changed."""
+        return any(task.obj.mode == "EDIT" for task in self._tasks.values())
+
     def _is_too_young(self, now):
         """Return whether the runs have yet to be shown; otherwise a drag would show nothing."""
         working = [mesh for mesh in self.meshes if mesh.is_working]
@@ -296,7 +336,28 @@ class Session:
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
 
     def _restart_changed(self):
+        self._show_on_others()
         self._runs.restart_changed(self._groups, self.meshes)
+        if self.is_following:
+            self._has_written |= self._reads_edit_mode()
+
+    def _show_on_others(self):
+        """Show results on followers, or on the objects themselves, as the setting is now."""
+        seen = set()
+        for mesh, task in self._pairs():
+            is_first = task.mesh not in seen
+            seen.add(task.mesh)
+            if isinstance(mesh, FollowedMesh) == task.is_followed or task.obj.mode in (
+                "EDIT",
+                "SCULPT",
+            ):
+                continue
+            mesh_bridge.end_preview(task.mesh)
+            mesh.put_back()
+            other = FollowedMesh(task) if task.is_followed else LiveMesh(task, is_shown=is_first)
+            other.take_over(mesh)
+            self.meshes[self.meshes.index(mesh)] = other
+            other.begin_preview(task.obj)
 
     def _is_changed_at_rest(self, objects):
         """Check a last time: the confirmed shape must match the settings.
@@ -310,8 +371,9 @@ class Session:
 
     def _show(self, objects):
         values = {name: self._values[name] for name in ALL}
-        shown = [mesh.show(objects[mesh.object_uid].data, values) for mesh in self.meshes]
-        self._has_written |= any(shown)
+        shown = [mesh.show(objects[mesh.object_uid], values) for mesh in self.meshes]
+        if not self.is_following:  # followers are not looked at
+            self._has_written |= any(shown)
         return any(shown)
 
     # -- actions of the state machine --------------------------------------------------------------
@@ -320,11 +382,15 @@ class Session:
         """Continue with meshes after an undo or redo, which may have another shape now."""
         self._put_back()
         self._plan(list(self._objects(bpy.context).values()))
-        if any(task.obj.mode not in elsewhere.MODES for task in self._tasks.values()):
+        is_left = any(task.obj.mode not in elsewhere.MODES for task in self._tasks.values())
+        if is_left and not self.is_following:
             return  # the next tick ends it
         for mesh, task in self._pairs():
             mesh.follow(task)
-        self._runs.restart_painted(self._groups, self.meshes)
+        if self.is_following:
+            self._may_be_painted = True
+        else:
+            self._runs.restart_painted(self._groups, self.meshes)
         if self._runs.is_changed(self._groups):
             self._restart_changed()
         self._begin_previews()
@@ -335,10 +401,12 @@ class Session:
 
     def _begin_previews(self):
         for mesh, task in self._pairs():
-            mesh.begin_preview(task.mesh)
+            mesh.begin_preview(task.obj)
 
     def _complete(self):
         with elsewhere.waiting(self._window):
+            if self._following.is_waiting:
+                self._follow_originals(time.perf_counter(), is_hurried=True)
             self._runs.complete(_PATIENCE)
 
     def _leave_mode(self):
@@ -356,13 +424,20 @@ class Session:
     def _write(self):
         solved = self._solved()
         self.summary, unwritten = write_all(self._overrides, solved)
+        self._settle()
         self.problems = self.all_problems + unwritten
 
     def _write_to_file(self):
         try:
             self._in_file = write_for_file(self._overrides, self._solved())
+            self._settle()
         except UNEXPECTED:
             _log.exception("The file is saved with the mesh as before Live")
+
+    def _settle(self):
+        for mesh, task in self._pairs():
+            if task.written is not None:
+                mesh.settle(task.written)
 
     def _solved(self):
         """Plan anew, and return the tasks of which there is something to write."""
@@ -387,6 +462,8 @@ class Session:
         take_along(self.meshes, self._objects(bpy.context))
         # On all meshes: a preview may have been copied, or left on a mesh that was removed.
         mesh_bridge.end_all_previews()
+        for mesh in self.meshes:
+            mesh.put_back()
 
     def _clean_up(self):
         self._stop_timer()
@@ -427,9 +504,27 @@ class Session:
             self._plan_problems = [str(error)]
             return
         tasks, self._plan_problems = plan(self._overrides, objects)
+        for task in tasks:
+            task.is_followed = task.settings.result == "NEW_OBJECT"
         self._plan_problems += filter(None, map(mesh_bridge.cover_problem, objects))
         self._tasks = {task.uid: task for task in tasks}
         self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
+
+    def _drop_lost(self, objects):
+        """Drop the meshes of objects that are gone; the follower of one stays, as a result."""
+        for mesh in self.meshes:
+            if isinstance(mesh, FollowedMesh) and mesh.object_uid not in objects:
+                mesh.leave()
+        self.meshes = [
+            mesh
+            for mesh in self.meshes
+            if mesh.object_uid in objects
+            and not (isinstance(mesh, FollowedMesh) and mesh.follower() is None)
+        ]
+
+    def _pairs_of(self, objects):
+        """Return each mesh whose object is there, with the object."""
+        return [(m, objects[m.object_uid]) for m in self.meshes if m.object_uid in objects]
 
     def _pairs(self):
         """Return each mesh that has a task, with the task."""

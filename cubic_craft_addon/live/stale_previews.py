@@ -22,6 +22,7 @@ from ..settings.properties import settings_of
 from ..settings.rollback import settings_kept
 from ..settings.values import Settings
 from . import handlers
+from .follower import release, remove_left
 
 _log = logging.getLogger(__name__)
 
@@ -29,6 +30,7 @@ _log = logging.getLogger(__name__)
 @persistent
 def _heal(*_):
     if not handlers.is_installed():
+        remove_left()
         mesh_bridge.end_all_previews()
 
 
@@ -37,15 +39,28 @@ def _keep(*_):
     if handlers.is_installed():
         return
     for mesh in bpy.data.meshes:
-        outcome = mesh_bridge.noted_outcome(mesh)
-        if outcome is None:
-            continue
-        try:
-            with settings_kept([mesh]):
-                _keep_one(mesh, outcome)
-        except UNEXPECTED:  # a file may say anything; what was there before Live is safe
-            _log.exception("The preview on %s is not kept", mesh.name)
+        _keep_if_noted(mesh)
     mesh_bridge.end_all_previews()
+    remove_left()
+
+
+def _keep_if_noted(mesh):
+    outcome = mesh_bridge.noted_outcome(mesh)
+    if outcome is None:
+        return
+    try:
+        with settings_kept([mesh]):
+            _keep_one(mesh, outcome)
+    except UNEXPECTED:  # a file may say anything; what was there before Live is safe
+        _log.exception("The preview on %s is not kept", mesh.name)
+
+
+def leave(follower: bpy.types.Object) -> None:
+    """Make what a follower shows a result, and the follower an object like any other."""
+    mesh = mesh_bridge.mesh_of(follower)
+    _keep_if_noted(mesh)
+    mesh_bridge.end_preview(mesh)
+    release(follower)
 
 
 def _keep_one(mesh: bpy.types.Mesh, outcome: Any) -> None:

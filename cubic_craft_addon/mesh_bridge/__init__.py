@@ -6,6 +6,7 @@ normals, which point somewhere in object space. Besides them, the bridge keeps i
 and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace.
 """
 
+from .access.any_mode import flush, glance, in_no_mode
 from .access.carried import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
 from .access.evaluated import read_evaluated, read_evaluated_points
@@ -54,10 +55,13 @@ __all__ = (
     "end_preview",
     "faces_of_triangles",
     "find_cubic_key",
+    "flush",
+    "glance",
     "group_weights",
     "has_original",
     "has_preview",
     "has_traces",
+    "in_no_mode",
     "is_edited",
     "is_still",
     "keep_preview",

@@ -75,6 +75,27 @@ def start(prepared: Prepared) -> solver.Run:
         raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
 
 
+def go_on(prepared: Prepared, run: solver.Run) -> solver.Run:
+    """Return a Run that goes on from the present shape of another in a pose of the same objects.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        From `Prepared.posed`, of what the other run was made for.
+    run : Run
+
+    Raises
+    ------
+    CubicCraftError
+        As `start`, without the name.
+    """
+    settings = prepared.settings
+    stylization = run.stylization.moved(
+        prepared.setup, targets(prepared), [hold.matrix for hold in prepared.holds]
+    )
+    return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
+
+
 def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver.Stylization:
     """Return a new Stylization with the settings of the members.
 

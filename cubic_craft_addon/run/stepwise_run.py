@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,9 @@ class StepwiseRun:
     def __init__(self):
         self.problems: list[str] = []
         self.prepared: Prepared | None = None
+        self._posed: Prepared | None = None
+        self._is_held = self._is_behind = False
+        self._starts = 0
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
         self._key = None
@@ -81,8 +85,58 @@ class StepwiseRun:
         self._start()
         return True
 
+    # -- objects that the artist works on meanwhile -----------------------------------------------
+
+    def hold(self) -> None:
+        """Stop, as a shape has changed; what it has computed so far can still be shown."""
+        self._is_held = True
+
+    def follow(self, originals: Mapping[int, np.ndarray]) -> bool:
+        """Go on from here, with other positions (n,3) of the same vertices, by ``session_uid``.
+
+        Nothing is factorised anew, so the end is only near that of Cubify; see `renew`. False if
+        this is not possible: the run has hardly begun, or the weights have changed too much.
+        """
+        if self.prepared is None or self._run is None or self._run.is_on_coarser_mesh:
+            return False
+        members = []
+        for member in self.prepared.members:
+            original = originals.get(member.uid, member.shape.original)
+            members.append(replace(member, shape=replace(member.shape, original=original)))
+        posed = self.prepared.posed(members)
+        if not self.prepared.setup.serves(posed.setup):
+            return False
+        try:
+            run = pipeline.go_on(posed, self._run)
+        except solver.CubicCraftError as error:
+            self.problems = [f"{self.prepared.name}: {error}"]
+            return False
+        self._reset(self.problems)
+        self._posed, self._run = posed, run
+        self._starts += 1
+        return True
+
+    def renew(self, tasks: Sequence[Task], known: Mapping[int, Member]) -> None:
+        """Read the objects again, and solve them behind what is shown, which the end replaces.
+
+        If nothing has changed, it goes on as before; `known` as for `tasks.prepare_all`.
+        """
+        before, was_followed = self.prepared, self._posed is not None
+        now, problems = prepare_all(tasks, known, [before] if before else [])
+        self._is_held = False
+        is_same = before is not None and now is not None and _has_members_of(now, before)
+        if is_same and not was_followed and self._run is not None and not self.is_changed(tasks):
+            return
+        is_like = before is not None and now is not None and _has_vertices_of(now, before)
+        self._reset(problems)
+        self._key, self.prepared = key_of(tasks), now
+        if now is not None:
+            self._start()
+            self._is_behind = is_like
+
     def _start(self):
         assert self.prepared is not None
+        self._starts += 1
         settings = self.prepared.settings
         try:
             self._run = pipeline.start(self.prepared)
@@ -97,6 +151,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
+        self._posed, self._is_held, self._is_behind = None, False, False
         self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
     def forget(self) -> None:
@@ -114,7 +169,14 @@ class StepwiseRun:
     @property
     def is_working(self):
         """Whether there is more to compute."""
-        return self._run is not None and self._solutions is None
+        if self._run is None or self._is_held:
+            return False
+        return self._run.reason is None if self._posed else self._solutions is None
+
+    @property
+    def is_started(self):
+        """Whether there is a run."""
+        return self._run is not None
 
     @property
     def is_done(self):
@@ -147,6 +209,9 @@ class StepwiseRun:
             is_coarse = self._run is not None and self._run.is_on_coarser_mesh
             return (("First on a coarser mesh", "Coarser mesh") if is_coarse else ("",)), 0.0
         energy_now = f"energy {max(energy.total, 0.0):.5f}"
+        if self._posed or self._is_held or (self._is_behind and not self.is_done):
+            progress = self._progress.update(self._run.stylization) if self._is_behind else 0.0
+            return ("Following the original", "Following"), progress
         if self._solutions is None:
             text = f"Iteration {self.iteration}"
             return (f"{text}, {energy_now}", text), self._progress.update(self._run.stylization)
@@ -165,13 +230,13 @@ class StepwiseRun:
         """Return what can be shown of an object as a result, None if there is nothing yet."""
         if self._solutions is not None:
             return self._solutions.get(uid)
-        if self.moment is None:
+        if self._state is None:
             return None
         assert self._run is not None and self.prepared is not None
-        if self._so_far is None or self._so_far[0] != self.moment:
-            found = pipeline.solutions_so_far(self.prepared, self._run)
+        if self._so_far is None or self._so_far[0] != self._state:
+            found = pipeline.solutions_so_far(self._posed or self.prepared, self._run)
             uids = [member.uid for member in self.prepared.members]
-            self._so_far = self.moment, dict(zip(uids, found, strict=False))
+            self._so_far = self._state, dict(zip(uids, found, strict=False))
         return self._so_far[1].get(uid)
 
     @property
@@ -192,9 +257,13 @@ class StepwiseRun:
     @property
     def moment(self):
         """Identifier of the state that can be shown, None if there is none."""
+        return None if self._is_behind and not self.is_done else self._state
+
+    @property
+    def _state(self):
         if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):
             return None  # keep the visible shape until there is a better one
-        return self._run.iterations, self.is_done
+        return self._starts, self._run.iterations, self.is_done
 
     def intermediate_result(self, uid: int, with_rotations: bool):
         """Return current positions and rotations of an object, None if it does not take part.
@@ -207,7 +276,8 @@ class StepwiseRun:
             return solution and (solution.positions, solution.rotations)
         moment = (self.moment, with_rotations)
         if moment != self._intermediate_moment:
-            found = pipeline.intermediate_result(self.prepared, self._run, with_rotations)
+            prepared = self._posed or self.prepared
+            found = pipeline.intermediate_result(prepared, self._run, with_rotations)
             members = self.prepared.members
             self._intermediate = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._intermediate_moment = moment
@@ -218,6 +288,18 @@ def _looks_at_weights(task):
     return bool(
         task.settings.map_group or task.settings.handles or task.settings.regions or task.bones
     )
+
+
+def _has_members_of(now, before):
+    return _has_vertices_of(now, before) and all(
+        one.shape.is_like(two.shape) and _has_weights_of(one, two)
+        for one, two in zip(now.members, before.members, strict=True)
+    )
+
+
+def _has_vertices_of(now, before):
+    counts = [[(m.uid, m.vertices) for m in prepared.members] for prepared in (now, before)]
+    return counts[0] == counts[1]
 
 
 def _has_weights_of(now, before):

@@ -5,6 +5,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 import logging
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -60,6 +61,8 @@ class Task:
         if self.settings.result == "SHAPE_KEY":
             mesh_bridge.check_relative_keys(obj)
         self.solution: pipeline.Solution | None = None
+        self.is_followed = False
+        """whether the artist works on it in any mode while Live shows the result beside it"""
         self.is_seen = False
         """whether the object was made by `mesh_bridge.make_seen`"""
         self.source: bpy.types.Object | None = None
@@ -170,13 +173,16 @@ def prepare_all(
     for task in tasks:
         before = known.get(task.uid) if known else None
         try:
-            member = read_member(
-                task.obj,
-                task.settings,
-                before,
-                weights_changed=weights_changed,
-                rigged=task.source,
-            )
+            with _readable(task) as obj:
+                member = read_member(
+                    obj,
+                    task.settings,
+                    before,
+                    weights_changed=weights_changed,
+                    rigged=task.source,
+                )
+            if task.is_followed:
+                member = replace(member, uid=task.uid, name=task.obj.name)
         except CubicCraftError as error:
             problems.append(str(error))
         else:
@@ -187,6 +193,10 @@ def prepare_all(
         return prepare(members, earlier), problems
     except CubicCraftError as error:
         return None, [*problems, str(error)]
+
+
+def _readable(task):
+    return mesh_bridge.in_no_mode(task.obj) if task.is_followed else nullcontext(task.obj)
 
 
 def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, list[str]]:

@@ -103,12 +103,25 @@ def check_relative_keys(obj: bpy.types.Object) -> None:
 def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     """Check that changes to the mesh persist; `name` is used in the message.
 
+    Raises
+    ------
+    CubicCraftError
+        As `check_local`, or Edit Mode.
+    """
+    check_local(mesh, name)
+    if mesh.is_editmode:
+        raise CubicCraftError(f'"{name}" is in Edit Mode: go back to Object Mode first')
+
+
+def check_local(mesh: bpy.types.Mesh, name: str) -> None:
+    """Check that the mesh is one of this file; `name` is used in the message.
+
     Blender itself does not object to writes to linked data and only loses them on saving.
 
     Raises
     ------
     CubicCraftError
-        Linked, missing or overridden data, or Edit Mode.
+        Linked, missing or overridden data.
     """
     if mesh.is_missing:
         raise CubicCraftError(_missing(mesh, name))
@@ -117,8 +130,6 @@ def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
             f'"{name}" has mesh data linked from another file: make it local first '
             "(Object > Relations > Make Local)"
         )
-    if mesh.is_editmode:
-        raise CubicCraftError(f'"{name}" is in Edit Mode: go back to Object Mode first')
 
 
 def is_linked(mesh: bpy.types.Mesh) -> bool:

@@ -7,8 +7,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..access.any_mode import flush
 from ..access.attributes import check_names
-from ..access.checks import check_writable, mesh_of
+from ..access.checks import check_local, mesh_of
 from ..access.note import check_note
 from ..memory.original import Start
 from .results import write_mesh
@@ -30,7 +31,7 @@ def write_new_object(
 
     Parameters
     ----------
-    obj : an object with a mesh, not in Edit Mode
+    obj : an object with a mesh, in any mode
     positions : (n,3) numpy array, object space
     rotations : (n,3,3) numpy array
     prepare : called with the new object once it has the result, before it takes the place of `obj`
@@ -47,9 +48,10 @@ def write_new_object(
         As `write_mesh`. After any exception, there is no new object.
     """
     mesh = mesh_of(obj)
-    check_writable(mesh, obj.name)
+    check_local(mesh, obj.name)
     check_note(mesh)
     check_names(mesh)
+    flush(obj)
     new_mesh, new = mesh.copy(), obj.copy()
     assert new_mesh is not None and new is not None
     try:

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh of a Live session that the artist goes on working on; a follower shows the result.
+
+A stroke is seen on the follower at once: each vertex moves as far as in the original, turned by its
+rotation in the last solution that was seen. The solver comes after.
+"""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from .. import mesh_bridge
+from ..run.stepwise_run import StepwiseRun
+from ..run.tasks import Task
+from .follower import Follower
+from .live_mesh import LiveMesh
+from .stale_previews import leave
+
+
+class _Solved(NamedTuple):
+    """A solution that was seen, and the original that it belongs to."""
+
+    positions: np.ndarray
+    rotations: np.ndarray
+    original: np.ndarray
+
+    def carried(self, original):
+        """Return the solution, moved as the original has been."""
+        moved = (original - self.original).astype(np.float64)
+        return self.positions + np.einsum("nij,nj->ni", self.rotations, moved)
+
+
+class FollowedMesh(LiveMesh):
+    """The mesh of one task of `tasks.plan` whose result is a new object.
+
+    Attributes
+    ----------
+    is_moved : bool
+        Whether its run has not read the present shape.
+    is_like : bool
+        Whether only positions have changed since that run.
+    original : (n,3) float32 array or None
+        The present shape, as far as it was looked at.
+    """
+
+    def __init__(self, task: Task):
+        super().__init__(task, is_shown=True)
+        self._follower = Follower()
+        self.is_moved, self.is_like = False, True
+        self.original: np.ndarray | None = None
+        self._corners: np.ndarray | None = None
+        self._solved: _Solved | None = None
+        self._is_carried = self._is_stale = False
+        self._has_keys = False
+
+    @property
+    def shown_uid(self):
+        """``session_uid`` of the follower's mesh."""
+        return self._follower.mesh_uid
+
+    @property
+    def can_be_followed(self):
+        """Whether its run can go on with its present shape."""
+        return self.is_like and not self._has_keys and self.original is not None
+
+    def follower(self) -> bpy.types.Object | None:
+        """Return the follower, None if it is gone."""
+        return self._follower.find()
+
+    def shows_on(self, obj: bpy.types.Object) -> bpy.types.Mesh | None:
+        """Return the mesh of the follower, None if it is gone."""
+        follower = self._follower.find()
+        return None if follower is None else mesh_bridge.mesh_of(follower)
+
+    def join(self, run: StepwiseRun | None) -> None:
+        """Take part in a run that has read the present shape."""
+        super().join(run)
+        self.is_moved, self.is_like, self._is_stale = False, True, False
+
+    def go_on(self) -> None:
+        """Let the run be seen, which goes on with the present shape from here."""
+        self._is_stale = False
+
+    def follow(self, task: Task) -> None:
+        """Let the present shape, which an undo may have changed, be read again."""
+        self._change()
+
+    def begin_preview(self, obj: bpy.types.Object) -> None:
+        """Make the follower, and show on it what was seen."""
+        if self._follower.find() is None:
+            self._follower.make(obj)
+        super().begin_preview(obj)
+        if self.original is None:
+            self.original, self._corners = mesh_bridge.glance(obj)
+        else:
+            self.look(obj, is_reported=False)
+            self._is_carried = self._solved is not None
+
+    def put_back(self) -> None:
+        """Remove the follower, and remember its place."""
+        self._follower.remove()
+
+    def leave(self) -> None:
+        """Leave the follower behind as a result, as the original is gone."""
+        follower = self._follower.find()
+        if follower is not None:
+            leave(follower)
+
+    def settle(self, written: bpy.types.Object) -> None:
+        """Put the result where the follower was."""
+        self._follower.give_place(written)
+
+    def look(self, obj: bpy.types.Object, *, is_reported: bool) -> bool:
+        """Look whether the artist has changed the original; return whether he has.
+
+        In Edit Mode only positions are compared. There, what Blender has reported counts, too.
+        """
+        before, corners = self.original, self._corners
+        self.original, self._corners = mesh_bridge.glance(obj)
+        mesh = mesh_bridge.mesh_of(obj)
+        self._has_keys = mesh.shape_keys is not None or mesh_bridge.has_original(mesh)
+        is_like = before is not None and before.shape == self.original.shape
+        if corners is not None and self._corners is not None:
+            is_like &= np.array_equal(corners, self._corners)
+        if self._corners is None:
+            self._corners = corners
+        is_same = is_like and np.array_equal(before, self.original)
+        if is_same and not (is_reported and mesh.is_editmode):
+            return False
+        if not is_like:
+            self.is_like, self._solved, self._is_carried = False, None, False
+        elif not is_same and not self._has_keys:
+            self.keep_solved(before)
+            self._is_carried = self._solved is not None
+        self._change()
+        return True
+
+    def keep_solved(self, original: np.ndarray | None = None) -> None:
+        """Keep the solution that is seen, before its run is given up."""
+        original = self.original if original is None else original
+        run = self.run
+        if (
+            self._is_stale
+            or self._solved is not None
+            or run is None
+            or run.moment is None
+            or original is None
+        ):
+            return
+        found = run.intermediate_result(self.object_uid, with_rotations=True)
+        if found is None or found[1] is None or found[0].shape != original.shape:
+            return
+        self._solved = _Solved(*found, original)
+
+    def show(self, obj: bpy.types.Object, values: Mapping[str, Any]) -> bool:
+        """Show the run, or the last one carried along; return whether it is new."""
+        values = {**values, "result": "MESH", "with_modifiers": False}
+        run = self.run
+        if run is not None and not self._is_stale and run.moment not in (None, self._shown_moment):
+            if self._follower.is_outdated or not self._fits(obj):
+                self._follower.renew(obj)
+                super().begin_preview(obj)
+            self._solved, self._is_carried = None, False
+            return super().show(obj, values)
+        return self._is_carried and self._show_carried(obj, values)
+
+    def release(self) -> None:
+        """Release all arrays."""
+        super().release()
+        self.original = self._corners = self._solved = None
+
+    def _change(self):
+        self.is_moved, self._is_stale, self.member = True, True, None
+        if self.run is not None:
+            self.run.hold()
+
+    def _fits(self, obj):
+        mesh = self.shows_on(obj)
+        return mesh is None or self.original is None or len(mesh.vertices) == len(self.original)
+
+    def _show_carried(self, obj, values):
+        self._is_carried = False
+        mesh, solved = self.shows_on(obj), self._solved
+        if self._preview is None or mesh is None or solved is None or self.original is None:
+            return False
+        if len(mesh.vertices) != len(solved.positions) or not np.isfinite(self.original).all():
+            return False
+        run = self.run
+        noted = {"values": values, "run": run.outcome} if run and run.is_started else None
+        self._preview.show(mesh, solved.carried(self.original), solved.rotations, noted)
+        return True

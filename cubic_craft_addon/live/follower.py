@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The object beside the original on which Live shows what a new object would look like.
+
+The original is never written, so the artist can go on working on it. The follower has a preview of
+its own, like any mesh that Live shows a shape on. What is left of it in the end is its place: the
+result itself is a new object, as Cubify makes it.
+"""
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+import bpy
+from mathutils import Matrix, Vector
+
+from .. import mesh_bridge
+
+_GAP = 1.2  # of the width of the original
+_MARK = "cubic_craft_follower"
+
+
+@dataclass(frozen=True)
+class _Place:
+    basis: Matrix
+    is_selected: bool
+    is_active: bool
+
+
+class Follower:
+    """A follower of one original; it keeps no reference to Blender's data, which undo frees.
+
+    Attributes
+    ----------
+    mesh_uid : int
+        ``session_uid`` of its mesh, 0 for none.
+    is_outdated : bool
+        Whether the original has got other faces, groups or materials since its mesh was copied.
+    """
+
+    def __init__(self):
+        self._uid = self.mesh_uid = 0
+        self._name = ""
+        self._place: _Place | None = None
+        self.is_outdated = False
+
+    def find(self) -> bpy.types.Object | None:
+        """Return the object, None if it is gone."""
+        found = bpy.data.objects.get(self._name)
+        if found is None or found.session_uid != self._uid:  # the artist may have renamed it
+            found = next((obj for obj in bpy.data.objects if obj.session_uid == self._uid), None)
+            self._name = "" if found is None else found.name
+        return found if found is not None and found.users_scene else None
+
+    def make(self, source: bpy.types.Object) -> bpy.types.Object:
+        """Make the object, where the artist has left it, or else beside the original."""
+        mesh_bridge.flush(source)
+        mesh = mesh_bridge.mesh_of(source).copy()
+        new = source.copy()
+        assert mesh is not None and new is not None
+        new.data = mesh
+        mesh.name, new.name = f"{mesh_bridge.mesh_of(source).name} Cubic", f"{source.name} Cubic"
+        new[_MARK] = True
+        mesh_bridge.link_beside(source, new)
+        self._uid, self.mesh_uid, self.is_outdated = new.session_uid, mesh.session_uid, False
+        self._name = new.name
+        place = self._place
+        if place is None:
+            _put_beside(new, source)
+        else:
+            new.matrix_basis = place.basis
+        with suppress(RuntimeError):  # none of its collections is in this view layer
+            # a copy has the selection state of its source
+            new.select_set(place is not None and place.is_selected)
+            if place is not None and place.is_active:
+                bpy.context.view_layer.objects.active = new
+        return new
+
+    def renew(self, source: bpy.types.Object) -> None:
+        """Give it a new copy of the original's mesh, as it was last read."""
+        obj = self.find()
+        if obj is None:
+            return
+        before, mesh = mesh_bridge.mesh_of(obj), mesh_bridge.mesh_of(source).copy()
+        assert mesh is not None
+        name = before.name
+        obj.data = mesh
+        bpy.data.meshes.remove(before)
+        mesh.name = name
+        self.mesh_uid, self.is_outdated = mesh.session_uid, False
+
+    def remove(self) -> None:
+        """Remove the object, and remember its place."""
+        obj = self.find()
+        if obj is not None:
+            is_active = bpy.context.view_layer.objects.active == obj
+            self._place = _Place(obj.matrix_basis.copy(), obj.select_get(), is_active)
+            _remove(obj)
+        self._uid = self.mesh_uid = 0
+
+    def give_place(self, obj: bpy.types.Object) -> None:
+        """Put a result where the follower was."""
+        if self._place is not None:
+            obj.matrix_basis = self._place.basis
+        if _MARK in obj:
+            del obj[_MARK]
+
+
+def remove_left() -> None:
+    """Remove followers that are there without Live, as an undo may bring them back."""
+    for obj in [obj for obj in bpy.data.objects if _MARK in obj]:
+        if mesh_bridge.has_preview(obj.data):
+            _remove(obj)
+        else:
+            release(obj)
+
+
+def release(obj: bpy.types.Object) -> None:
+    """Make a follower an object like any other."""
+    if _MARK in obj:
+        del obj[_MARK]
+
+
+def _put_beside(obj, source):
+    corners = [source.matrix_world @ Vector(corner) for corner in source.bound_box]
+    places = [corner.x for corner in corners]
+    world = source.matrix_world.copy()
+    world.translation.x += _GAP * (max(places) - min(places))
+    obj.matrix_world = world
+
+
+def _remove(obj):
+    mesh = obj.data
+    bpy.data.objects.remove(obj)
+    if isinstance(mesh, bpy.types.Mesh) and not mesh.users:
+        bpy.data.meshes.remove(mesh)

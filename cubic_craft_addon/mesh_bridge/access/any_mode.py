@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Read a mesh while the artist works on it, in Edit or Sculpt Mode too.
+
+Both modes keep a copy of their own of what they edit. It is written to the mesh, as saving a file
+does, and the mesh is read from a copy, which is in no mode.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bmesh
+import bpy
+import numpy as np
+
+from ....solver.errors import CubicCraftError
+from .arrays import corner_vertices, read_position
+from .checks import mesh_of
+
+_OWN_COPY = ("EDIT", "SCULPT")
+
+
+def flush(obj: bpy.types.Object) -> bool:
+    """Write what is edited to the mesh; return whether Blender will report the mesh as changed."""
+    if obj.mode not in _OWN_COPY:
+        return False
+    obj.update_from_editmode()
+    return obj.mode == "EDIT"
+
+
+@contextmanager
+def in_no_mode(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Provide an object with the same mesh, modifiers and place that can be read in any mode.
+
+    It is the object itself in those modes in which it can be read.
+    """
+    if obj.mode not in _OWN_COPY:
+        yield obj
+        return
+    flush(obj)
+    mesh, copy = mesh_of(obj).copy(), obj.copy()
+    assert mesh is not None and copy is not None
+    copy.data = mesh
+    name = copy.name
+    try:
+        yield copy
+    except CubicCraftError as error:
+        raise CubicCraftError(str(error).replace(name, obj.name)) from error
+    finally:
+        bpy.data.objects.remove(copy)
+        bpy.data.meshes.remove(mesh)
+
+
+def glance(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray | None]:
+    """Read the present shape, without shape keys, and change nothing.
+
+    Returns
+    -------
+    positions : (n,3) numpy float32 array, object space
+    corners : (c,) numpy int32 array or None
+        The vertices of the face corners; None in Edit Mode, where this would take long.
+    """
+    mesh = mesh_of(obj)
+    if mesh.is_editmode:
+        vertices = bmesh.from_edit_mesh(mesh).verts
+        return np.array([v.co[:] for v in vertices], np.float32).reshape(-1, 3), None
+    return read_position(mesh), corner_vertices(mesh)
