@@ -200,9 +200,10 @@ class Stylization:
     ) -> "Stylization":
         """Return a Stylization that goes on from here with another rest shape.
 
-        It begins with the present shape, in which each vertex is moved as at rest, turned by its
-        rotation, and needs few steps if the rest shape has hardly changed. Weights, limbs and how
-        much normals count stay as they are, so the end is only near that of a new run.
+        It begins with the present shape, in which each component is shifted as at rest, and each
+        vertex moved as beside that, turned by its rotation. It needs few steps if the rest shape has hardly
+        changed. Weights, limbs and how much normals count stay as they are, so the end is only near
+        that of a new run.
 
         Parameters
         ----------
@@ -226,7 +227,9 @@ class Stylization:
             )
         other._targets, other._hold_matrices = _targets(targets, setup), hold_matrices
         R = self.rotations.copy()
-        U = self.positions + np.einsum("nij,nj->ni", R, rest.V - self.rest.V)
+        moved = rest.V - self.rest.V
+        shift = _means(moved, self.rest.areas, rest.topology.component)
+        U = self.positions + shift + np.einsum("nij,nj->ni", R, moved - shift)
         held = setup.pinned
         U[held] = rest.V[held] + _moved(setup, other._targets) / rest.box.size
         other._begin(U)
@@ -499,6 +502,14 @@ def _at_solved(limbs, rest):
     shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
     shares /= np.where(share_known > 0.0, share_known, 1.0)[:, None]
     return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares), carried=limbs.carried)
+
+
+def _means(vectors, weights, component):
+    """Return the weighted mean of the vectors (n,3) of each component at its vertices (n,3)."""
+    weights = weights + 1e-300
+    total = np.bincount(component, weights)
+    sums = [np.bincount(component, weights * column) / total for column in vectors.T]
+    return np.stack(sums, axis=1)[component]
 
 
 def _unit(vectors):

@@ -2,7 +2,7 @@
 """A mesh of a Live session that the artist goes on working on; a follower shows the result.
 
 A stroke is seen on the follower at once: each vertex moves as far as in the original, turned by its
-rotation in the last solution that was seen. The solver comes after.
+rotation in the last solution that was seen. The solver comes after, see `pace`.
 """
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
@@ -31,7 +31,8 @@ class _Solved(NamedTuple):
     def carried(self, original):
         """Return the solution, moved as the original has been."""
         moved = (original - self.original).astype(np.float64)
-        return self.positions + np.einsum("nij,nj->ni", self.rotations, moved)
+        shift = moved.mean(axis=0)  # of the whole, which does not turn
+        return self.positions + shift + np.einsum("nij,nj->ni", self.rotations, moved - shift)
 
 
 class FollowedMesh(LiveMesh):

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run goes on when its rest shape moves, with the weights and the factorisation it has."""
+
+import numpy as np
+import pytest
+from shapes import blob
+
+from solver import ProxyOptions, Run, Setup, Stylization, rest_mesh, run
+
+OPTIONS = (ProxyOptions(refine=False), ProxyOptions(refine=False, detail=0.0, keep_pose=False))
+
+
+def pushed(V, by=0.1):
+    """Return positions with a bump, as of one stroke."""
+    near = np.exp(-np.sum((V - V[3]) ** 2, axis=1) / 0.2)
+    return V + by * near[:, None] * V[3]
+
+
+def ended(stylization, steps=200):
+    done = Run(stylization, steps, keep_apart=False)
+    done.complete()
+    return done.result()
+
+
+@pytest.mark.parametrize("proxy", OPTIONS)
+def test_it_ends_near_a_new_run_after_fewer_steps(proxy):
+    V, F = blob(3)
+    setup = Setup(rest_mesh(V, F, proxy))
+    before = Stylization(setup, 0.4, device="numpy")
+    run(before)
+    W = pushed(V)
+    moved = ended(before.moved(setup.posed(W)))
+    anew = ended(Stylization(Setup(rest_mesh(W, F, proxy)), 0.4, device="numpy"))
+    assert moved.converged and moved.iterations < anew.iterations
+    assert moved.energy.total == pytest.approx(anew.energy.total, rel=0.03)
+    change = np.abs(anew.positions - W).max()
+    assert np.sqrt(np.mean((moved.positions - anew.positions) ** 2)) < 0.05 * change
+
+
+def test_its_energy_falls_from_the_start():
+    V, F = blob(3)
+    setup = Setup(rest_mesh(V, F))
+    before = Stylization(setup, 0.4, device="numpy", is_accelerated=False)
+    for _ in range(30):
+        before.step()
+    moved, energies = before.moved(setup.posed(pushed(V))), []
+    for _ in range(10):
+        moved.step()
+        energies.append(moved.energy.total)
+    assert all(after <= 1.0000001 * e for e, after in zip(energies, energies[1:], strict=False))
+
+
+def test_the_run_that_it_goes_on_from_is_left_alone():
+    V, F = blob(2)
+    setup = Setup(rest_mesh(V, F))
+    before = Stylization(setup, 0.4, device="numpy")
+    for _ in range(5):
+        before.step()
+    positions, rotations = before.positions.copy(), before.rotations.copy()
+    moved = before.moved(setup.posed(pushed(V)))
+    moved.step()
+    assert (before.positions == positions).all() and (before.rotations == rotations).all()
+    assert before.iteration == 5 and moved.iteration == 1
+
+
+def test_a_shape_that_is_only_shifted_keeps_its_solution():
+    V, F = blob(2)
+    setup = Setup(rest_mesh(V, F))
+    before = Stylization(setup, 0.4, device="numpy")
+    first = run(before)
+    moved = before.moved(setup.posed(V + [0.5, 0.0, 0.0]))
+    assert np.allclose(moved.placed_positions(), first.positions + [0.5, 0.0, 0.0], atol=1e-9)
+
+
+def test_pins_go_to_their_new_targets():
+    V, F = blob(2)
+    setup = Setup(rest_mesh(V, F), [0, 5])
+    before = Stylization(setup, 0.4, device="numpy")
+    before.step()
+    W = pushed(V)
+    targets = W.copy()
+    targets[5] += 0.1
+    moved = before.moved(setup.posed(W), targets)
+    moved.step()
+    assert (moved.placed_positions()[[0, 5]] == targets[[0, 5]]).all()
+
+
+def test_weights_serve_until_the_surface_is_stretched_far():
+    V, F = blob(2)
+    setup = Setup(rest_mesh(V, F))
+    assert setup.serves(setup.posed(pushed(V)))
+    assert not setup.serves(setup.posed(pushed(V, by=8.0)))
