@@ -201,9 +201,9 @@ class Stylization:
         """Return a Stylization that goes on from here with another rest shape.
 
         It begins with the present shape, in which each component is shifted as at rest, and each
-        vertex moved as beside that, turned by its rotation. It needs few steps if the rest shape has hardly
-        changed. Weights, limbs and how much normals count stay as they are, so the end is only near
-        that of a new run.
+        vertex moved as beside that, turned by its rotation. It needs few steps if the rest shape
+        has hardly changed. Weights, limbs and how much normals count stay as they are, so the end
+        is only near that of a new run.
 
         Parameters
         ----------

@@ -129,7 +129,7 @@ class FollowedMesh(LiveMesh):
             is_like &= np.array_equal(corners, self._corners)
         if self._corners is None:
             self._corners = corners
-        is_same = is_like and np.array_equal(before, self.original)
+        is_same = is_like and before.tobytes() == self.original.tobytes()  # nan is not nan
         if is_same and not (is_reported and mesh.is_editmode):
             return False
         if not is_like:

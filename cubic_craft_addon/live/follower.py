@@ -58,7 +58,7 @@ class Follower:
         assert mesh is not None and new is not None
         new.data = mesh
         mesh.name, new.name = f"{mesh_bridge.mesh_of(source).name} Cubic", f"{source.name} Cubic"
-        new[_MARK] = True
+        new[_MARK] = str(new.session_uid)
         mesh_bridge.link_beside(source, new)
         self._uid, self.mesh_uid, self.is_outdated = new.session_uid, mesh.session_uid, False
         self._name = new.name
@@ -105,9 +105,12 @@ class Follower:
 
 
 def remove_left() -> None:
-    """Remove followers that are there without Live, as an undo may bring them back."""
+    """Remove followers that nobody knows, as an undo or a redo brings them back.
+
+    Copies that the artist has made of one stay, and so does what a file has.
+    """
     for obj in [obj for obj in bpy.data.objects if _MARK in obj]:
-        if mesh_bridge.has_preview(obj.data):
+        if obj[_MARK] == str(obj.session_uid):
             _remove(obj)
         else:
             release(obj)

@@ -22,6 +22,7 @@ from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL, SettingsOverrides
 from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
 from .followed_mesh import FollowedMesh
+from .follower import remove_left
 from .following import Following
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
@@ -460,10 +461,11 @@ class Session:
         with self._in_file:  # what was written for a file
             self._in_file = contextlib.nullcontext()
         take_along(self.meshes, self._objects(bpy.context))
-        # On all meshes: a preview may have been copied, or left on a mesh that was removed.
-        mesh_bridge.end_all_previews()
         for mesh in self.meshes:
             mesh.put_back()
+        remove_left()
+        # On all meshes: a preview may have been copied, or left on a mesh that was removed.
+        mesh_bridge.end_all_previews()
 
     def _clean_up(self):
         self._stop_timer()

@@ -113,3 +113,200 @@ def test_other_faces_are_followed(live, follow):
     settle(session)
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_while_it_waits_the_status_says_that_it_follows(follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    assert session.meshes[0].status[0][-1] == "Converged"
+    stroke(obj)
+    session.tick(bpy.context)
+    assert session.meshes[0].status[0][-1] == "Following"
+    settle(session)
+    assert session.meshes[0].status[0][-1] == "Converged"
+
+
+def test_what_live_writes_does_not_wake_it(follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    for mode in ("EDIT", "SCULPT", "OBJECT"):
+        bpy.ops.object.mode_set(mode=mode)
+        settle(session)
+        for _ in range(3):
+            bpy.context.view_layer.update()
+        assert session._timer is None, f"woken in {mode}"
+    follower_of(obj).location.z += 1.0
+    settle(session)
+    assert session._timer is None and not session.is_ended
+
+
+def test_confirming_does_not_wait_for_a_pause_and_keeps_the_place(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    follower_of(obj).location = (5.0, 1.0, 2.0)
+    stroke(obj)
+    confirm(live, session)
+    assert tuple(follower_of(obj).location) == (5.0, 1.0, 2.0)
+    assert tuple(obj.location) == (0.0, 0.0, 0.0)
+    keys = list(follower_of(obj).keys())
+    assert not [key for key in keys if "follower" in key]
+    check_same_as_new_object(obj, follower_of(obj))
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
+def test_cancelling_removes_the_follower_and_keeps_the_strokes(live, follow, mode):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    moved = stroke(obj)
+    settle(session)
+    bpy.ops.object.mode_set(mode=mode)
+    settle(session)
+    session.on(live.Event.CANCEL)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert [o.name for o in bpy.data.objects] == [obj.name] and len(bpy.data.meshes) == 1
+    assert bits(obj) == moved.tobytes()
+    check_gone(live)
+
+
+def test_without_the_original_the_follower_stays_as_a_result(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    original, follower = bits(obj), follower_of(obj)
+    shown = bits(follower)
+    bpy.data.objects.remove(obj)
+    settle(session)
+    assert session.is_ended and not session.error and "gone" in session.end_message
+    check_gone(live)
+    assert bits(follower) == shown
+    select(follower)
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert bits(follower) == original
+
+
+def test_without_the_follower_it_ends(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    bpy.data.objects.remove(follower_of(obj))
+    bpy.context.view_layer.update()
+    session.wake()
+    settle(session)
+    assert session.is_ended and not session.error
+    check_gone(live)
+    assert [o.name for o in bpy.data.objects] == [obj.name]
+
+
+@pytest.mark.parametrize("first", ["MESH", "NEW_OBJECT"])
+def test_where_it_is_written_can_be_changed_meanwhile(live, begin, first):
+    obj = add_monkey()
+    before = bits(obj)
+    session = settle(begin(obj, result=first, cubeness=0.5))
+    other = "MESH" if first == "NEW_OBJECT" else "NEW_OBJECT"
+    live.live_properties().result = other
+    settle(session)
+    assert (bits(obj) == before) == (other == "NEW_OBJECT")
+    assert len(bpy.data.objects) == 1 + (other == "NEW_OBJECT")
+    confirm(live, session)
+    assert (bits(obj) == before) == (other == "NEW_OBJECT")
+
+
+def test_a_setting_that_changes_after_a_stroke_is_solved_with_it(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    stroke(obj)
+    session.tick(bpy.context)
+    live.live_properties().cubeness = 0.9
+    settle(session)
+    confirm(live, session)
+    obj.cubic_craft.cubeness = 0.9
+    check_same_as_new_object(obj, follower_of(obj))
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
+def test_a_file_saved_meanwhile_has_the_result_and_the_original(live, follow, mode, tmp_path):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    stroke(obj)
+    bpy.ops.object.mode_set(mode=mode)
+    settle(session)
+    shown, original = bits(follower_of(obj)), bits(obj)
+    follower_of(obj).location.z = 3.0
+    path, name = str(tmp_path / "live.blend"), obj.name
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    settle(session)
+    assert not session.is_ended and bits(follower_of(obj)) == shown and obj.mode == mode
+    session.on(live.Event.CANCEL)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects[name]
+    assert bits(follower_of(obj)) == shown and bits(obj) == original
+    assert follower_of(obj).location.z == 3.0 and len(bpy.data.objects) == 2
+    bpy.ops.object.mode_set(mode="OBJECT")
+    select(follower_of(obj))
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+
+
+def test_a_file_that_blender_saves_by_itself_has_it_too(live, follow, tmp_path):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    shown, path, name = bits(follower_of(obj)), str(tmp_path / "live.blend"), obj.name
+    bpy.data.libraries.write(path, {bpy.context.scene}, fake_user=True)  # notifies nobody
+    session.on(live.Event.CANCEL)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects[name]
+    assert bits(follower_of(obj)) == shown != bits(obj)
+    select(follower_of(obj))
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert bits(follower_of(obj)) == bits(obj)
+
+
+def test_a_copy_of_the_follower_is_the_artists(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    select(follower_of(obj))
+    bpy.ops.object.duplicate()
+    copy = bpy.context.object
+    settle(session)
+    assert session.is_ended and "another mesh" in session.end_message
+    assert len(bpy.data.objects) == 3 and bits(copy) == bits(obj)
+    assert not [key for key in copy.keys() if "follower" in key]  # noqa: SIM118 - of an object
+
+
+def test_undo_and_redo_of_a_stroke_are_followed(live, follow):
+    obj = add_monkey()
+    name = obj.name
+    bpy.ops.ed.undo_push(message="Monkey")
+    session = settle(follow(obj))
+    bpy.ops.ed.undo_push(message="Before")
+    shown = bits(follower_of(obj))
+    stroke(obj)
+    bpy.ops.ed.undo_push(message="Stroke")
+    settle(session)
+    followed = bits(follower_of(obj))
+    assert followed != shown
+    for step, expected in ((bpy.ops.ed.undo, shown), (bpy.ops.ed.redo, followed)):
+        step()
+        settle(session)
+        obj = bpy.data.objects[name]
+        assert not session.is_ended and bits(follower_of(obj)) == expected
+        assert len(bpy.data.objects) == 2
+    session.on(live.Event.CANCEL)
+    bpy.ops.ed.undo_push(message="Cancelled")
+    bpy.ops.ed.undo()
+    assert list(bpy.data.objects.keys()) == [name], "an undo brings a follower without Live"
+
+
+def test_a_shape_that_cannot_be_used_is_named_and_loses_nothing(live, follow):
+    obj = add_monkey()
+    session = settle(follow(obj))
+    shown = bits(follower_of(obj))
+    points = stroke(obj)
+    obj.data.vertices[3].co.x = float("nan")
+    obj.data.update()
+    settle(session)
+    assert not session.is_ended and bits(follower_of(obj)) == shown
+    assert "not finite" in "; ".join(session.all_problems)
+    obj.data.vertices[3].co.x = points[3, 0]
+    obj.data.update()
+    settle(session)
+    assert not session.all_problems and bits(follower_of(obj)) != shown
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))

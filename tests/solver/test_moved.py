@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run goes on when its rest shape moves, with the weights and the factorisation it has."""
 
+import itertools
+
 import numpy as np
 import pytest
 from shapes import blob
@@ -47,7 +49,7 @@ def test_its_energy_falls_from_the_start():
     for _ in range(10):
         moved.step()
         energies.append(moved.energy.total)
-    assert all(after <= 1.0000001 * e for e, after in zip(energies, energies[1:], strict=False))
+    assert all(after <= 1.0000001 * e for e, after in itertools.pairwise(energies))
 
 
 def test_the_run_that_it_goes_on_from_is_left_alone():
