@@ -155,7 +155,7 @@ class FollowedMesh(LiveMesh):
         found = run.intermediate_result(self.object_uid, with_rotations=True)
         if found is None or found[1] is None or found[0].shape != original.shape:
             return
-        self._solved = _Solved(*found, original)
+        self._solved = _Solved(found[0], found[1], original)
 
     def show(self, obj: bpy.types.Object, values: Mapping[str, Any]) -> bool:
         """Show the run, or the last one carried along; return whether it is new."""

@@ -62,7 +62,7 @@ class Following:
             begin = time.perf_counter()
             for run in _runs_of(moved):
                 mine = [mesh for mesh in moved if mesh.run is run]
-                shapes = {mesh.object_uid: mesh.original for mesh in mine}
+                shapes = {m.object_uid: m.original for m in mine if m.original is not None}
                 if all(mesh.can_be_followed for mesh in mine) and run.follow(shapes):
                     for mesh in mine:
                         mesh.go_on()

@@ -75,6 +75,10 @@ class LiveMesh:
         """``session_uid`` of the mesh on which it shows what is on no mesh of the artist; or 0."""
         return 0
 
+    def follower(self) -> bpy.types.Object | None:
+        """Return the object beside the original on which it shows the result, None for none."""
+        return None
+
     def shows_on(self, obj: bpy.types.Object) -> bpy.types.Mesh | None:
         """Return the mesh on which it shows the run of an object."""
         return mesh_bridge.mesh_of(obj)

@@ -258,7 +258,7 @@ class Session:
 
     def _tick(self, objects):
         self._drop_lost(objects)
-        followers = [mesh.follower() for mesh in self.meshes if isinstance(mesh, FollowedMesh)]
+        followers = [obj for mesh in self.meshes if (obj := mesh.follower()) is not None]
         if not self.meshes:
             self.on(Event.LOST)
         elif not followers and any(obj.mode not in elsewhere.MODES for obj in objects.values()):
