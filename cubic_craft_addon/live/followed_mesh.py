@@ -68,6 +68,11 @@ class FollowedMesh(LiveMesh):
         """Whether its run can go on with its present shape."""
         return self.is_like and not self._has_keys and self.original is not None
 
+    @property
+    def is_unseen(self):
+        """Whether a stroke will be seen on the follower with the next `show`."""
+        return self._is_carried
+
     def follower(self) -> bpy.types.Object | None:
         """Return the follower, None if it is gone."""
         return self._follower.find()

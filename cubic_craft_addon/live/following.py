@@ -58,7 +58,7 @@ class Following:
             self._runs.renew(groups, meshes, {mesh.object_uid for mesh in moved})
             self._pace.renewed()
             return True
-        if work is Work.FOLLOW:
+        if work is Work.FOLLOW and not any(mesh.is_unseen for mesh in moved):
             begin = time.perf_counter()
             for run in _runs_of(moved):
                 mine = [mesh for mesh in moved if mesh.run is run]

@@ -9,6 +9,7 @@ from enum import Enum, auto
 
 LEAST_PAUSE = 0.5
 """seconds without a change, after which the exact run begins"""
+_SHARE = 0.25  # of the time for preparing anew that FOLLOW is expected to take the first time
 
 
 class Work(Enum):
@@ -27,7 +28,7 @@ class Pace:
     def __init__(self):
         self._changed_at: float | None = None
         self._is_followed = False
-        self._seconds_to_follow = 0.0
+        self._seconds_to_follow: float | None = None
 
     @property
     def is_waiting(self):
@@ -45,7 +46,10 @@ class Pace:
         pause = now - self._changed_at
         if pause >= max(LEAST_PAUSE, seconds_to_renew):
             return Work.RENEW
-        if not self._is_followed and pause >= self._seconds_to_follow:
+        expected = self._seconds_to_follow
+        if expected is None:
+            expected = _SHARE * seconds_to_renew
+        if not self._is_followed and pause >= expected:
             return Work.FOLLOW
         return Work.NOTHING
 

@@ -92,6 +92,14 @@ def start_live():
     yield from gui.wait_until(has_changed, what="a change")
 
 
+def start_live_beside():
+    """Click the button and wait for the new object that shows the result of the active one."""
+    name = f"{bpy.context.view_layer.objects.active.name} Cubic"
+    yield from gui.click((yield from button("cubic_craft.live")))
+    yield from gui.wait_until(lambda: name in bpy.data.objects, what="the new object")
+    yield from gui.wait_until(will_have_changed(name), what="a change")
+
+
 def will_have_changed(name=NAME):
     """Return a function that says whether Live has changed an object since now.
 

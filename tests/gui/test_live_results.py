@@ -125,7 +125,7 @@ def new_object():
     add_monkeys(scene.NAME)
     original = scene.positions()
     scene.settings().result = "NEW_OBJECT"
-    yield from scene.start_live()
+    yield from scene.start_live_beside()
     yield from scene.wait_idle()
     yield from scene.end_by("RET")
     made = [obj.name for obj in bpy.data.objects if obj.name != scene.NAME]

@@ -14,7 +14,7 @@ def test_nothing_is_due_before_anything_has_changed():
 def test_what_is_quick_is_done_at_once_and_only_once():
     p = Pace()
     p.changed(1.0)
-    assert p.due(1.0, 0.1) is Work.FOLLOW
+    assert p.due(1.0, 0.0) is Work.FOLLOW
     p.followed(0.01)
     assert p.due(1.1, 0.1) is Work.NOTHING and p.is_waiting
     p.changed(1.1)
@@ -32,6 +32,13 @@ def test_preparing_anew_waits_for_a_pause_as_long_as_it_takes(seconds, pause):
     assert p.due(2.0 * pause, seconds) is Work.RENEW
     p.renewed()
     assert not p.is_waiting and p.due(9.0 * pause, seconds) is Work.NOTHING
+
+
+def test_how_long_the_first_step_takes_is_guessed():
+    p = Pace()
+    p.changed(0.0)
+    assert p.due(0.1, 4.0) is Work.NOTHING
+    assert p.due(1.1, 4.0) is Work.FOLLOW
 
 
 def test_a_slow_step_does_not_disturb_a_stroke():

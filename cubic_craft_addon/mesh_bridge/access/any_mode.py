@@ -7,6 +7,7 @@ does, and the mesh is read from a copy, which is in no mode.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import chain
 
 import bmesh
 import bpy
@@ -62,5 +63,6 @@ def glance(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray | None]:
     mesh = mesh_of(obj)
     if mesh.is_editmode:
         vertices = bmesh.from_edit_mesh(mesh).verts
-        return np.array([v.co[:] for v in vertices], np.float32).reshape(-1, 3), None
+        values = chain.from_iterable([vertex.co[:] for vertex in vertices])
+        return np.fromiter(values, np.float32, 3 * len(vertices)).reshape(-1, 3), None
     return read_position(mesh), corner_vertices(mesh)
