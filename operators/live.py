@@ -7,8 +7,6 @@ All decisions are in ``cubic_craft_addon/live``.
 import bpy
 
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.object_properties import object_properties
 from ..solver import CubicCraftError
 from ._shared.selection import poll_usable, report_all, selected_meshes
 
@@ -31,7 +29,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         """Live runs, or there is a mesh that can be cubified."""
         if live.current() is not None:
             return True
-        return poll_usable(cls, context) and _poll_without_modifiers(cls, context)
+        return poll_usable(cls, context)
 
     def execute(self, context):
         """Refuse: Live needs a window."""
@@ -122,16 +120,6 @@ class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
         if session is not None:
             session.on(live.Event.CANCEL)
         return {"FINISHED"}
-
-
-def _poll_without_modifiers(operator_class, context):
-    properties = object_properties(panel_object(context) or selected_meshes(context)[0])
-    if properties.result != "NEW_OBJECT" or not properties.with_modifiers:
-        return True
-    operator_class.poll_message_set(
-        "Live shows the mesh without its modifiers; disable With Modifiers first"
-    )
-    return False
 
 
 def _is_over_viewport(context, event):

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import bpy
 import numpy as np
 
+from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
@@ -50,7 +51,8 @@ class FollowedMesh(LiveMesh):
 
     def __init__(self, task: Task):
         super().__init__(task, is_shown=True)
-        self._follower = Follower()
+        self.is_as_seen = task.settings.with_modifiers
+        self._follower = Follower(is_as_seen=self.is_as_seen)
         self.is_moved, self.is_like = False, True
         self.original: np.ndarray | None = None
         self._corners: np.ndarray | None = None
@@ -62,6 +64,10 @@ class FollowedMesh(LiveMesh):
     def shown_uid(self):
         """``session_uid`` of the follower's mesh."""
         return self._follower.mesh_uid
+
+    def suits(self, task: Task) -> bool:
+        """Return whether it shows the result where the settings of its task say."""
+        return task.is_followed and task.is_followed_as_seen == self.is_as_seen
 
     @property
     def can_be_followed(self):
@@ -101,7 +107,7 @@ class FollowedMesh(LiveMesh):
             self._follower.make(obj)
         super().begin_preview(obj)
         if self.original is None:
-            self.original, self._corners = mesh_bridge.glance(obj)
+            self.original, self._corners = self._glance(obj)
         else:
             self.look(obj, is_reported=False)
             self._is_carried = self._solved is not None
@@ -123,19 +129,21 @@ class FollowedMesh(LiveMesh):
     def look(self, obj: bpy.types.Object, *, is_reported: bool) -> bool:
         """Look whether the artist has changed the original; return whether he has.
 
-        In Edit Mode only positions are compared. There, what Blender has reported counts, too.
+        In Edit Mode, and with modifiers, only positions are compared. There, what Blender has
+        reported counts, too.
         """
         before, corners = self.original, self._corners
-        self.original, self._corners = mesh_bridge.glance(obj)
+        self.original, self._corners = self._glance(obj)
         mesh = mesh_bridge.mesh_of(obj)
-        self._has_keys = mesh.shape_keys is not None or mesh_bridge.has_original(mesh)
+        has_keys = mesh.shape_keys is not None or mesh_bridge.has_original(mesh)
+        self._has_keys = has_keys and not self.is_as_seen  # what is seen has none
         is_like = before is not None and before.shape == self.original.shape
         if corners is not None and self._corners is not None:
             is_like &= np.array_equal(corners, self._corners)
         if self._corners is None:
             self._corners = corners
         is_same = is_like and before.tobytes() == self.original.tobytes()  # nan is not nan
-        if is_same and not (is_reported and mesh.is_editmode):
+        if is_same and not (is_reported and (mesh.is_editmode or self.is_as_seen)):
             return False
         if not is_like:
             self.is_like, self._solved, self._is_carried = False, None, False
@@ -183,6 +191,15 @@ class FollowedMesh(LiveMesh):
         self.is_moved, self._is_stale, self.member = True, True, None
         if self.run is not None:
             self.run.hold()
+
+    def _glance(self, obj):
+        if not self.is_as_seen:
+            return mesh_bridge.glance(obj)
+        try:
+            points, corners = mesh_bridge.read_evaluated_points(obj)
+        except CubicCraftError:  # reading it will report the reason
+            return np.empty((0, 3), np.float32), None
+        return points, np.array([corners])
 
     def _fits(self, obj):
         mesh = self.shows_on(obj)

@@ -28,6 +28,11 @@ class _Place:
 class Follower:
     """A follower of one original; it keeps no reference to Blender's data, which undo frees.
 
+    Parameters
+    ----------
+    is_as_seen : bool
+        Whether it has the visible mesh, with modifiers.
+
     Attributes
     ----------
     mesh_uid : int
@@ -36,7 +41,8 @@ class Follower:
         Whether the original has got other faces, groups or materials since its mesh was copied.
     """
 
-    def __init__(self):
+    def __init__(self, *, is_as_seen: bool):
+        self._is_as_seen = is_as_seen
         self._uid = self.mesh_uid = 0
         self._name = ""
         self._place: _Place | None = None
@@ -52,12 +58,16 @@ class Follower:
 
     def make(self, source: bpy.types.Object) -> bpy.types.Object:
         """Make the object, where the artist has left it, or else beside the original."""
-        mesh_bridge.flush(source)
-        mesh = mesh_bridge.mesh_of(source).copy()
-        new = source.copy()
-        assert mesh is not None and new is not None
-        new.data = mesh
-        mesh.name, new.name = f"{mesh_bridge.mesh_of(source).name} Cubic", f"{source.name} Cubic"
+        if self._is_as_seen:
+            new = mesh_bridge.make_seen(source)
+            mesh = mesh_bridge.mesh_of(new)
+        else:
+            mesh_bridge.flush(source)
+            own = mesh_bridge.mesh_of(source)
+            mesh, new = own.copy(), source.copy()
+            assert mesh is not None and new is not None
+            new.data = mesh
+            mesh.name, new.name = f"{own.name} Cubic", f"{source.name} Cubic"
         new[_MARK] = str(new.session_uid)
         mesh_bridge.link_beside(source, new)
         self._uid, self.mesh_uid, self.is_outdated = new.session_uid, mesh.session_uid, False
@@ -79,10 +89,17 @@ class Follower:
         obj = self.find()
         if obj is None:
             return
-        before, mesh = mesh_bridge.mesh_of(obj), mesh_bridge.mesh_of(source).copy()
-        assert mesh is not None
+        before = mesh_bridge.mesh_of(obj)
+        if self._is_as_seen:
+            new = mesh_bridge.make_seen(source)
+            mesh = mesh_bridge.mesh_of(new)
+            obj.data = mesh
+            bpy.data.objects.remove(new)
+        else:
+            mesh = mesh_bridge.mesh_of(source).copy()
+            assert mesh is not None
+            obj.data = mesh
         name = before.name
-        obj.data = mesh
         bpy.data.meshes.remove(before)
         mesh.name = name
         self.mesh_uid, self.is_outdated = mesh.session_uid, False

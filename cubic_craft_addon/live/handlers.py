@@ -32,7 +32,7 @@ def _on_saved(*_):
 
 @persistent
 def _on_frame(*_):
-    _session.wake()
+    _session.on_object_update()
 
 
 @persistent
@@ -44,8 +44,13 @@ def _on_update(_scene, depsgraph):
         if isinstance(data, bpy.types.Mesh):
             if update.is_updated_geometry and data.session_uid in mesh_uids:
                 _session.on_mesh_update()
-        elif isinstance(data, bpy.types.Object) and data.mode == "SCULPT":
-            _session.on_mesh_update()  # of a stroke, Blender reports no more
+        elif (
+            isinstance(data, bpy.types.Object)
+            and _session.is_following
+            and data.data is not None
+            and data.data.session_uid in mesh_uids
+        ):
+            _session.on_object_update()  # of a stroke in Sculpt Mode, Blender reports no more
         elif isinstance(data, bpy.types.Object) and (
             update.is_updated_transform
             or not update.is_updated_geometry

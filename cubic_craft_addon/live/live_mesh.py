@@ -30,6 +30,9 @@ class LiveMesh:
         The data last read from it.
     """
 
+    is_as_seen = False
+    """whether its run is of the visible mesh, with modifiers"""
+
     def __init__(self, task: Task, is_shown: bool):
         self.object_uid = task.uid
         self.mesh_uid = task.mesh.session_uid
@@ -112,9 +115,14 @@ class LiveMesh:
             self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
 
+    def suits(self, task: Task) -> bool:
+        """Return whether it shows the result where the settings of its task say."""
+        return not task.is_followed
+
     def take_over(self, other: LiveMesh) -> None:
         """Take the place of another one of the same object."""
-        self.run, self.member = other.run, other.member
+        self.run = other.run
+        self.member = other.member if self.is_as_seen == other.is_as_seen else None
 
     def put_back(self) -> None:
         """Remove what was made to show it on; previews have been ended."""

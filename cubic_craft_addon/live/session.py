@@ -202,6 +202,11 @@ class Session:
             self._may_be_painted = self._is_reported = True
             self.wake()
 
+    def on_object_update(self) -> None:
+        """Record that Blender has re-evaluated an object of the session, or the frame."""
+        self._may_be_painted |= self.is_following
+        self.wake()
+
     def on_undo(self) -> None:
         """Record that Blender has undone or redone a step."""
         # Undo steps from before Live have no preview on their meshes; those pushed since do.
@@ -308,7 +313,7 @@ class Session:
             self.on(Event.CHANGED)
         if self._following.is_waiting:
             self._follow_originals(now)
-        elif self._may_be_painted:
+        elif self._may_be_painted and self._may_read_weights():
             self._may_be_painted = False
             is_changed |= self._runs.restart_painted(self._groups, self.meshes)
         if is_changed:
@@ -325,6 +330,16 @@ class Session:
             self._may_be_painted = False
             self._history.record_outside()
             self._has_written |= self._reads_edit_mode()
+
+    def _may_read_weights(self):
+        """Return whether weights can be read without a copy of the mesh, which would wake Live.
+
+        Where they cannot, all is read anew when Blender reports a change of the mesh.
+        """
+        return not any(
+            task.is_followed_as_seen or (task.is_followed and task.obj.mode not in elsewhere.MODES)
+            for task in self._tasks.values()
+        )
 
     def _reads_edit_mode(self):
         """Whether reading an object has made Blender report its mesh as changed."""
@@ -348,11 +363,9 @@ class Session:
         for mesh, task in self._pairs():
             is_first = task.mesh not in seen
             seen.add(task.mesh)
-            if isinstance(mesh, FollowedMesh) == task.is_followed or task.obj.mode in (
-                "EDIT",
-                "SCULPT",
-            ):
-                continue
+            may_be_written = task.is_followed or task.obj.mode in elsewhere.MODES
+            if mesh.suits(task) or not may_be_written:
+                continue  # the next tick ends it
             mesh_bridge.end_preview(task.mesh)
             mesh.put_back()
             other = FollowedMesh(task) if task.is_followed else LiveMesh(task, is_shown=is_first)

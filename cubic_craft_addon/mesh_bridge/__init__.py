@@ -35,7 +35,7 @@ from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
 from .result.rollback import mesh_untouched
-from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
+from .result.seen import KINDS, as_seen, make_seen, move_seen, remove_seen, show_seen, write_seen
 
 __all__ = (
     "KINDS",
@@ -43,6 +43,7 @@ __all__ = (
     "Look",
     "Preview",
     "Start",
+    "as_seen",
     "carried_attributes",
     "check_editable",
     "check_relative_keys",

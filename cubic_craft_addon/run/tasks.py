@@ -74,6 +74,11 @@ class Task:
         self.bones = bone_places(obj) if self.settings.keep_pose else None
 
     @property
+    def is_followed_as_seen(self):
+        """Whether it is followed with its modifiers."""
+        return self.is_followed and self.settings.with_modifiers
+
+    @property
     def key(self):
         """Everything but the mesh that determines the solution; no references to Blender's data."""
         up = self._alone.up.tobytes() if self.settings.floor else b""
@@ -179,7 +184,7 @@ def prepare_all(
                     task.settings,
                     before,
                     weights_changed=weights_changed,
-                    rigged=task.source,
+                    rigged=task.obj if task.is_followed_as_seen else task.source,
                 )
             if task.is_followed:
                 member = replace(member, uid=task.uid, name=task.obj.name)
@@ -196,6 +201,8 @@ def prepare_all(
 
 
 def _readable(task):
+    if task.is_followed_as_seen:
+        return mesh_bridge.as_seen(task.obj)
     return mesh_bridge.in_no_mode(task.obj) if task.is_followed else nullcontext(task.obj)
 
 
@@ -248,6 +255,16 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         overrides.remember_on(target, task.settings)
 
     solution = task.solution
+    if task.is_followed_as_seen:
+        task.written = mesh_bridge.write_seen(
+            mesh_bridge.make_seen(task.obj),
+            task.obj,
+            solution.positions,
+            solution.rotations,
+            remember,
+            asdict(run),
+        )
+        return
     if task.is_seen:
         source = task.source
         assert source is not None

@@ -163,7 +163,7 @@ def _draw_map(layout, obj):
 def _draw_result(layout, obj):
     properties = live.shared_properties(obj)
     layout.prop(properties, "result")
-    if properties.result == "NEW_OBJECT" and not live.current():
+    if properties.result == "NEW_OBJECT":
         layout.prop(properties, "with_modifiers")
     if last_run(obj) is not None and not live.current():
         layout.operator("cubic_craft.flatten", icon="MESH_GRID")

@@ -310,3 +310,97 @@ def test_a_shape_that_cannot_be_used_is_named_and_loses_nothing(live, follow):
     assert not session.all_problems and bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
+
+
+def add_box():
+    """Add a cube whose Subdivision modifier makes it round."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    obj.cubic_craft.refine = "OFF"
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 3
+    return obj
+
+
+def push_in(obj):
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Pushed", from_mix=False).points[0].co.x -= 0.5
+    obj.data.shape_keys.key_blocks["Pushed"].value = 1.0
+
+
+def set_levels(obj):
+    obj.modifiers["Subdivision"].levels = 2
+
+
+def edit_cage(obj):
+    with edit_mode(obj):
+        bm = bmesh.from_edit_mesh(obj.data)
+        next(iter(bm.verts)).co.x += 0.5
+        bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("change", [push_in, set_levels, edit_cage])
+def test_what_modifiers_show_is_followed(live, follow, change):
+    obj = add_box()
+    session = settle(follow(obj, with_modifiers=True))
+    shown = bits(follower_of(obj))
+    assert len(shown) > 12 * 300 and not follower_of(obj).modifiers
+    change(obj)
+    settle(session)
+    assert bits(follower_of(obj)) != shown and session._timer is None
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_the_timeline_is_followed(live, follow):
+    obj = add_box()
+    push_in(obj)
+    key = obj.data.shape_keys.key_blocks["Pushed"]
+    for frame in (1, 10):
+        key.value = frame / 10
+        key.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(1)
+    session = settle(follow(obj, with_modifiers=True))
+    shown = bits(follower_of(obj))
+    bpy.context.scene.frame_set(10)
+    settle(session)
+    assert bits(follower_of(obj)) != shown
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
+    obj = add_box()
+    session = settle(follow(obj))
+    for is_on in (True, False):
+        live.live_properties().with_modifiers = is_on
+        settle(session)
+        assert (len(follower_of(obj).data.vertices) > 8) == is_on
+        assert len(bpy.data.objects) == 2
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_a_map_does_not_keep_it_awake_in_modes_that_cannot_be_read(follow):
+    obj = add_monkey()
+    obj.vertex_groups.new(name="Map").add(range(100), 0.5, "REPLACE")
+    session = settle(follow(obj, map_group="Map"))
+    for mode in ("EDIT", "SCULPT", "OBJECT"):
+        bpy.ops.object.mode_set(mode=mode)
+        settle(session)
+        for _ in range(3):
+            bpy.context.view_layer.update()
+            assert session._timer is None, f"woken in {mode}"
+
+
+def test_painting_the_map_is_followed(live, follow):
+    obj = add_monkey()
+    group = obj.vertex_groups.new(name="Map")
+    group.add(range(500), 1.0, "REPLACE")
+    session = settle(follow(obj, map_group="Map"))
+    shown = bits(follower_of(obj))
+    group.add(range(300), 0.2, "REPLACE")
+    obj.data.update()
+    settle(session)
+    assert bits(follower_of(obj)) != shown
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))

@@ -4,7 +4,8 @@
 It is in no scene until it is written. Texts, curves, surfaces and metaballs also become meshes.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import bpy
@@ -52,6 +53,25 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
     new = _copy(obj, mesh) if obj.type == "MESH" else _stand_in(obj, mesh)
     new.name = f"{obj.name} Cubic"
     return new
+
+
+@contextmanager
+def as_seen(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Provide an object made by `make_seen` to read from.
+
+    Raises
+    ------
+    CubicCraftError
+        As `make_seen`; what is raised while it is read names the object itself.
+    """
+    new = make_seen(obj)
+    name = new.name
+    try:
+        yield new
+    except CubicCraftError as error:
+        raise CubicCraftError(str(error).replace(name, obj.name)) from error
+    finally:
+        remove_seen(new)
 
 
 def remove_seen(new: bpy.types.Object) -> None:
