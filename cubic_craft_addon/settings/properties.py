@@ -181,7 +181,7 @@ class RunProperties:
     with_modifiers: BoolProperty(
         name="With Modifiers",
         description="Apply the modifiers to the new object, including the pose of an Armature."
-        " When off, and in Live, the mesh without its modifiers becomes cubic",
+        " When off, the mesh without its modifiers becomes cubic",
         default=Settings.with_modifiers,
         options=_OPTIONS,
     )

@@ -13,8 +13,9 @@ from snapshot import differences, snapshot_mesh
 
 
 @pytest.fixture
-def follow(begin):
-    """Return a function that begins Live with a follower."""
+def follow(live, begin, monkeypatch):
+    """Return a function that begins Live with a follower; the exact run waits for no long pause."""
+    monkeypatch.setattr(f"{live.__name__}.pace.LEAST_PAUSE", 0.05)
 
     def start(obj, **settings):
         return begin(obj, result="NEW_OBJECT", **{"cubeness": 0.5, **settings})
