@@ -25,6 +25,7 @@ from .region_from_selection import CUBIC_CRAFT_OT_region_from_selection
 from .region_remove import CUBIC_CRAFT_OT_region_remove
 from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
+from .restore_first import CUBIC_CRAFT_OT_restore_first
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .send_to import CUBIC_CRAFT_OT_send_to
 
@@ -37,6 +38,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_bake_normal_map,
         CUBIC_CRAFT_OT_send_to,
         CUBIC_CRAFT_OT_restore,
+        CUBIC_CRAFT_OT_restore_first,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_select_crossing,

@@ -217,7 +217,8 @@ def _unseen(tasks: list[Task], looks: list[mesh_bridge.Look]) -> list[str]:
     found = []
     for task, look in zip(tasks, looks, strict=True):
         if task.written is not None and task.solution is not None:
-            found.append(look.problem(task.written, task.solution.positions))
+            positions = mesh_bridge.result_positions(task.written)  # with strokes
+            found.append(look.problem(task.written, positions))
     return [text for text in found if text]
 
 

@@ -3,7 +3,8 @@
 
 Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
 normals, which point somewhere in object space. Besides them, the bridge keeps its own attributes
-and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace.
+and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace (a
+first original is removed by Apply and *Restore First*).
 """
 
 from .access.carried import carried_attributes
@@ -13,10 +14,12 @@ from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group
+from .memory.first_original import has_first
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
     has_original,
+    has_strokes,
     is_edited,
     original_positions,
     read_positions,
@@ -29,7 +32,7 @@ from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
-from .result.restore import discard_original, has_traces, restore
+from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import write_mesh, write_shape_key
 from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
 
@@ -51,8 +54,10 @@ __all__ = (
     "end_preview",
     "faces_of_triangles",
     "group_weights",
+    "has_first",
     "has_original",
     "has_preview",
+    "has_strokes",
     "has_traces",
     "is_edited",
     "is_still",
@@ -71,6 +76,7 @@ __all__ = (
     "remove_copy",
     "remove_seen",
     "restore",
+    "restore_first",
     "result_positions",
     "select_faces",
     "select_instead",

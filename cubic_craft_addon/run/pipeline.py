@@ -181,7 +181,9 @@ def write(
         )
     remember(obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(obj, solution.positions, run, solution.start)
+        mesh_bridge.write_shape_key(
+            obj, solution.positions, solution.rotations, run, solution.start
+        )
     else:
         mesh = mesh_bridge.mesh_of(obj)
         mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)

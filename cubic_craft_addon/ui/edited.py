@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel's message about a mesh that was edited by hand since it was cubified.
+"""The panel's message about a result that was edited by hand, and what to start from.
 
 The check takes too long for each redraw, so its result is kept until Blender reports that a
 mesh has changed, or may have changed.
@@ -12,22 +12,35 @@ from ...solver import CubicCraftError
 from .. import live, mesh_bridge
 from ..environment import handlers
 from ..object_properties import object_properties
+from ..screen.text_fit import room_for_text, wrapped
+
+_REPLACED = "This shape replaces the original. Restore First brings that back until Apply"
+_BOX = 1.0  # width of an icon, that a box takes from a line
 
 _known: dict[int, bool] = {}
 """whether a mesh is edited, by its ``session_uid``"""
 
 
-def draw(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer what to start from if the mesh of the object was edited; nothing while Live runs."""
     if live.current() is not None or obj.mode not in ("OBJECT", "WEIGHT_PAINT"):
         return
-    if not is_edited(mesh_bridge.mesh_of(obj)):
+    if not has_edits(mesh_bridge.mesh_of(obj)):
         return
+    properties = object_properties(obj)
     box = layout.box()
-    box.label(text="Edited since Cubify: start", icon="INFO")
-    row = box.row()
-    row.use_property_split = False
-    row.prop(object_properties(obj), "start", expand=True)
+    box.label(text="Edited by hand: start", icon="INFO")
+    column = box.column(align=True)  # side by side, three names would not fit
+    column.use_property_split = False
+    column.prop(properties, "start", expand=True)
+    if properties.start == "HERE":
+        for line in wrapped(_REPLACED, room_for_text(context, _BOX)):
+            box.label(text=line)
+
+
+def has_edits(mesh: bpy.types.Mesh) -> bool:
+    """Return whether the result was edited by hand, or has edits of earlier ones in it."""
+    return mesh_bridge.has_strokes(mesh) or is_edited(mesh)
 
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:

@@ -73,7 +73,7 @@ def _draw_cubify(context, layout, obj):
     changes = changes_since(obj, run) if run and not session else []
     column = layout.column()
     column.enabled = job.current() is None
-    edited.draw(column, obj)
+    edited.draw(context, column, obj)
     presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
     row = layout.row()
@@ -94,6 +94,8 @@ def _draw_cubify(context, layout, obj):
         row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
     row.operator("cubic_craft.restore", icon="LOOP_BACK")
+    if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
+        row.operator("cubic_craft.restore_first", icon="REW")
     row.operator("cubic_craft.apply", icon="CHECKMARK")
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:

@@ -86,7 +86,7 @@ def test_it_is_found_out_once(edited, extension, monkeypatch):
     assert len(calls) == 1
 
 
-@pytest.mark.parametrize("start", ["HERE", "ORIGINAL"])
+@pytest.mark.parametrize("start", ["HERE", "ORIGINAL", "EDITS"])
 @pytest.mark.parametrize("change", ["edited", "transformed"])
 def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     shapes = []
@@ -109,7 +109,7 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
             confirm(live, session)
         else:
             bpy.ops.cubic_craft.cubify(start=start, cubeness=0.7)
-        assert obj.cubic_craft.start == "HERE"
+        assert obj.cubic_craft.start == "EDITS"
         shapes.append(bits(obj))
         bpy.ops.cubic_craft.restore()
         shapes.append(bits(obj))
@@ -117,11 +117,11 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     assert shapes[:2] == shapes[2:]
 
 
-def test_an_edited_mesh_starts_from_where_it_is():
+def test_an_edited_mesh_may_start_from_where_it_is():
     obj = add_monkey()
     cubify()
     edited = edit(obj)
-    cubify()
+    cubify(start="HERE")
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
 
@@ -137,11 +137,10 @@ def test_an_edited_mesh_may_start_from_the_original(by):
         cubify()
     else:
         cubify(start="ORIGINAL")
-    assert obj.cubic_craft.start == "HERE"  # it was for that run
+    assert obj.cubic_craft.start == "EDITS"  # it was for that run
     assert position_of(obj.data).tobytes() == cubic.tobytes()
     edited = edit(obj)
     cubify()
-    bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
 
 
@@ -151,7 +150,7 @@ def test_each_of_several_edited_meshes_starts_from_what_it_says():
     cubify(together="PARTS")
     edit(one)
     edited = edit(other)
-    one.cubic_craft.start = "ORIGINAL"
+    one.cubic_craft.start, other.cubic_craft.start = "ORIGINAL", "HERE"
     cubify(together="PARTS")
     bpy.ops.cubic_craft.restore()
     assert position_of(one.data)[3, 0] != edited[3, 0]
@@ -165,4 +164,4 @@ def test_restore_takes_back_an_edit_as_well():
     edit(obj)
     said = reports_of(bpy.ops.cubic_craft.restore)
     assert position_of(obj.data).tobytes() == before.tobytes()
-    assert "Restored Suzanne; edits made since Cubify are lost (Ctrl-Z brings them back)" in said
+    assert "Restored Suzanne; edits made by hand are lost (Ctrl-Z brings them back)" in said
