@@ -6,12 +6,13 @@ The row in the panel is tested in a window.
 
 import importlib
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from rich_mesh import position_of
-from scene import cubify, reports_of, select
+from scene import bmesh_of, cubify, reports_of, select
 
 
 @pytest.fixture
@@ -302,6 +303,29 @@ def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
         else:
             cubify()
         update()
+
+
+def test_a_lost_original_is_named(edited, monkeypatch):
+    """New vertices that were moved each its own way: Cubify starts from here, and says so."""
+    monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
+    obj = add_monkey()
+    cubify(max_iterations=2)
+    with bmesh_of(obj.data) as bm:
+        made = bmesh.ops.extrude_vert_indiv(bm, verts=bm.verts[100:200])["verts"]
+        for vertex in made:
+            vertex.co = np.multiply(vertex.co, 1 + np.sin(9 * np.array(vertex.co)))
+    update()
+    layout = Recorder()
+    edited.draw(bpy.context, layout, obj)
+    assert "no longer be determined: Cubify starts from here" in layout.texts[0]
+    assert layout.properties == []
+    shape = position_of(obj.data)
+    said = reports_of(lambda: cubify(max_iterations=2))
+    assert '"Suzanne" starts from its current shape' in said
+    update()
+    assert not edited.is_lost(obj.data)
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == shape.tobytes()
 
 
 @pytest.mark.parametrize("number, start", [(0, "HERE"), (1, "ORIGINAL"), (None, "EDITS")])

@@ -14,7 +14,7 @@ from ..access.attributes import FIRST, our_attributes, remove_attribute
 from ..access.note import read_note, write_note
 from ..access.rotations import matrices_from_quaternions, quaternions_from_matrices
 from ..access.shapes import Shapes
-from .original import RESULT, Start, has_stored, original_shapes, recognise_result, starts_here
+from .original import RESULT, Start, is_lost, original_shapes, recognise_result, starts_here
 from .stored import Stored
 
 _FIRST = Stored(FIRST, f"{FIRST}.rotation", "first")
@@ -27,7 +27,7 @@ def has_first(mesh: bpy.types.Mesh | None) -> bool:
 
 def first_shapes(mesh: bpy.types.Mesh) -> Shapes | None:
     """Read all shapes of the first original, without our own shape key; None if it is unknown."""
-    if not has_first(mesh) or (has_stored(mesh) and recognise_result(mesh) is None):
+    if not has_first(mesh) or is_lost(mesh):
         return None
     later = original_shapes(mesh, "ORIGINAL")
     recognised = _FIRST.recognise(mesh, later.base)

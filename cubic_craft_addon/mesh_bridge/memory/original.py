@@ -108,6 +108,19 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
     return recognised is not None and recognised.is_edited
 
 
+def is_lost(mesh: bpy.types.Mesh) -> bool:
+    """Return whether there was an original that can no longer be determined.
+
+    As expensive as `has_original`.
+
+    Raises
+    ------
+    CubicCraftError
+        As `is_edited`.
+    """
+    return has_stored(mesh) and recognise_result(mesh) is None
+
+
 def recognise_result(mesh: bpy.types.Mesh) -> Recognised | None:
     """Recognise the result on the mesh; None if it has no original."""
     return RESULT.recognise(mesh, _base(mesh)) if has_stored(mesh) else None
