@@ -70,7 +70,11 @@ class Preview:
         return bool(self._original.relative) or self._strokes is not None
 
     def show(
-        self, mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray | None = None
+        self,
+        mesh: bpy.types.Mesh,
+        positions: np.ndarray,
+        rotations: np.ndarray | None = None,
+        outcome: Any = None,
     ) -> None:
         """Show a shape on the mesh, as `write_mesh` would write it.
 
@@ -82,6 +86,7 @@ class Preview:
         positions : (n,3) numpy array, object space; ignored for vertices in no face
         rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
             rotate, or `needs_rotations` is false
+        outcome : values for JSON, which `keep_preview` returns if a file is opened with this shape
 
         Raises
         ------
@@ -90,7 +95,7 @@ class Preview:
             or one without this preview. The mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
-        part = self._part_on(mesh)
+        part = self._part_on(mesh) | {"outcome": outcome}
         base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
         matrices = self._matrices(mesh, rotations)
         base = with_strokes(mesh, base, self._strokes, matrices)

@@ -4,6 +4,8 @@
 "The sculpted shape" is that of the result with the seed 1, as it was moved by hand.
 """
 
+from dataclasses import asdict
+
 import bpy
 import numpy as np
 import pytest
@@ -204,3 +206,18 @@ def test_strokes_too_far_away_are_refused(bridge, cubify, error, plain_monkey):
     positions[40:60] += 3e38
     with unchanged(plain_monkey), pytest.raises(error, match="not finite"):
         bridge.write_mesh(mesh, positions, rotations, start="EDITS")
+
+
+def test_a_file_with_a_preview_keeps_them(bridge, cubify, monkey):
+    mesh = monkey.data
+    run = bridge.LastRun({}, 1, 1, 1, 0.0, True, 0.0, "numpy")
+    cubify(monkey, seed=1)
+    sculpt(monkey)
+    sculpted = shapes_of(monkey)
+    preview = bridge.Preview(mesh, "EDITS")
+    preview.show(mesh, *cubic_like(bridge.original_positions(mesh, "EDITS"), 2))
+    shown = shapes_of(monkey)
+    bridge.keep_preview(mesh, asdict(run), "EDITS")
+    check_bits(shapes_of(monkey), shown)
+    cubify(monkey, seed=1, start="EDITS")
+    check_near(shapes_of(monkey)[:1], sculpted[:1])
