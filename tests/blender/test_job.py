@@ -226,6 +226,7 @@ def test_a_pose_that_was_settled_for_it_is_put_back(start):
     handle.group = "Ear"
     handle.is_baked = True
     handle.baked = Matrix.Translation((0, 0, 1))
+    obj.cubic_craft.start = "HERE"
     watched = start(obj)
     assert handle.is_baked and handle.rest != handle.baked
     watched.cancel()
