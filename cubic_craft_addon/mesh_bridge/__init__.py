@@ -36,7 +36,7 @@ from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
-from .result.results import write_mesh, write_shape_key
+from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import mesh_untouched
 from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
 
@@ -78,6 +78,7 @@ __all__ = (
     "noted_outcome",
     "original_positions",
     "plain_copy",
+    "positions_with_strokes",
     "read_evaluated",
     "read_evaluated_points",
     "read_positions",

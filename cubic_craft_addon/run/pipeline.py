@@ -199,6 +199,13 @@ def write(
     return obj
 
 
+def shape_of(obj: bpy.types.Object, solution: Solution) -> np.ndarray:
+    """Return the positions (n,3) that writing a Solution would give the object's mesh."""
+    return mesh_bridge.positions_with_strokes(
+        mesh_bridge.mesh_of(obj), solution.positions, solution.rotations, solution.start
+    )
+
+
 def read_back(prepared, positions, rotations):
     """Return the results of the solver, for each member in its object's coordinates."""
     at_rest = prepared.setup.rest.input_positions

@@ -24,7 +24,13 @@ from ..access.shapes import Shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.first_original import first_kept
 from ..memory.last_run import note_run
-from ..memory.original import Start, drop_stored, original_shapes, store_original
+from ..memory.original import (
+    Start,
+    drop_stored,
+    original_positions,
+    original_shapes,
+    store_original,
+)
 from ..memory.strokes import read_strokes, with_strokes
 from ..preview.end import end_preview
 from .rollback import all_or_nothing
@@ -104,11 +110,7 @@ def write_shape_key(
     loose = loose_vertices(mesh)
     strokes = read_strokes(mesh, start)
     positions = rounded_for_storage(mesh, positions, original.base, loose)
-    if rotations is None:
-        matrices = np.broadcast_to(np.eye(3), (len(loose), 3, 3))
-    else:
-        matrices = matrices_from_quaternions(rotations_for_storage(mesh, rotations, loose))
-    positions = with_strokes(mesh, positions, strokes, matrices)
+    positions = with_strokes(mesh, positions, strokes, _matrices(mesh, rotations, loose))
     _write_key(obj, original, positions, strokes, run, first_kept(mesh, start, original))
 
 
@@ -124,6 +126,28 @@ def reshape_key(
     original = original_shapes(mesh)
     positions = rounded_for_storage(mesh, positions, original.base, loose_vertices(mesh))
     _write_key(obj, original, positions, read_strokes(mesh, "EDITS"), run)
+
+
+def positions_with_strokes(
+    mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray, start: Start
+) -> np.ndarray:
+    """Return the base that `write_mesh` would write, (n,3), with what was moved by hand.
+
+    Parameters and errors are those of `write_mesh`.
+    """
+    strokes = read_strokes(mesh, start)
+    if strokes is None:
+        return positions
+    loose = loose_vertices(mesh)
+    points = rounded_for_storage(mesh, positions, original_positions(mesh, start), loose)
+    return with_strokes(mesh, points, strokes, _matrices(mesh, rotations, loose))
+
+
+def _matrices(mesh: bpy.types.Mesh, rotations: np.ndarray | None, loose: np.ndarray) -> np.ndarray:
+    """Return the rotations (n,3,3) as they are stored; those of None turn nothing."""
+    if rotations is None:
+        return np.broadcast_to(np.eye(3), (len(loose), 3, 3))
+    return matrices_from_quaternions(rotations_for_storage(mesh, rotations, loose))
 
 
 def _check_for_key(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
