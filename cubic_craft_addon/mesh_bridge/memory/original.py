@@ -67,8 +67,10 @@ def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarra
     """
     present = _base(mesh)
     recognised = _start_of(mesh, start)
+    if recognised is None or start == "EDITS":  # then edits go onto the result
+        _finite(present, mesh)
     if recognised is None:
-        return _finite(present, mesh)
+        return present
     return _finite(recognised.moved(RESULT.base(mesh), present), mesh)
 
 

@@ -11,9 +11,8 @@ import numpy as np
 
 from ..access.attributes import read_attribute
 from ..access.rounded_for_storage import check_shape
-from ..access.shapes import read_shapes
 from .cubic_key import find_cubic_key, key_strokes
-from .original import RESULT, STROKES, Start, has_strokes, recognise_result
+from .original import RESULT, STROKES, Start, has_strokes, read_positions, recognise_result
 from .recognition import Recognised
 
 
@@ -90,7 +89,7 @@ def _earlier(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
 
 def _since(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
     """Return the strokes (n,3) float64 made since the result."""
-    present = read_shapes(mesh).base
+    present = read_positions(mesh)
     written = RESULT.written(mesh)
     assert written is not None  # or it would not have been recognised as edited
     offset = present.astype(np.float64) - recognised.moved(written, present)

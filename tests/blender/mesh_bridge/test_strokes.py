@@ -208,6 +208,21 @@ def test_strokes_too_far_away_are_refused(bridge, cubify, error, plain_monkey):
         bridge.write_mesh(mesh, positions, rotations, start="EDITS")
 
 
+def test_strokes_that_are_not_finite_are_refused(bridge, cubify, error, plain_monkey):
+    """Before anything is solved."""
+    mesh = plain_monkey.data
+    cubify(plain_monkey, seed=1)
+    points = position_of(mesh)
+    points[40, 0] = np.nan
+    set_position(mesh, points)
+    with pytest.raises(error, match="coordinates that are not finite: delete those vertices"):
+        bridge.original_positions(mesh, "EDITS")
+    with pytest.raises(error, match="coordinates that are not finite: delete those vertices"):
+        bridge.Preview(mesh, "EDITS")
+    bridge.restore(plain_monkey)
+    assert np.isfinite(position_of(mesh)).all()
+
+
 def test_a_file_with_a_preview_keeps_them(bridge, cubify, monkey):
     mesh = monkey.data
     run = bridge.LastRun({}, 1, 1, 1, 0.0, True, 0.0, "numpy")
