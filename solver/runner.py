@@ -306,7 +306,11 @@ class Run:
         self._phase = self._renew if needs_round else self._finish
 
     def _renew(self):
-        self.stylization = self._apart.renewed(self.stylization)
+        renewed = self._apart.renewed(self.stylization)
+        if renewed is None:
+            self._phase = self._finish
+            return
+        self.stylization = renewed
         self._rule = StopRule(self._tolerance, self.stylization.resolution)
         self._last = self.stylization.iteration + self._round
         self._phase = self._local_step
