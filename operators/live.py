@@ -22,7 +22,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
     bl_label = "Live"
     bl_description = (
         "Watch the selected meshes become cubic while you change the settings. Enter or this"
-        " button confirms; Esc or right click cancels"
+        " button confirms; so does whatever else you turn to, a mode or another mesh. Esc cancels"
     )
     bl_options = {"UNDO"}
 
@@ -61,6 +61,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         """Process events for Live; pass all others to Blender, so that the view can be orbited."""
         session = self._session
         is_ours = False
+        session.look_around(context)
         if session.is_dragged():
             # During a drag, Blender keeps mouse and keys, and events have other types.
             session.tick_in_drag(context)
@@ -82,7 +83,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         if event.type in _CONFIRM:
             session.on(live.Event.CONFIRM)
             return True
-        if event.type == "ESC" or (event.type == "RIGHTMOUSE" and _is_in_view(context, event)):
+        if event.type == "ESC":
             session.on(live.Event.CANCEL)
             return True
         if event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt):
@@ -93,11 +94,13 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         session = self._session
         if session.error:
             self.report({"ERROR"}, session.error)
-        elif session.end_message:
+        elif session.end_message and not session.summary:
             self.report({"WARNING"}, session.end_message)
-        if session.summary or session.problems:
-            return report_all(self, session.summary, session.problems)
-        return {"CANCELLED"}
+        if not (session.summary or session.problems):
+            return {"CANCELLED"}
+        texts = filter(None, (session.end_message, session.summary))
+        status = report_all(self, ": ".join(texts) if session.summary else "", session.problems)
+        return {"CANCELLED"} if session.has_pushed_undo else status
 
 
 class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
@@ -133,15 +136,6 @@ def _poll_without_modifiers(operator_class, context):
 
 def _is_over_viewport(context, event):
     return any(_contains(area, event) for area in context.screen.areas if area.type == "VIEW_3D")
-
-
-def _is_in_view(context, event):
-    """Return whether the mouse is over the view itself, not the sidebar with its context menus."""
-    for area in context.screen.areas:
-        if area.type == "VIEW_3D" and _contains(area, event):
-            regions = [r for r in area.regions if r.width > 1 and _contains(r, event)]
-            return all(region.type == "WINDOW" for region in regions)
-    return False
 
 
 def _contains(box, event):

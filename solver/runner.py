@@ -246,6 +246,7 @@ class Run:
         self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
+        self._coarse_energy: Energy | None = None
         rest = stylization.rest
         is_kept = keep_apart and rest.options.keep_apart and not stylization.is_coarse
         self._apart = KeepApart(rest) if is_kept else None
@@ -263,6 +264,18 @@ class Run:
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
         return coarse + self.stylization.iteration
 
+    @property
+    def energy(self) -> Energy | None:
+        """The energy of the last iteration, which may be one on a coarser mesh; None before it."""
+        if self._coarse is not None:
+            return self._coarse.energy
+        return self.stylization.energy or self._coarse_energy
+
+    @property
+    def seconds(self) -> float:
+        """Time of the iterations so far."""
+        return self._seconds
+
     def advance(self) -> None:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
@@ -277,6 +290,7 @@ class Run:
         if self._coarse.reason is not None:
             prolongate(self._coarse.stylization, self.stylization)
             self._coarse_iterations = self._coarse.iterations
+            self._coarse_energy = self._coarse.energy
             self._coarse = None
 
     def _local_step(self):
@@ -351,8 +365,21 @@ class Run:
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
+        energy = self.stylization.finish()
+        self._seconds += time.perf_counter() - begin
+        return self._result(energy)
+
+    def so_far(self) -> Result | None:
+        """Return the current shape as a Result, None before the first iteration.
+
+        The run goes on as if nobody had asked.
+        """
+        energy = self.energy
+        return None if energy is None else self._result(energy)
+
+    def _result(self, energy):
+        begin = time.perf_counter()
         state = self.stylization
-        energy = state.finish()
         positions, rotations = self.placed()
         seconds = self._seconds + time.perf_counter() - begin
         apart = None if self.reason in (None, "cancelled") else self._apart

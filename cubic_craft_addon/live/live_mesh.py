@@ -61,6 +61,11 @@ class LiveMesh:
         return self.run.solution_of(self.object_uid) if self.run else None
 
     @property
+    def solution_so_far(self):
+        """The current shape as a result, None if nothing of it can be shown yet."""
+        return self.run.solution_so_far(self.object_uid) if self.run else None
+
+    @property
     def is_seen(self):
         """Whether the current run has been shown, if it is shown at all."""
         return self._preview is None or self._shown_moment is not None
@@ -93,8 +98,11 @@ class LiveMesh:
             self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
 
-    def show(self, mesh: bpy.types.Mesh) -> bool:
-        """Show the current state of the run; return whether it was new."""
+    def show(self, mesh: bpy.types.Mesh, values: Mapping[str, Any]) -> bool:
+        """Show the current state of the run; return whether it was new.
+
+        `values` are the settings, for a file that is opened with this shape.
+        """
         if self._preview is None or self.run is None:
             return False
         moment = self.run.moment
@@ -104,7 +112,8 @@ class LiveMesh:
         found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
         if found is None:
             return False
-        self._preview.show(mesh, *found)
+        outcome = {"values": values, "run": self.run.outcome}
+        self._preview.show(mesh, *found, outcome=outcome)
         return True
 
     def take_along(self, mesh: bpy.types.Mesh) -> bool:

@@ -78,6 +78,12 @@ class LiveRuns:
                 return
             working = [run for run in working if run.is_working]
 
+    def complete(self, seconds: float) -> None:
+        """Advance all runs to their ends, as far as the time in seconds allows."""
+        deadline = time.perf_counter() + seconds
+        while self.is_working and time.perf_counter() < deadline:
+            self.advance(deadline)
+
     def release(self) -> None:
         """Release all arrays."""
         for run in self._runs.values():

@@ -4,6 +4,7 @@
 Nothing of Blender's data is kept between two calls, because undo, delete and load free it.
 """
 
+import contextlib
 import logging
 import time
 from collections.abc import Callable
@@ -15,14 +16,16 @@ from .. import mesh_bridge
 from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
 from ..run.assembly import assemblies
+from ..run.failures import UNEXPECTED
 from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
-from ..settings.overrides import SettingsOverrides
-from . import handlers, poses, properties, status_bar, wake
+from ..settings.overrides import ALL, SettingsOverrides
+from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
 from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
+from .saved_file import write_for_file
 from .undo_steps import UndoSteps
 
 _log = logging.getLogger(__name__)
@@ -33,7 +36,7 @@ _TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and hand
 _PANEL_STEP = 0.1  # seconds between two redraws of the panel
 _CHECK_SHARE = 0.1  # largest share of the time for checking whether anything has changed
 _LEAST_LIFE = 0.1  # seconds of a run while settings are dragged
-_MODES = ("OBJECT", "WEIGHT_PAINT")
+_PATIENCE = 2.0  # seconds for which an artist who has gone on to something else is kept waiting
 
 
 class Session:
@@ -58,6 +61,8 @@ class Session:
         Returns whether a handle is being dragged in the viewport.
     error : str
         Why it has ended by itself.
+    has_pushed_undo : bool
+        Whether what was written has its undo step already.
     summary, problems : str, list of str
         What was written, as from `tasks.write_all`, or why nothing could be written.
     """
@@ -65,17 +70,20 @@ class Session:
     def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
         self._machine = Machine()
         self._window = context.window
+        self._place = elsewhere.place_of(context)
         self._object_uids = [obj.session_uid for obj in objects]
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
         self.is_dragged: Callable[[], bool] = lambda: False
         self._has_written = self._may_be_painted = self._is_undone = False
         self._undo_steps = UndoSteps()
+        self._in_file: contextlib.AbstractContextManager = contextlib.nullcontext()
+        self._mode_left, self.has_pushed_undo = "", False
         self.error, self.summary = "", ""
         self.problems: list[str] = []
         rebase_edited_handles(objects, lambda obj: object_properties(obj).start)
         properties.adopt(objects[0])
-        self._values = properties.live_values()
+        self._own = self._values = properties.live_values()
         self._history = History(self._values)
         self.meshes: list[LiveMesh] = []
         self._runs = LiveRuns()
@@ -87,6 +95,9 @@ class Session:
         self._restart_changed()
         if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))
+        again = cancelled.recall(self._object_uids, self._own)
+        if again is not None:
+            properties.set_live_values(again)  # seen by the first tick, and undone by Ctrl-Z
         try:
             self._show_again()
             handlers.install(self)
@@ -148,6 +159,8 @@ class Session:
 
     def on(self, event: Event) -> None:
         """Process an event and carry out the actions of the state machine."""
+        if event is Event.CANCEL:
+            cancelled.remember(self._object_uids, self._own, properties.live_values())
         for action in self._machine.on(event):
             try:
                 _METHODS[action](self)
@@ -201,6 +214,11 @@ class Session:
             properties.set_live_values(earlier)
         return True
 
+    def look_around(self, context: bpy.types.Context) -> None:
+        """End if the artist has turned to another workspace or scene."""
+        if elsewhere.place_of(context) != self._place:
+            self.on(Event.PLACE_LEFT)
+
     def tick(self, context: bpy.types.Context) -> None:
         """Check whether anything has changed, compute for a time slice, and show the result."""
         try:
@@ -220,8 +238,10 @@ class Session:
         self.meshes = [mesh for mesh in self.meshes if mesh.object_uid in objects]
         if not self.meshes:
             self.on(Event.LOST)
-        elif any(obj.mode not in _MODES for obj in objects.values()):
+        elif any(obj.mode not in elsewhere.MODES for obj in objects.values()):
             self.on(Event.MODE_LEFT)
+        elif elsewhere.is_another_mesh_active(list(objects.values())):
+            self.on(Event.SELECTED)
         if self.is_ended:
             return
         if take_along(self.meshes, objects):
@@ -289,7 +309,8 @@ class Session:
         return self._runs.is_working
 
     def _show(self, objects):
-        shown = [mesh.show(objects[mesh.object_uid].data) for mesh in self.meshes]
+        values = {name: self._values[name] for name in ALL}
+        shown = [mesh.show(objects[mesh.object_uid].data, values) for mesh in self.meshes]
         self._has_written |= any(shown)
         return any(shown)
 
@@ -299,7 +320,7 @@ class Session:
         """Continue with meshes after an undo or redo, which may have another shape now."""
         self._put_back()
         self._plan(list(self._objects(bpy.context).values()))
-        if any(task.obj.mode not in _MODES for task in self._tasks.values()):
+        if any(task.obj.mode not in elsewhere.MODES for task in self._tasks.values()):
             return  # the next tick ends it
         for mesh, task in self._pairs():
             mesh.follow(task)
@@ -316,13 +337,39 @@ class Session:
         for mesh, task in self._pairs():
             mesh.begin_preview(task.mesh)
 
+    def _complete(self):
+        with elsewhere.waiting(self._window):
+            self._runs.complete(_PATIENCE)
+
+    def _leave_mode(self):
+        self._mode_left = elsewhere.leave_mode(list(self._objects(bpy.context).values()))
+
+    def _back_to_mode(self):
+        if self._mode_left:
+            elsewhere.back_to_mode(self._mode_left, has_written=bool(self.summary))
+            self.has_pushed_undo = bool(self.summary)
+
+    def _push_undo(self):
+        if self.summary:
+            elsewhere.push_undo_soon()
+
     def _write(self):
-        self._plan(list(self._objects(bpy.context).values()))
-        for mesh, task in self._pairs():
-            task.solution = mesh.solution
-        solved = [task for task in self._tasks.values() if task.solution is not None]
+        solved = self._solved()
         self.summary, unwritten = write_all(self._overrides, solved)
         self.problems = self.all_problems + unwritten
+
+    def _write_to_file(self):
+        try:
+            self._in_file = write_for_file(self._overrides, self._solved())
+        except UNEXPECTED:
+            _log.exception("The file is saved with the mesh as before Live")
+
+    def _solved(self):
+        """Plan anew, and return the tasks of which there is something to write."""
+        self._plan(list(self._objects(bpy.context).values()))
+        for mesh, task in self._pairs():
+            task.solution = mesh.solution_so_far
+        return [task for task in self._tasks.values() if task.solution is not None]
 
     def _start_timer(self):
         if self._timer is None:
@@ -335,6 +382,8 @@ class Session:
             self._timer = None
 
     def _put_back(self):
+        with self._in_file:  # what was written for a file
+            self._in_file = contextlib.nullcontext()
         take_along(self.meshes, self._objects(bpy.context))
         # On all meshes: a preview may have been copied, or left on a mesh that was removed.
         mesh_bridge.end_all_previews()
@@ -359,7 +408,7 @@ class Session:
         """Return the objects that still exist, by ``session_uid``, the active one first."""
         uids = set(self._object_uids)
         # It contains None if a script has just removed an object.
-        there = [obj for obj in context.view_layer.objects if obj is not None]
+        there = [obj for obj in elsewhere.objects_of(context, self._place) if obj is not None]
         found = {obj.session_uid: obj for obj in there if obj.session_uid in uids}
         known = {mesh.object_uid: mesh.mesh_uid for mesh in self.meshes}
         return {
@@ -395,6 +444,11 @@ _METHODS = {
     Action.FOLLOW: Session._follow,
     Action.PUT_BACK: Session._put_back,
     Action.SHOW_AGAIN: Session._show_again,
+    Action.COMPLETE: Session._complete,
     Action.WRITE: Session._write,
+    Action.WRITE_TO_FILE: Session._write_to_file,
+    Action.LEAVE_MODE: Session._leave_mode,
+    Action.BACK_TO_MODE: Session._back_to_mode,
+    Action.PUSH_UNDO: Session._push_undo,
     Action.CLEAN_UP: Session._clean_up,
 }

@@ -14,7 +14,6 @@ def show(session):
         else:
             layout.label(text="Confirm Live", icon="EVENT_RETURN")
         layout.label(text="Cancel", icon="EVENT_ESC")
-        layout.label(text="Cancel", icon="MOUSE_RMB")
         layout.label(text="", icon="EVENT_CTRL")
         layout.label(text="Undo", icon="EVENT_Z")
 

@@ -13,6 +13,7 @@ from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group
+from .memory.cubic_key import find_cubic_key
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
@@ -25,12 +26,14 @@ from .memory.original import (
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.cover import Look, cover_problem, covers, distance, is_still
+from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore
 from .result.results import write_mesh, write_shape_key
+from .result.rollback import mesh_untouched
 from .result.seen import KINDS, make_seen, move_seen, remove_seen, show_seen, write_seen
 
 __all__ = (
@@ -50,18 +53,22 @@ __all__ = (
     "end_all_previews",
     "end_preview",
     "faces_of_triangles",
+    "find_cubic_key",
     "group_weights",
     "has_original",
     "has_preview",
     "has_traces",
     "is_edited",
     "is_still",
+    "keep_preview",
     "last_run",
     "link_beside",
     "make_seen",
     "mesh_of",
+    "mesh_untouched",
     "move_seen",
     "not_hidden",
+    "noted_outcome",
     "original_positions",
     "plain_copy",
     "read_evaluated",

@@ -134,7 +134,16 @@ def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: boo
 
 def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
     """Return a Solution for each member; the run cannot be continued afterwards."""
-    result = run.result()
+    return _solutions(prepared, run.result())
+
+
+def solutions_so_far(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
+    """Return the current shape as a Solution for each member; empty before the first iteration."""
+    result = run.so_far()
+    return () if result is None else _solutions(prepared, result)
+
+
+def _solutions(prepared, result):
     found = read_back(prepared, result.positions, result.rotations)
     return tuple(
         Solution(

@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,7 @@ class StepwiseRun:
         self._key = None
         self._intermediate_moment = None
         self._intermediate = {}
+        self._so_far: tuple[Any, dict[int, pipeline.Solution]] | None = None
 
     # -- settings ----------------------------------------------------------------------------------
 
@@ -95,7 +97,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
-        self._intermediate_moment, self._intermediate = None, {}
+        self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
     def forget(self) -> None:
         """Release all arrays."""
@@ -158,6 +160,34 @@ class StepwiseRun:
     def solution_of(self, uid: int) -> pipeline.Solution | None:
         """Return the result for an object, once the run has ended."""
         return self._solutions.get(uid) if self._solutions else None
+
+    def solution_so_far(self, uid: int) -> pipeline.Solution | None:
+        """Return what can be shown of an object as a result, None if there is nothing yet."""
+        if self._solutions is not None:
+            return self._solutions.get(uid)
+        if self.moment is None:
+            return None
+        assert self._run is not None and self.prepared is not None
+        if self._so_far is None or self._so_far[0] != self.moment:
+            found = pipeline.solutions_so_far(self.prepared, self._run)
+            uids = [member.uid for member in self.prepared.members]
+            self._so_far = self.moment, dict(zip(uids, found, strict=False))
+        return self._so_far[1].get(uid)
+
+    @property
+    def outcome(self):
+        """The numbers of a `LastRun`, as values for JSON, while there is something to show."""
+        assert self._run is not None and self.prepared is not None
+        energy = self._run.energy
+        return {
+            "vertices": int(self.prepared.vertices),
+            "objects": len(self.prepared.members),
+            "iterations": int(self._run.iterations),
+            "energy": 0.0 if energy is None else max(float(energy.total), 0.0),
+            "converged": self._run.reason == "converged",
+            "seconds": float(self.prepared.seconds + self._run.seconds),
+            "device": self._run.stylization.device,
+        }
 
     @property
     def moment(self):

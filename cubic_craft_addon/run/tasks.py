@@ -209,7 +209,7 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     written, problems = 0, new_taichi_warnings() if tasks else []
     try:
         for task, run in zip(tasks, runs, strict=True):
-            _write(overrides, task, run)
+            write_task(overrides, task, run)
             problems += hair[written]
             written += 1
     except UNEXPECTED as error:  # this object has been restored
@@ -226,8 +226,9 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     return "", problems
 
 
-def _write(overrides, task, run):
-    """Write one solution, or nothing at all."""
+def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
+    """Write the solution of a task with the summary of its run, or nothing at all."""
+    assert task.solution is not None
 
     def remember(target):
         keep_poses(target, overrides.poses.get(task.uid, {}))
@@ -236,13 +237,15 @@ def _write(overrides, task, run):
         remember_pose(target, is_posed=is_posed)
         overrides.remember_on(target, task.settings)
 
+    solution = task.solution
     if task.is_seen:
-        solution, source = task.solution, task.source
+        source = task.source
+        assert source is not None
         task.written = mesh_bridge.write_seen(
             task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
         )
         return
     with settings_kept([task.mesh]):
         task.written = pipeline.write(
-            task.obj, task.solution, task.settings.result, remember, asdict(run)
+            task.obj, solution, task.settings.result, remember, asdict(run)
         )

@@ -2,11 +2,16 @@
 """What may happen to Live from outside or go wrong in it: the shape is never lost."""
 
 import importlib
+import json
+from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import pytest
 from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from rich_mesh import add_rich_monkey
 from scene import select
+from snapshot import differences, snapshot_mesh, snapshot_object
 
 
 @pytest.mark.parametrize("is_at_rest", [False, True])
@@ -62,34 +67,177 @@ def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
     check_gone(live)
 
 
-@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "VERTEX_PAINT"])
-def test_another_mode_cancels_it(live, begin, mode):
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "VERTEX_PAINT", "TEXTURE_PAINT"])
+@pytest.mark.parametrize("is_at_rest", [False, True])
+def test_another_mode_confirms_it_and_is_there_afterwards(live, begin, mode, is_at_rest):
+    twin, obj = add_monkey("Twin"), add_monkey()
+    obj.data.uv_layers.new()
+    original = bits(obj)
+    session = tick_to_sight(begin(obj))
+    if is_at_rest:
+        tick_to_rest(session)
+    bpy.ops.object.mode_set(mode=mode)
+    tick_to_rest(session)
+    assert session.is_ended and not session.error and not session.problems
+    assert "mode was changed" in session.end_message and session.summary
+    assert obj.mode == mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    check_gone(live)
+    assert bits(obj) != original
+    cubic = bits(obj)
+    select(obj)
+    bpy.ops.cubic_craft.restore()
+    assert bits(obj) == original
+    select(twin)
+    bpy.ops.cubic_craft.cubify()
+    assert bits(twin) == cubic, "not finished as after Enter"
+
+
+def test_a_mode_that_cannot_wait_has_the_shape_so_far(
+    live, begin, one_phase, extension, monkeypatch
+):
     obj = add_monkey()
     original = bits(obj)
     session = tick_to_sight(begin(obj))
-    bpy.ops.object.mode_set(mode=mode)
+    shown = bits(obj)
+    module = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.session")
+    monkeypatch.setattr(module, "_PATIENCE", 0.0)
+    bpy.ops.object.mode_set(mode="EDIT")
     session.tick(bpy.context)
-    assert session.is_ended and not session.error
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert bits(obj) == original
+    assert session.is_ended and "not converged" in session.summary
+    assert bits(obj) == shown != original
     check_gone(live)
 
 
-def test_a_file_saved_in_the_middle_has_the_mesh_as_before(live, begin, tmp_path):
-    obj = add_monkey()
+def test_selecting_another_mesh_confirms_it(live, begin):
+    other, obj = add_monkey("Other"), add_monkey()
     original = bits(obj)
     session = tick_to_rest(begin(obj))
     shown = bits(obj)
+    select(other)
+    bpy.context.view_layer.update()
+    tick_to_rest(session)
+    assert session.is_ended and session.summary
+    assert bits(obj) == shown != original and bits(other) == original
+    assert bpy.context.object == other
+    check_gone(live)
+
+
+def test_selecting_what_it_depends_on_does_not_end_it(live, begin):
+    target, form, obj = add_monkey("Target"), add_monkey("Form"), add_monkey()
+    group = obj.vertex_groups.new(name="Head")
+    group.add([0, 1, 2], 1.0, "REPLACE")
+    handle = obj.cubic_craft.handles.add()
+    handle.group, handle.target = "Head", target
+    obj.cubic_craft.form, obj.cubic_craft.form_object = "OBJECT", form
+    session = tick_to_rest(begin(obj))
+    empty = bpy.data.objects.new("Empty", None)
+    bpy.context.collection.objects.link(empty)
+    for asked_for in (target, form, empty):
+        select(asked_for)
+        session.wake()
+        tick_to_rest(session)
+        assert not session.is_ended
+    session.on(live.Event.CANCEL)
+
+
+def test_another_workspace_confirms_it(live, begin):
+    obj = add_monkey()
+    session = tick_to_rest(begin(obj))
+    shown = bits(obj)
+    session.look_around(bpy.context)
+    assert not session.is_ended
+    other = next(w for w in bpy.data.workspaces if w != bpy.context.workspace)
+    session.look_around(SimpleNamespace(workspace=other, scene=bpy.context.scene))
+    assert session.is_ended and session.summary and bits(obj) == shown
+
+
+def test_another_scene_confirms_it(live, begin):
+    obj = add_monkey()
+    session = tick_to_rest(begin(obj))
+    shown = bits(obj)
+    first, other = bpy.context.window.scene, bpy.data.scenes.new("Other")
+    bpy.context.window.scene = other
+    try:
+        session.look_around(bpy.context)
+    finally:
+        bpy.context.window.scene = first
+        bpy.data.scenes.remove(other)
+    assert session.is_ended and session.summary and not session.problems
+    assert bits(obj) == shown
+    check_gone(live)
+
+
+def test_after_cancelling_a_click_starts_where_it_was(live, begin):
+    obj = add_monkey()
+    session = begin(obj)
+    live.live_properties().cubeness = 0.9
+    tick_to_rest(session)
+    session.on(live.Event.CANCEL)
+    own = obj.cubic_craft.cubeness
+    assert own != 0.9
+    session = tick_to_rest(begin(obj))
+    assert live.live_properties().cubeness == pytest.approx(0.9)
+    assert session.take_back()
+    assert live.live_properties().cubeness == own, "Ctrl-Z goes back to the object's own"
+    session.on(live.Event.CANCEL)
+    session = begin(obj, cubeness=0.2)
+    assert live.live_properties().cubeness == pytest.approx(0.2), "changed since by hand"
+    session.on(live.Event.CANCEL)
+
+
+@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
+@pytest.mark.parametrize("is_at_rest", [False, True])
+def test_a_file_saved_in_the_middle_has_what_is_seen(live, begin, tmp_path, result, is_at_rest):
+    obj = add_rich_monkey(keys=result != "SHAPE_KEY")
+    obj.cubic_craft.refine = "OFF"
+    select(obj)
+    before = snapshot_mesh(obj.data), snapshot_object(obj)
+    objects = set(bpy.data.objects)
+    session = tick_to_sight(begin(obj, result=result))
+    live.live_properties().cubeness = 0.7
+    if is_at_rest:
+        tick_to_rest(session)
+    else:
+        session.tick(bpy.context)
+        tick_to_sight(session)
+    shown = bits(obj)
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
-    tick_to_rest(session)
-    assert not session.is_ended and bits(obj) == shown
+    assert set(bpy.data.objects) == objects and bpy.context.object == obj
+    if is_at_rest:
+        assert not session.is_ended and bits(tick_to_rest(session) and obj) == shown
+    session.on(live.Event.CANCEL)
+    check_gone(live)
+    # Blender 4.2 makes the group of our settings when it is first looked at.
+    ignore = ("custom/custom cubic_craft", "*is_evaluated*")
+    for one, other in zip(before, (snapshot_mesh(obj.data), snapshot_object(obj)), strict=True):
+        assert not differences(one, other, ignore)
+    name = obj.name
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert session.is_ended
-    obj = bpy.data.objects["Suzanne"]
-    assert bits(obj) == original
+    obj = bpy.data.objects[f"{name} Cubic" if result == "NEW_OBJECT" else name]
+    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
+    key = obj.data.shape_keys.key_blocks["Cubic"] if result == "SHAPE_KEY" else None
+    assert key is None or key.value == 1.0
+    values = np.empty(3 * len(obj.data.vertices), np.float32)
+    (key.data if key else obj.data.vertices).foreach_get("co", values)
+    assert values.tobytes() == shown
+    select(obj)
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
     assert not [a.name for a in obj.data.attributes if a.name.startswith("cubic_craft")]
     check_gone(live)
+
+
+def test_a_file_does_not_lose_a_shape_key_that_its_result_would_replace(live, begin, tmp_path):
+    obj = add_monkey()
+    select(obj)
+    bpy.ops.cubic_craft.cubify(result="SHAPE_KEY")
+    before = snapshot_mesh(obj.data)
+    session = tick_to_rest(begin(obj, result="MESH", cubeness=0.8))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"), copy=True)
+    session.on(live.Event.CANCEL)
+    assert not differences(before, snapshot_mesh(obj.data))
 
 
 def test_it_goes_on_when_the_file_cannot_be_saved(live, begin, tmp_path):
@@ -102,11 +250,42 @@ def test_it_goes_on_when_the_file_cannot_be_saved(live, begin, tmp_path):
     assert not session.is_ended and bits(obj) == shown
 
 
-def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp_path):
+@pytest.mark.parametrize("cubified", [False, True])
+def test_a_file_written_behind_its_back_shows_what_was_seen(live, begin, tmp_path, cubified):
     """As Blender's autosave does, which tells nobody."""
+    obj = add_rich_monkey(keys=True)
+    obj.cubic_craft.refine = "OFF"
+    select(obj)
+    original = snapshot_mesh(obj.data)
+    if cubified:
+        bpy.ops.cubic_craft.cubify()
+    before = bits(obj)
+    session = tick_to_rest(begin(obj, cubeness=0.7))
+    shown = bits(obj)
+    path = str(tmp_path / "behind.blend")
+    bpy.data.libraries.write(path, {bpy.context.scene})
+    session.on(live.Event.CANCEL)
+    assert bits(obj) == before != shown
+    name = obj.name
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects[name]
+    check_gone(live)
+    assert bits(obj) == shown
+    assert obj.cubic_craft.cubeness == pytest.approx(0.7)
+    select(obj)
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    # The values of the keys are those of the scene.
+    assert not differences(original, snapshot_mesh(obj.data), ("*is_evaluated*",))
+
+
+@pytest.mark.parametrize("outcome", [None, 1, {"values": {}}, {"values": {"result": "MESH"}}])
+def test_a_file_that_says_anything_else_heals(live, begin, tmp_path, outcome):
     obj = add_monkey()
     original = bits(obj)
     session = tick_to_rest(begin(obj))
+    note = json.loads(obj.data["cubic_craft_note"])
+    note["live"]["outcome"] = outcome
+    obj.data["cubic_craft_note"] = json.dumps(note)
     path = str(tmp_path / "behind.blend")
     bpy.data.libraries.write(path, {bpy.context.scene})
     session.on(live.Event.CANCEL)
@@ -115,13 +294,13 @@ def test_a_file_written_behind_its_back_heals_when_it_is_opened(live, begin, tmp
     check_gone(live)
 
 
-def test_disabling_the_extension_ends_it(live, begin, extension):
+def test_disabling_the_extension_ends_it_with_what_is_seen(live, begin, extension):
     obj = add_monkey()
-    original = bits(obj)
-    session = tick_to_sight(begin(obj))
+    session = tick_to_rest(begin(obj))
+    shown = bits(obj)
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     try:
-        assert session.is_ended and bits(obj) == original
+        assert session.is_ended and bits(obj) == shown
         assert not hasattr(bpy.types.WindowManager, "cubic_craft_live")
     finally:
         bpy.ops.preferences.addon_enable(module=extension.__name__)

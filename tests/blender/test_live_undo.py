@@ -49,37 +49,47 @@ def test_an_undo_step_from_the_middle_comes_back_sound(live, begin):
     check_gone(live)
 
 
-def test_the_undo_step_of_entering_edit_mode_comes_back_sound(live, begin):
-    obj, original = add_monkey_and_step()
-    session = tick_to_sight(begin(obj))
-    bpy.ops.object.mode_set(mode="EDIT")
-    # It holds the preview, and the attributes, but not the note: that is Edit Mode's way.
-    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
-    session.tick(bpy.context)
-    assert session.is_ended
-    bpy.ops.mesh.select_all(action="INVERT")
-    bpy.ops.ed.undo_push(message="Select")
-    bpy.ops.ed.undo()
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert bits(bpy.data.objects["Suzanne"]) == original
+def leave_object_mode(live, session, mode):
+    """Change the mode as an artist does, with an undo step, which ends Live; return the shape."""
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.ed.undo_push(message="Toggle Mode")
+    tick_to_rest(session)
+    assert session.is_ended and session.summary and session.has_pushed_undo
     check_gone(live)
+    return shape_and_mode()[0]
 
 
-def test_a_step_of_live_comes_back_sound_out_of_edit_mode(live, begin):
+def shape_and_mode():
+    """Return the bits of the monkey outside Edit Mode, and the mode that it is in."""
+    obj = bpy.data.objects["Suzanne"]
+    mode = obj.mode
+    obj.update_from_editmode()
+    return bits(obj), mode
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT"])
+def test_leaving_for_another_mode_is_one_step_and_a_mode(live, begin, mode):
+    """Undone one by one, each step is what it was; Restore and redo know each of them."""
     obj, original = add_monkey_and_step()
     session = tick_to_rest(begin(obj))
-    bpy.ops.ed.undo_push(message="Select")
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
-    session.tick(bpy.context)
-    assert session.is_ended
-    # The mesh has not changed from step to step, so Blender keeps the one that it has: with the
-    # preview, as Edit Mode works on a copy, but without the note, of which there is no copy.
+    bpy.ops.ed.undo_push(message="Select")  # with the preview on the mesh
+    cubic = leave_object_mode(live, session, mode)
+    assert shape_and_mode() == (cubic, mode) and cubic != original
     bpy.ops.ed.undo()
-    obj = bpy.data.objects["Suzanne"]
-    assert obj.mode == "OBJECT"
-    assert bits(obj) == original
-    check_gone(live)
+    assert shape_and_mode() == (cubic, "OBJECT")
+    select(bpy.data.objects["Suzanne"])
+    assert bpy.ops.cubic_craft.restore.poll()
+    bpy.ops.ed.undo()
+    assert shape_and_mode() == (original, mode)
+    bpy.ops.ed.undo()
+    assert shape_and_mode() == (original, "OBJECT")
+    assert not bpy.ops.cubic_craft.restore.poll(), "nothing is left of the preview"
+    for _ in range(2):
+        bpy.ops.ed.redo()
+    assert shape_and_mode() == (cubic, "OBJECT")
+    select(bpy.data.objects["Suzanne"])
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert shape_and_mode() == (original, "OBJECT")
 
 
 def test_undo_of_the_object_ends_it(live, begin):

@@ -75,7 +75,7 @@ def turned_by_hand():
     assert scene.live().current() is not None, "Esc of R has cancelled Live"
     yield from scene.wait_idle_with(lambda: scene.positions() == shape, "the shape of before")
 
-    # So does the right mouse button, which would cancel Live.
+    # So does the right mouse button.
     yield from gui.move_mouse((start[0] + 80, start[1]))
     yield from gui.keys("R")
     yield from gui.move_mouse((start[0] + 60, start[1] + 80))

@@ -100,7 +100,8 @@ def last_report():
 
 
 def edited(original):
-    """Tab into Edit Mode and back, once while it works and once at rest."""
+    """Tab into Edit Mode and back, once while it works and once at rest: as Enter and then Tab."""
+    confirmed = set()
     for is_at_rest in (False, True):
         yield from scene.start_live()
         if is_at_rest:
@@ -113,46 +114,91 @@ def edited(original):
         yield from gui.screenshot("edit_mode.png")
         yield from scene.press("TAB")
         yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
-        assert scene.positions() == original
+        confirmed.add(scene.positions())
+        assert original not in confirmed
         scene.check_clean()
         yield from gui.undo()  # the two modes
         yield from gui.undo()
+        assert {scene.positions()} == confirmed and bpy.context.mode == "OBJECT"
+        yield from gui.undo()  # Live, into Edit Mode, where it has ended
+        yield from gui.undo()
         assert scene.positions() == original and bpy.context.mode == "OBJECT"
         scene.check_clean()
+    assert len(confirmed) == 1, "not finished as after Enter"
+
+
+def selected_another(original):
+    """Click another mesh: Live ends as after Enter, and that mesh is selected."""
+    with gui.in_region():
+        bpy.ops.mesh.primitive_cube_add(size=0.8, location=(-2.0, 0, 0))
+        cube = bpy.context.object
+        cube.select_set(False)
+        bpy.data.objects[scene.NAME].select_set(True)
+        bpy.context.view_layer.objects.active = bpy.data.objects[scene.NAME]
+        bpy.ops.ed.undo_push(message="Add a cube")
+        bpy.ops.view3d.view_all()
+    name = cube.name
+    yield from gui.wait_redraw()
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    shown = scene.positions()
+    yield from gui.click(scene.screen_point(bpy.data.objects[name].location))
+    yield from scene.wait_over()
+    assert bpy.context.view_layer.objects.active == bpy.data.objects[name]
+    assert scene.positions() == shown != original
+    assert "another mesh" in last_report()
+    yield from gui.screenshot("another_mesh.png")
+    yield from gui.undo()
+    assert scene.positions() == original
+    with gui.in_region():
+        bpy.data.objects.remove(bpy.data.objects[name])
+        bpy.data.objects[scene.NAME].select_set(True)
+        bpy.context.view_layer.objects.active = bpy.data.objects[scene.NAME]
+        bpy.ops.ed.undo_push(message="As before")
+    scene.show_front()
 
 
 def sculpted(original):
-    """Go to Sculpt Mode, which ends Live."""
+    """Go to Sculpt Mode, which ends Live: the strokes are on the shape that was seen."""
     yield from scene.start_live()
     with gui.in_region():
         bpy.ops.object.mode_set(mode="SCULPT")
         bpy.ops.ed.undo_push(message="Sculpt Mode")
     yield from scene.wait_over()
-    assert scene.positions() == original
+    cubic = scene.positions()
+    assert cubic != original and bpy.context.mode == "SCULPT"
     yield from gui.screenshot("sculpt_mode.png")
     with gui.in_region():
         has_brush = bpy.ops.sculpt.brush_stroke.poll()
     if has_brush:  # there is none in Debian's Blender 4.3
         x, y = scene.screen_point((0, -1, 0.6))
         yield from gui.drag((x - 20, y), (x + 20, y))
-        yield from gui.wait_until(lambda: scene.positions() != original, what="a stroke")
+        yield from gui.wait_until(lambda: scene.positions() != cubic, what="a stroke")
         yield from gui.screenshot("sculpted.png")
-        moved = np.frombuffer(scene.positions(), np.float32) != np.frombuffer(original, np.float32)
+        moved = np.frombuffer(scene.positions(), np.float32) != np.frombuffer(cubic, np.float32)
         assert moved.mean() < 0.4, "the stroke has moved more than what is near it"
         yield from gui.undo()
-        assert scene.positions() == original
+        assert scene.positions() == cubic
     with gui.in_region():
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.ed.undo_push(message="Object Mode")
     # In Blender a button that the mouse is on stays grey until the mouse has left it.
     yield from gui.move_mouse(gui.viewport_point())
     yield from gui.wait_redraw("UI")
+    assert scene.positions() == cubic
+    restore(original)
+
+
+def restore(original):
+    with gui.in_region():
+        bpy.ops.cubic_craft.restore()
+        bpy.ops.ed.undo_push(message="Restore")
     assert scene.positions() == original
     scene.check_clean()
 
 
 def other_scene(original):
-    """Live ends where its object is not in the scene that is shown."""
+    """Live ends as after Enter where its object is not in the scene that is shown."""
     other = bpy.data.scenes.new("Other")
     first = gui.window().scene
     for is_at_rest in (False, True):
@@ -164,43 +210,27 @@ def other_scene(original):
         yield from gui.screenshot("other_scene.png")
         gui.window().scene = first
         yield from gui.wait_redraw()
-        assert scene.positions() == original
+        assert scene.positions() != original
+        restore(original)
     bpy.data.scenes.remove(other)
 
 
 def other_workspace(original):
-    """Live goes on, with its keys in the status bar, and ends there."""
+    """Live ends as after Enter, also where Blender changes the mode along."""
     first = gui.window().workspace.name
-    yield from scene.start_live()
-    gui.window().workspace = bpy.data.workspaces["Scripting"]
-    yield from gui.wait_until(lambda: gui.window().workspace.name == "Scripting")
-    yield from gui.wait_redraw()
-    goes_on()
-    yield from scene.wait_idle()
-    yield from gui.screenshot("scripting.png")
-    view = gui.region()
-    yield from gui.move_mouse((view.x + view.width // 2, view.y + view.height // 2))
-    yield from gui.keys("RET")
-    yield from scene.wait_over()
-    assert scene.positions() != original
-    scene.check_bits_of_cubify()
-    gui.window().workspace = bpy.data.workspaces[first]
-    yield from gui.wait_until(lambda: gui.window().workspace.name == first)
-    yield from gui.wait_redraw()
-    with gui.in_region():
-        bpy.ops.cubic_craft.restore()
-        bpy.ops.ed.undo_push(message="As before")
-    assert scene.positions() == original
-
-    # A workspace of another mode: Blender changes the mode along.
-    yield from scene.start_live()
-    gui.window().workspace = bpy.data.workspaces["Modeling"]
-    yield from gui.wait_until(lambda: bpy.context.mode == "EDIT_MESH", what="Edit Mode")
-    yield from scene.wait_over()
-    gui.window().workspace = bpy.data.workspaces[first]
-    yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
-    yield from gui.wait_redraw()
-    assert scene.positions() == original
+    for name, mode in (("Scripting", "OBJECT"), ("Modeling", "EDIT_MESH")):
+        yield from scene.start_live()
+        gui.window().workspace = bpy.data.workspaces[name]
+        yield from gui.wait_until(lambda n=name: gui.window().workspace.name == n)
+        yield from scene.wait_over()
+        assert bpy.context.mode == mode
+        yield from gui.screenshot(f"{name}.png")
+        gui.window().workspace = bpy.data.workspaces[first]
+        yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
+        yield from gui.wait_redraw()
+        assert scene.positions() != original
+        scene.check_bits_of_cubify()
+        restore(original)
 
 
 def test():
@@ -209,7 +239,16 @@ def test():
     scene.show_front()
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
-    moments = (deleted, renamed, hidden, edited, sculpted, other_scene, other_workspace)
+    moments = (
+        deleted,
+        renamed,
+        hidden,
+        edited,
+        selected_another,
+        sculpted,
+        other_scene,
+        other_workspace,
+    )
     for moment in moments:
         gui.log(moment.__name__)
         yield from moment(original)

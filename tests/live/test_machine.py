@@ -7,16 +7,9 @@ from pure import load
 machine = load("machine")
 Action, Event, Machine, State = machine.Action, machine.Event, machine.Machine, machine.State
 
-ENDINGS = (
-    Event.CANCEL,
-    Event.NOTHING_LEFT,
-    Event.LOST,
-    Event.MODE_LEFT,
-    Event.LOAD,
-    Event.CLOSED,
-    Event.DISABLED,
-    Event.FAILED,
-)
+GIVEN_UP = (Event.CANCEL, Event.NOTHING_LEFT, Event.LOST, Event.LOAD, Event.FAILED)
+ELSEWHERE = (Event.MODE_LEFT, Event.SELECTED, Event.PLACE_LEFT)
+CUT_OFF = (Event.CLOSED, Event.DISABLED)
 RUNNING = [state for state in State if state is not State.ENDED]
 PATHS = {
     State.WORKING: (),
@@ -36,19 +29,32 @@ def in_state(state):
     return m
 
 
-@pytest.mark.parametrize("event", ENDINGS)
+@pytest.mark.parametrize("event", [*GIVEN_UP, *ELSEWHERE, *CUT_OFF])
 @pytest.mark.parametrize("state", RUNNING)
-def test_every_ending_puts_back_first_and_cleans_up_last(state, event):
+def test_only_what_is_given_up_ends_without_the_shape_that_was_seen(state, event):
     m = in_state(state)
     actions = m.on(event)
     assert m.state is State.ENDED
-    assert actions[0] is Action.PUT_BACK and actions[-1] is Action.CLEAN_UP
-    assert Action.WRITE not in actions
+    assert actions[-1] is Action.CLEAN_UP
+    assert (Action.WRITE in actions) == (event not in GIVEN_UP)
+
+
+@pytest.mark.parametrize("event", ELSEWHERE)
+def test_a_mode_is_left_for_as_long_as_is_written(event):
+    actions = Machine().on(event)
+    order = [Action.LEAVE_MODE, Action.PUT_BACK, Action.WRITE, Action.BACK_TO_MODE]
+    assert [action for action in actions if action in order] == order
 
 
 @pytest.mark.parametrize(
     ("event", "word"),
-    [(Event.NOTHING_LEFT, "undo"), (Event.MODE_LEFT, "mode"), (Event.LOST, "gone")],
+    [
+        (Event.NOTHING_LEFT, "undo"),
+        (Event.MODE_LEFT, "mode"),
+        (Event.SELECTED, "another mesh"),
+        (Event.PLACE_LEFT, "workspace"),
+        (Event.LOST, "gone"),
+    ],
 )
 @pytest.mark.parametrize("state", RUNNING)
 def test_endings_that_nobody_asked_for_are_told(state, event, word):
@@ -92,12 +98,13 @@ def test_what_cannot_be_written_goes_on():
     assert m.state is State.WORKING
 
 
-def test_saving_shows_the_mesh_as_before_and_goes_on_afterwards():
-    for state, then in ((State.WORKING, State.WORKING), (State.FINISHING, State.FINISHING)):
-        m = in_state(state)
-        assert m.on(Event.SAVE) == (Action.PUT_BACK,)
-        assert Action.SHOW_AGAIN in m.on(Event.SAVED)
-        assert m.state is then
+@pytest.mark.parametrize("state", [State.WORKING, State.FINISHING])
+def test_a_file_has_what_is_seen_and_live_goes_on_as_if_it_had_not(state):
+    m = in_state(state)
+    assert m.on(Event.SAVE) == (Action.PUT_BACK, Action.WRITE_TO_FILE)
+    actions = m.on(Event.SAVED)
+    assert actions[-2:] == (Action.PUT_BACK, Action.SHOW_AGAIN)
+    assert m.state is state
 
 
 def test_whatever_happens_the_invariants_hold():
@@ -122,7 +129,7 @@ def test_whatever_happens_the_invariants_hold():
                     is_shown = True
                 elif action is Action.RESTART:
                     assert is_on, "a restart needs the timer"
-                elif action is Action.WRITE:
+                elif action in (Action.WRITE, Action.WRITE_TO_FILE):
                     assert not is_shown, "written on top of the preview"
                 elif action is Action.CLEAN_UP:
                     cleaned += 1

@@ -11,7 +11,8 @@ It is JSON text, because custom properties cannot hold lists of texts, with some
     ``base`` under it, and the key's ``offsets`` from that; and ``made_basis``.
 ``"live"``
     a preview is on: what ``"mesh"`` says, of the shape shown last. An empty ``fingerprint`` is of
-    a shape that is just being written.
+    a shape that is just being written. Its ``outcome``, which may be anything, is for a file that
+    is opened with the preview still on.
 ``"run"``
     besides ``"mesh"`` or ``"key"``: the ``settings`` that the result was made with, and the outcome
     of the run, see `memory.last_run`.
@@ -108,6 +109,11 @@ def _is_ours(note: dict[str, Any]) -> bool:
             return False
         return all(type(value) in (int, float) for value in part["offsets"])
     return True
+
+
+def is_run(part: Any) -> bool:
+    """Return whether something from a file can be the "run" part."""
+    return _fits(part, _RUN_PART)
 
 
 def _fits(part: Any, types: dict[str, Any]) -> bool:

@@ -68,7 +68,11 @@ class Preview:
         return bool(self._original.relative)
 
     def show(
-        self, mesh: bpy.types.Mesh, positions: np.ndarray, rotations: np.ndarray | None = None
+        self,
+        mesh: bpy.types.Mesh,
+        positions: np.ndarray,
+        rotations: np.ndarray | None = None,
+        outcome: Any = None,
     ) -> None:
         """Show a shape on the mesh, as `write_mesh` would write it.
 
@@ -80,6 +84,7 @@ class Preview:
         positions : (n,3) numpy array, object space; ignored for vertices in no face
         rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
             rotate, or no shape keys need them
+        outcome : values for JSON, which `keep_preview` returns if a file is opened with this shape
 
         Raises
         ------
@@ -88,7 +93,7 @@ class Preview:
             or one without this preview. The mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
-        part = self._part_on(mesh)
+        part = self._part_on(mesh) | {"outcome": outcome}
         base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
         shown = self._with_keys(mesh, base, rotations)
         finished = marked(part, shown)

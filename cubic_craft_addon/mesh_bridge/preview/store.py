@@ -69,10 +69,8 @@ def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:
     A new "live" part.
     """
     if shown is None:
-        return {
-            "fingerprint": "",
-            "keys": [entry | {"fingerprint": ""} for entry in part["keys"]],
-        }
+        keys = [entry | {"fingerprint": ""} for entry in part["keys"]]
+        return part | {"fingerprint": "", "keys": keys}
     base = fingerprint_of_values(shown.base)
 
     def seen(points: np.ndarray) -> str:  # shape keys that show the base share its array
@@ -83,7 +81,7 @@ def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:
         for entry in part["keys"]
         if entry["name"] in shown.keys
     ]
-    return {"fingerprint": base, "keys": keys}
+    return part | {"fingerprint": base, "keys": keys}
 
 
 def write_live_part(mesh: bpy.types.Mesh, part: dict[str, Any]) -> None:

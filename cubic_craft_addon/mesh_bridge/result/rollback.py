@@ -27,8 +27,18 @@ def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
         raise
 
 
+@contextmanager
+def mesh_untouched(mesh: bpy.types.Mesh) -> Iterator[None]:
+    """Undo what the block did to the mesh in any case, as `all_or_nothing` does."""
+    state = _State(mesh)
+    try:
+        yield
+    finally:
+        state.put_back()
+
+
 class _State:
-    """The state that `all_or_nothing` restores."""
+    """The state that is restored."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh

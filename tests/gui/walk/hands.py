@@ -49,14 +49,11 @@ def confirm_live(rng):
 
 
 @action(1.5)
-def escape(rng):
+def escape(_rng):
     if not is_live():
         return None
-    if rng.random() < 0.7:
-        yield from scene.press("ESC")
-        return "Esc"
-    yield from gui.click(gui.viewport_point(), "RIGHTMOUSE")
-    return "right click"
+    yield from scene.press("ESC")
+    return "Esc"
 
 
 @action(3)

@@ -17,7 +17,7 @@ from .actions import is_cubifying, is_live, is_on
 _ALWAYS = (
     ("undo_post", "_heal"),
     ("redo_post", "_heal"),
-    ("load_post", "_heal"),
+    ("load_post", "_keep"),
     ("load_post", "_start_anew"),
     ("depsgraph_update_post", "_follow_updates"),
     ("depsgraph_update_post", "_on_update"),
@@ -71,6 +71,7 @@ class Invariants:
         self._errors = _Errors()
         logging.getLogger(scene.EXTENSION).addHandler(self._errors)
         self._functions = set()
+        self._was_live = False
         self._before = meshes.read_all()
         self._shapes = {state.original for state in self._before.values()}
         self._faces = {state.faces for state in self._before.values()}
@@ -90,6 +91,8 @@ class Invariants:
         self._check_live()
         now = meshes.read_all()
         rewrites = action.name in _REWRITE or _REWRITING_BUTTONS.search(text) is not None
+        rewrites |= self._was_live and not is_live()  # whatever has ended it confirms
+        self._was_live = is_live()
         for uid, state in now.items():
             self._check_mesh(state, self._before.get(uid), action, rewrites)
         self._before = now

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a file holds that is saved while Live runs: the shape on the screen, as if confirmed."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import contextlib
+from collections.abc import Sequence
+
+import bpy
+
+from .. import mesh_bridge
+from ..run.tasks import Task, write_task
+from ..settings.overrides import SettingsOverrides
+from ..settings.rollback import settings_untouched
+
+
+def write_for_file(
+    overrides: SettingsOverrides, tasks: Sequence[Task]
+) -> contextlib.AbstractContextManager:
+    """Write the solutions of tasks for as long as a file is being saved.
+
+    A mesh whose shape key "Cubic" its result would replace is left as it is: Blender cannot bring
+    a removed key back.
+
+    Returns
+    -------
+    What brings everything back once it is closed; if writing fails, this has been done.
+    """
+    kept = [task for task in tasks if not _loses_key(task)]
+    with contextlib.ExitStack() as stack:
+        meshes = list(dict.fromkeys(task.mesh for task in kept))
+        for mesh in meshes:
+            stack.enter_context(mesh_bridge.mesh_untouched(mesh))
+        stack.enter_context(settings_untouched(meshes))
+        stack.enter_context(_selection_untouched())
+        for task in kept:
+            write_task(overrides, task, task.run)
+            if task.written is not None and task.written != task.obj:
+                stack.callback(_remove, task.written)
+        return stack.pop_all()
+
+
+def _loses_key(task):
+    return task.settings.result == "MESH" and mesh_bridge.find_cubic_key(task.mesh) is not None
+
+
+def _remove(obj):
+    mesh = obj.data
+    bpy.data.objects.remove(obj)
+    bpy.data.meshes.remove(mesh)
+
+
+@contextlib.contextmanager
+def _selection_untouched():
+    objects = bpy.context.view_layer.objects
+    selected, active = list(objects.selected), objects.active
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(True)
+        objects.active = active
