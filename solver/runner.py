@@ -20,8 +20,8 @@ from .stylization import Energy, Stylization
 
 OF_ROUND = 4
 LEAST_ROUND = 10
-"""A round of Keep Apart has at most one in `OF_ROUND` of the iterations that led to it, or this many
-if that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
+"""A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
+that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
 
 
 @dataclass(frozen=True)
