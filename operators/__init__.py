@@ -18,6 +18,7 @@ from .handle_pin_selection import CUBIC_CRAFT_OT_handle_pin_selection
 from .handle_remove import CUBIC_CRAFT_OT_handle_remove
 from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
 from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
+from .paint_map import CUBIC_CRAFT_OT_paint_map
 from .preset_add import CUBIC_CRAFT_OT_preset_add
 from .preset_remove import CUBIC_CRAFT_OT_preset_remove
 from .region_add import CUBIC_CRAFT_OT_region_add
@@ -46,6 +47,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_form_from_selection,
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,
+        CUBIC_CRAFT_OT_paint_map,
         CUBIC_CRAFT_OT_preset_add,
         CUBIC_CRAFT_OT_preset_remove,
         CUBIC_CRAFT_OT_reset,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The menu Object > CubicCraft, also on right click: F3 and Quick Favorites search menus."""
+"""The menu Object > Cubic Craft, also on right click: F3 and Quick Favorites search menus."""
 
 from typing import Any
 
@@ -29,7 +29,7 @@ _ENTRIES: tuple[tuple[str, str, Any] | None, ...] = (
 class VIEW3D_MT_object_cubic_craft(bpy.types.Menu):
     """What can be done with the selected objects."""
 
-    bl_label = "CubicCraft"
+    bl_label = "Cubic Craft"
 
     def draw(self, context):
         """Draw the entries, and the setting that characters need."""

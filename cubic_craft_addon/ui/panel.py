@@ -7,6 +7,7 @@ from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_known_requirements
+from ..environment.taichi_notes import taichi_note
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
@@ -38,7 +39,7 @@ _BOX = 2.0  # widths of an icon that a box and its icon take from a line
 class CUBIC_PT_main(bpy.types.Panel):
     """All of CubicCraft."""
 
-    bl_label = "CubicCraft"
+    bl_label = DEFAULT_TAB
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
@@ -160,6 +161,10 @@ def _draw_map(layout, obj):
     row = layout.row()
     row.active = bool(properties.map_group)
     row.prop(properties, "map_invert")
+    is_painted = obj.mode == "WEIGHT_PAINT"
+    text = "Back to Object Mode" if is_painted else "Paint Map"
+    icon = "OBJECT_DATAMODE" if is_painted else "BRUSH_DATA"
+    layout.operator("cubic_craft.paint_map", text=text, icon=icon)
 
 
 def _draw_result(layout, obj):
@@ -176,6 +181,13 @@ def _draw_solver(layout, obj):
     layout.prop(properties, "device")
     layout.prop(properties, "max_iterations")
     layout.prop(properties, "tolerance")
+    session = live.current()
+    mesh = session.mesh_of(obj) if session else None
+    if mesh is not None and mesh.numbers:
+        layout.label(text=mesh.numbers)
+    if taichi_note():
+        for line in wrapped(taichi_note(), room_for_text(bpy.context)):
+            layout.label(text=line)
 
 
 _SECTIONS = (

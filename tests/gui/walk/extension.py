@@ -93,9 +93,6 @@ def handles(rng):
     if name in ("pose", "kind"):
         return _change_handle(name, rng)
     options = {"direction": rng.choice(["UP", "DOWN"])} if name == "move" else {}
-    if name == "pin_selection" and (obj := active_mesh()) and obj.mode == "OBJECT":
-        vertices = obj.data.vertices
-        vertices.foreach_set("select", [rng.random() < 0.2 for _ in vertices])
     return call(f"cubic_craft.handle_{name}", "INVOKE_DEFAULT", **options)
     yield
 
