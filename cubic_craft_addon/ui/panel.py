@@ -192,11 +192,11 @@ def _draw_solver(layout, obj):
 
 _SECTIONS = (
     ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
-    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
-    (handles_panel.SECTION, "Handles", handles_panel.draw, False),
+    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, True),
+    (handles_panel.SECTION, "Handles", handles_panel.draw, True),
     (regions_panel.SECTION, "Regions", regions_panel.draw, True),
-    ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
-    ("CUBIC_PT_result", "Result", _draw_result, False),
+    ("CUBIC_PT_map", "Cubeness Map", _draw_map, True),
+    ("CUBIC_PT_result", "Result", _draw_result, True),
     (animation_panel.SECTION, "Animation", animation_panel.draw, True),
     (send_panel.SECTION, "Send To", send_panel.draw, True),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),

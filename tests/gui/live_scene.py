@@ -7,6 +7,7 @@ import importlib
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 NAME = "Suzanne"

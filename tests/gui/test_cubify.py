@@ -10,6 +10,7 @@ import os
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 
 NAME = "Suzanne"  # of the monkey and of its mesh
 SETTINGS = "cubic_craft"  # the property of objects
