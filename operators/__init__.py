@@ -27,6 +27,7 @@ from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .send_to import CUBIC_CRAFT_OT_send_to
+from .show_source import CUBIC_CRAFT_OT_show_source
 
 register, unregister = bpy.utils.register_classes_factory(
     (
@@ -38,6 +39,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_send_to,
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_apply,
+        CUBIC_CRAFT_OT_show_source,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_select_crossing,
         CUBIC_CRAFT_OT_auto_orient,

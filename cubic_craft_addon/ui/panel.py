@@ -76,8 +76,9 @@ def _draw_cubify(context, layout, obj):
     edited.draw(column, obj)
     presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
+    hint = seen.hint_to_draw(obj)
     row = layout.row()
-    row.scale_y = 1.5
+    row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
     row.operator(
         "cubic_craft.cubify",
         text="Update" if changes else "Cubify",
@@ -99,7 +100,10 @@ def _draw_cubify(context, layout, obj):
     if problem:
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
-    seen.draw_hint(layout, obj)
+    if hint:
+        seen.draw_hint(layout, hint)
+    seen.draw_source(layout, obj)
+    animation_panel.draw_animated(context, layout, obj)
 
 
 def _draw_other(context, layout):
