@@ -7,6 +7,7 @@ from .apply import CUBIC_CRAFT_OT_apply
 from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .bake_animation import CUBIC_CRAFT_OT_bake_animation, CUBIC_CRAFT_OT_bake_process
 from .bake_normal_map import CUBIC_CRAFT_OT_bake_normal_map
+from .busy import CUBIC_CRAFT_OT_busy
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .cubify_cancel import CUBIC_CRAFT_OT_cubify_cancel
 from .flatten import CUBIC_CRAFT_OT_flatten
@@ -33,6 +34,7 @@ register, unregister = bpy.utils.register_classes_factory(
     (
         CUBIC_CRAFT_OT_cubify,
         CUBIC_CRAFT_OT_cubify_cancel,
+        CUBIC_CRAFT_OT_busy,
         CUBIC_CRAFT_OT_bake_animation,
         CUBIC_CRAFT_OT_bake_process,
         CUBIC_CRAFT_OT_bake_normal_map,

@@ -11,8 +11,10 @@ from ..animation.properties import bake_properties, source_of
 from ..environment.curves import animated_paths
 from ..object_properties import PROPERTY, object_properties
 from ..screen.text_fit import room_for_text, wrapped
+from . import job_progress
 
 SECTION = "CUBIC_PT_animation"
+_BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
 
 
 _SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
@@ -34,7 +36,7 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
         icon = "BLANK1"
     row = column.row()
     row.enabled = live.current() is None
-    row.operator("cubic_craft.bake_animation", icon="RENDER_ANIMATION")
+    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
 
 
 def animated_settings(obj: bpy.types.Object) -> list[str]:
@@ -61,8 +63,8 @@ def draw(layout, obj):
     layout.prop(properties, "folder")
     row = layout.row()
     row.enabled = live.current() is None
-    row.operator("cubic_craft.bake_animation", icon="RENDER_ANIMATION")
+    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
     layout.prop(properties, "process_from")
     row = layout.row()
     row.enabled = live.current() is None
-    row.operator("cubic_craft.bake_process", icon="MOD_TIME")
+    job_progress.operator(row, "cubic_craft.bake_process", text="Bake Process", icon="MOD_TIME")

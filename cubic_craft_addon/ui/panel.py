@@ -20,6 +20,7 @@ from . import (
     animation_panel,
     edited,
     form_panel,
+    job_progress,
     overlay,
     seen,
     send_panel,
@@ -79,13 +80,15 @@ def _draw_cubify(context, layout, obj):
     hint = seen.hint_to_draw(obj)
     row = layout.row()
     row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
-    row.operator(
+    job_progress.operator(
+        row,
         "cubic_craft.cubify",
         text="Update" if changes else "Cubify",
         icon="FILE_REFRESH" if changes else "MESH_CUBE",
     )
     row = row.row(align=True)
-    row.operator(
+    job_progress.operator(
+        row,
         "cubic_craft.live",
         icon="CHECKMARK" if session else "PLAY",
         text="Confirm" if session else "Live",
@@ -94,8 +97,8 @@ def _draw_cubify(context, layout, obj):
     if session:
         row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
-    row.operator("cubic_craft.restore", icon="LOOP_BACK")
-    row.operator("cubic_craft.apply", icon="CHECKMARK")
+    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon="LOOP_BACK")
+    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon="CHECKMARK")
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:
         _draw_problem(context, layout, problem)
