@@ -44,4 +44,4 @@ class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
 def _objects(context):
     """Return the selected objects, and that of the panel, which has the button."""
     shown = panel_object(context) or context.active_object
-    return dict.fromkeys((*context.selected_objects, *([shown] if shown else [])))
+    return {*context.selected_objects, shown} - {None}

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of a session that was cancelled: the next one of the same objects starts there."""
 
-from collections.abc import Mapping
 from typing import Any
 
-_Values = Mapping[str, Any]
+_Values = dict[str, Any]
 _last: tuple[frozenset[int], _Values, _Values] | None = None
 
 

@@ -2,7 +2,8 @@
 """The artist goes on with something else while Live runs: another mesh, or another mode."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import bpy
 
@@ -21,7 +22,7 @@ def place_of(context: bpy.types.Context) -> tuple[int | None, int | None]:
     return workspace, scene
 
 
-def objects_of(context: bpy.types.Context, place: tuple[int | None, int | None]):
+def objects_of(context: bpy.types.Context, place: tuple[int | None, int | None]) -> Iterable[Any]:
     """Return the objects of the view layer, or those of the scene if the artist has left it."""
     if context.scene is not None and context.scene.session_uid == place[1]:
         return context.view_layer.objects
@@ -49,7 +50,7 @@ def _depends_on(obj, other):
     return other in targets or other in [region.form_object for region in own.regions]
 
 
-def leave_mode(objects: list[bpy.types.Object]) -> str:
+def leave_mode(objects: list[bpy.types.Object]) -> Any:
     """Go to Object Mode if one of the objects is in a mode in which it cannot be written.
 
     Returns
@@ -64,7 +65,7 @@ def leave_mode(objects: list[bpy.types.Object]) -> str:
     return mode
 
 
-def back_to_mode(mode: str, *, has_written: bool) -> None:
+def back_to_mode(mode: Any, *, has_written: bool) -> None:
     """Return to the mode that was left.
 
     What was written becomes an undo step of its own: one from inside the mode would not have all.

@@ -112,7 +112,8 @@ class LiveMesh:
         found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
         if found is None:
             return False
-        self._preview.show(mesh, *found, {"values": values, "run": self.run.outcome})
+        outcome = {"values": values, "run": self.run.outcome}
+        self._preview.show(mesh, *found, outcome=outcome)
         return True
 
     def take_along(self, mesh: bpy.types.Mesh) -> bool:

@@ -26,8 +26,7 @@ def find_button_under_mouse() -> None:
             contextlib.suppress(RuntimeError),
             bpy.context.temp_override(window=window, area=area, region=region),
         ):
-            if bpy.ops.view2d.pan.poll():
-                bpy.ops.view2d.pan(deltax=0, deltay=0)
+            bpy.ops.view2d.pan(deltax=0, deltay=0)
 
 
 def _sidebars() -> Iterator[tuple[bpy.types.Window, bpy.types.Area, bpy.types.Region]]:

@@ -44,7 +44,7 @@ def hint_for(obj: bpy.types.Object) -> Hint | None:
     if covers:
         return Hint(f"{covers[0]} hides the result", is_needed=True)
     shown = [each for each in obj.modifiers if each.show_viewport]
-    if len(obj.data.vertices) < _COARSE:
+    if len(mesh_bridge.mesh_of(obj).vertices) < _COARSE:
         for modifier in shown:
             if modifier.type in _ROUNDING and _ROUNDING[modifier.type](modifier):
                 return Hint(f"{modifier.name} will round it again", is_needed=True)

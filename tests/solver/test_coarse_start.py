@@ -94,9 +94,14 @@ def test_slicing_and_repeating_change_no_bit(large, device):
     whole = stylize(V, F, 0.4, device=device)
     run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, device=device))
     phases = 0
+    assert run.so_far() is None
     while run.reason is None:
         run.advance()
         phases += 1
+        if phases % 7 == 0:  # asked for at any time, on coarse meshes too
+            so_far = run.so_far()
+            np.testing.assert_array_equal(so_far.positions, run.positions())
+            assert so_far.energy.total > 0.0 and so_far.converged == (run.reason is not None)
     assert phases > 2 * run.stylization.iteration  # those of the coarse meshes, too
     np.testing.assert_array_equal(run.result().positions, whole.positions)
 

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
+"""The film at the top of the README: a character in Live, as an artist sees it.
+
+Its frames are screenshots; ImageMagick, which takes those, makes an animated picture of them.
+"""
+
+import itertools
+import os
+import pathlib
+import subprocess
+import sys
+
+import bpy
+import guidrive as gui
+import live_scene as scene
+from mathutils import Euler, Quaternion
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "art"))  # before what is in it
+
+import art_character
+from art_objects import select
+
+NAME = "Character"
+FOLDER = pathlib.Path(os.environ["GUIDRIVE_SHARE"])
+DELAY, LAST = 9, 120  # hundredths of a second of a frame, and of the last one
+SHOWN, WIDTH, COLORS = "822x634+0+0", 800, 96  # the viewport and the panel, in pixels
+STEPS = 12  # of the slider each way, and of the turn
+
+
+def set_the_stage():
+    bpy.context.preferences.system.use_region_overlap = False  # the view ends at the sidebar
+    view = gui.area().spaces.active
+    view.shading.light = "MATCAP"
+    view.shading.show_cavity = True
+    view.overlay.show_overlays = False
+    view.region_3d.view_rotation = Euler((1.35, 0.0, 0.35)).to_quaternion()
+    with gui.in_region():
+        bpy.ops.object.select_all(action="SELECT")
+        bpy.ops.object.delete()
+        select(art_character.character())
+        bpy.ops.object.shade_smooth()
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Add it")
+    yield from gui.wait_redraw()
+
+
+_frames = []
+
+
+def film(times=1):
+    path = yield from gui.screenshot(f"frames/{len(_frames):03d}.png")
+    _frames.extend([path] * times)
+
+
+def become_cubic():
+    """Filmed until there is nothing left to compute."""
+    while not scene.is_idle():
+        yield from film()
+        for _ in range(2):
+            yield
+
+
+def drag(slider, *places):
+    """Drag it along fractions of its width."""
+    yield from gui.move_mouse(slider.at(places[0]))
+    gui.events().press("LEFTMOUSE")
+    for begin, end in itertools.pairwise(places):
+        for step in range(1, STEPS + 1):
+            yield from gui.move_mouse(slider.at(begin + (end - begin) * step / STEPS))
+            yield from film()
+    gui.events().release("LEFTMOUSE")
+    yield
+
+
+def turn():
+    """Turn the view to one side and back."""
+    view = gui.area().spaces.active.region_3d
+    for step in range(STEPS):
+        angle = 0.16 if step < STEPS / 2 else -0.16
+        view.view_rotation = Quaternion((0, 0, 1), angle) @ view.view_rotation
+        yield from film()
+
+
+def cut():
+    """Make the animated picture, and return its size in bytes."""
+    path = FOLDER / "live.gif"
+    frames = ["-delay", str(DELAY), *_frames[:-1], "-delay", str(LAST), _frames[-1]]
+    small = [
+        "-crop",
+        SHOWN,
+        "+repage",
+        "-resize",
+        f"{WIDTH}x",
+        "+dither",
+        "-colors",
+        str(COLORS),
+        "-layers",
+        "Optimize",
+    ]
+    subprocess.run(["convert", "-loop", "0", *frames, *small, str(path)], check=True)
+    return path.stat().st_size
+
+
+def test():
+    yield from gui.open_sidebar("Cubic Craft")
+    yield from set_the_stage()
+    original = scene.positions(NAME)
+    yield from film(6)
+    yield from gui.click((yield from gui.find_button("cubic_craft.live")))
+    yield from gui.wait_until(scene.will_have_changed(NAME), what="a change")
+    yield from become_cubic()
+    slider = yield from gui.find_button("cubic_craft_live.cubeness")
+    yield from drag(slider, 0.8, 0.15, 0.98)
+    yield from become_cubic()
+    yield from turn()
+    strong = scene.positions(NAME)
+    yield from scene.end_by("RET")
+    assert scene.positions(NAME) == strong != original
+    yield from film()
+    size = cut()
+    gui.log(f"{len(_frames)} frames, {size:,} bytes")
+    assert 100_000 < size < 6_000_000
+
+
+gui.run(test)
