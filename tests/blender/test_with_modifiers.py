@@ -256,3 +256,14 @@ def test_what_will_be_rounded_again_is_named_and_helped_first(extension):
     subdivision.levels = 1
     cage.cubic_craft.result, cage.cubic_craft.with_modifiers = "NEW_OBJECT", True
     assert seen.hint_to_draw(cage) is None
+
+
+def test_one_undo_shows_the_source_again():
+    add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    cubify(result="NEW_OBJECT")
+    bpy.ops.ed.undo_push(message="Cubify")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Suzanne"]
+    assert list(bpy.data.objects) == [obj] and bpy.context.object == obj
+    assert obj.visible_get() and not obj.hide_render and obj.select_get()
