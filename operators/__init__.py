@@ -19,6 +19,7 @@ from .handle_pin_selection import CUBIC_CRAFT_OT_handle_pin_selection
 from .handle_remove import CUBIC_CRAFT_OT_handle_remove
 from .handle_reset_pose import CUBIC_CRAFT_OT_handle_reset_pose
 from .live import CUBIC_CRAFT_OT_live, CUBIC_CRAFT_OT_live_cancel
+from .paint_map import CUBIC_CRAFT_OT_paint_map
 from .preset_add import CUBIC_CRAFT_OT_preset_add
 from .preset_remove import CUBIC_CRAFT_OT_preset_remove
 from .region_add import CUBIC_CRAFT_OT_region_add
@@ -26,6 +27,7 @@ from .region_from_selection import CUBIC_CRAFT_OT_region_from_selection
 from .region_remove import CUBIC_CRAFT_OT_region_remove
 from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
+from .restore_first import CUBIC_CRAFT_OT_restore_first
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .send_to import CUBIC_CRAFT_OT_send_to
 from .show_source import CUBIC_CRAFT_OT_show_source
@@ -40,6 +42,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_bake_normal_map,
         CUBIC_CRAFT_OT_send_to,
         CUBIC_CRAFT_OT_restore,
+        CUBIC_CRAFT_OT_restore_first,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_show_source,
         CUBIC_CRAFT_OT_flatten,
@@ -48,6 +51,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_form_from_selection,
         CUBIC_CRAFT_OT_live,
         CUBIC_CRAFT_OT_live_cancel,
+        CUBIC_CRAFT_OT_paint_map,
         CUBIC_CRAFT_OT_preset_add,
         CUBIC_CRAFT_OT_preset_remove,
         CUBIC_CRAFT_OT_reset,

@@ -58,8 +58,8 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
     )
 
     is_edited: BoolProperty(
-        description="The mesh was edited before this run, so Adjust Last Operation offers what to"
-        " start from",
+        description="The mesh was edited by hand before this run, so Adjust Last Operation offers"
+        " what to start from",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -93,7 +93,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         layout = self.layout
         layout.use_property_split = True
         if self.is_edited:
-            layout.row().prop(self, "start", expand=True)
+            layout.column().prop(self, "start", expand=True)
         layout.prop(self, "cubeness", slider=True)
         layout.prop(self, "form")
         for name in form_settings(self.form):
@@ -158,7 +158,8 @@ def _adopt_settings(operator, objects):
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
     if len(objects) == 1 and objects[0].type == "MESH":
-        operator.is_edited = mesh_bridge.is_edited(mesh_bridge.mesh_of(objects[0]))
+        mesh = mesh_bridge.mesh_of(objects[0])
+        operator.is_edited = mesh_bridge.has_strokes(mesh) or mesh_bridge.is_edited(mesh)
         if not operator.properties.is_property_set("start"):
             operator.start = source.start
     for name in asked_for(values_of(operator)):

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from .. import hidden_source, mesh_bridge
-from ..environment.new_taichi_warnings import new_taichi_warnings
+from ..environment.taichi_notes import look_at_taichi
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
 from ..mesh_bridge import LastRun
@@ -197,8 +197,8 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     summary : str
         Empty if nothing was written.
     problems : list of str
-        Meshes written before a failure stay and need their undo step. If Taichi does not work,
-        this is also reported, once, and so is hair that does not follow.
+        Meshes written before a failure stay and need their undo step. Hair that does not follow is
+        reported, too.
     """
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
@@ -206,7 +206,9 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     statuses = [run.status for run in runs]
     waits = [(id(solution.result), solution.total_seconds) for solution in solutions]
     hair = [hair_left_behind(task.obj, task.settings.result) for task in tasks]
-    written, problems = 0, new_taichi_warnings() if tasks else []
+    written, problems = 0, []
+    if tasks:
+        look_at_taichi()
     try:
         for task, run in zip(tasks, runs, strict=True):
             write_task(overrides, task, run)

@@ -98,8 +98,8 @@ class SettingsOverrides:
             is_outdated = getattr(properties, name) == "" != value
             if is_outdated or value_of(properties, name) != value:
                 setattr(properties, name, value)
-        if properties.start != Settings.start:
-            properties.start = Settings.start  # it has been for this run
+        if properties.is_property_set("start"):
+            properties.property_unset("start")  # it has been for this run
 
 
 def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:

@@ -86,9 +86,22 @@ def _status(properties):
     return run.status if run else ""
 
 
+# The numbers are in files. Who sculpts on a result and then moves a slider wants to keep both.
 _STARTS = (
-    ("HERE", "From Here", "Start from the mesh as it is now; the previous original is lost"),
-    ("ORIGINAL", "From the Original", "Start from the original; edits made since are lost"),
+    (
+        "EDITS",
+        "Original and Edits",
+        "Start from the original, and put what you moved by hand back onto the result",
+        2,
+    ),
+    (
+        "HERE",
+        "From Here",
+        "Start from the mesh as it is now, which replaces the original; Restore First brings the"
+        " first one back until Apply",
+        0,
+    ),
+    ("ORIGINAL", "From the Original", "Start from the original; edits by hand are lost", 1),
 )
 _OPTIONS = form_properties.OPTIONS
 
@@ -96,8 +109,8 @@ _OPTIONS = form_properties.OPTIONS
 class StartProperty:
     """Mixin of the property that the operator and the object share, but not Live and presets.
 
-    Each object keeps its own for one run: on a mesh that is edited again, a click must not discard
-    anything without being asked to.
+    Each object keeps its own for one run: on a mesh that is edited again, a click must neither
+    discard nor replace anything without being asked to.
     """
 
     start: EnumProperty(

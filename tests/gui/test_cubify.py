@@ -126,17 +126,18 @@ def edit_by_hand():
 
 
 def start_from_the_original(cubic):
-    """Edit the result; the panel offers both, and the original gives the same result again."""
+    """Edit the result; the panel offers three, and the original gives the same result again."""
     edited = yield from edit_by_hand()
     assert not is_bitwise(edited, cubic)
     choice = yield from gui.find_button("cubic_craft.start")
-    assert cubic_craft().start == "HERE"
+    assert cubic_craft().start == "EDITS"
     yield from gui.screenshot("edited.png")
-    yield from gui.click(choice.at(0.9))
+    lowest = choice.bottom + (choice.top - choice.bottom) // 6  # one of three in a column
+    yield from gui.click((choice.at()[0], lowest))
     yield from gui.wait_until(lambda: cubic_craft().start == "ORIGINAL", what="the other choice")
     yield from gui.screenshot("from_the_original.png")
     assert is_bitwise((yield from cubify(edited)), cubic)
-    assert cubic_craft().start == "HERE"
+    assert cubic_craft().start == "EDITS"
     yield from gui.screenshot("not_edited.png")
 
 
