@@ -7,6 +7,7 @@ from .apply import CUBIC_CRAFT_OT_apply
 from .auto_orient import CUBIC_CRAFT_OT_auto_orient
 from .bake_animation import CUBIC_CRAFT_OT_bake_animation, CUBIC_CRAFT_OT_bake_process
 from .bake_normal_map import CUBIC_CRAFT_OT_bake_normal_map
+from .busy import CUBIC_CRAFT_OT_busy
 from .cubify import CUBIC_CRAFT_OT_cubify
 from .cubify_cancel import CUBIC_CRAFT_OT_cubify_cancel
 from .flatten import CUBIC_CRAFT_OT_flatten
@@ -29,11 +30,13 @@ from .restore import CUBIC_CRAFT_OT_restore
 from .restore_first import CUBIC_CRAFT_OT_restore_first
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .send_to import CUBIC_CRAFT_OT_send_to
+from .show_source import CUBIC_CRAFT_OT_show_source
 
 register, unregister = bpy.utils.register_classes_factory(
     (
         CUBIC_CRAFT_OT_cubify,
         CUBIC_CRAFT_OT_cubify_cancel,
+        CUBIC_CRAFT_OT_busy,
         CUBIC_CRAFT_OT_bake_animation,
         CUBIC_CRAFT_OT_bake_process,
         CUBIC_CRAFT_OT_bake_normal_map,
@@ -41,6 +44,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_restore,
         CUBIC_CRAFT_OT_restore_first,
         CUBIC_CRAFT_OT_apply,
+        CUBIC_CRAFT_OT_show_source,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_select_crossing,
         CUBIC_CRAFT_OT_auto_orient,

@@ -17,6 +17,7 @@ from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.mesh_bridge import last_run
 from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.run.up_to_date import changes_since
+from ..cubic_craft_addon.screen import glimpse
 from ..cubic_craft_addon.settings.forms import form_settings
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
@@ -143,6 +144,7 @@ def _asks_for_what_is_seen(operator, context):
     return result == "NEW_OBJECT" and is_with
 
 
+@glimpse.quiet()
 def _adopt_settings(operator, objects):
     """Take unset values from the active object, so that Adjust Last Operation shows them."""
     if objects[0].type != "MESH":

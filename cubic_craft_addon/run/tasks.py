@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
-from .. import mesh_bridge
+from .. import hidden_source, mesh_bridge
 from ..environment.taichi_notes import look_at_taichi
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
@@ -229,8 +229,13 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
 
 
 def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
-    """Write the solution of a task with the summary of its run, or nothing at all."""
+    """Write the solution of a task with the summary of its run, or nothing at all.
+
+    The source of a new object is hidden behind it.
+    """
     assert task.solution is not None
+    source = task.source if task.is_seen else task.obj
+    put_back = (lambda: None) if source is None else hidden_source.as_it_was(source)
 
     def remember(target):
         keep_poses(target, overrides.poses.get(task.uid, {}))
@@ -238,16 +243,20 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         is_posed = task.settings.result != "SHAPE_KEY" and overrides.uses_own_handles(task.obj)
         remember_pose(target, is_posed=is_posed)
         overrides.remember_on(target, task.settings)
+        if source is not None and target != source:
+            hidden_source.hide(source, target)
 
     solution = task.solution
-    if task.is_seen:
-        source = task.source
-        assert source is not None
-        task.written = mesh_bridge.write_seen(
-            task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
-        )
-        return
-    with settings_kept([task.mesh]):
-        task.written = pipeline.write(
-            task.obj, solution, task.settings.result, remember, asdict(run)
-        )
+    try:
+        if task.is_seen:
+            task.written = mesh_bridge.write_seen(
+                task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
+            )
+            return
+        with settings_kept([task.mesh]):
+            task.written = pipeline.write(
+                task.obj, solution, task.settings.result, remember, asdict(run)
+            )
+    except BaseException:
+        put_back()
+        raise

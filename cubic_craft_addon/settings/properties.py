@@ -130,9 +130,9 @@ class RunProperties:
     """
 
     cubeness: form_properties.cubeness()
-    form: form_properties.form(glimpse.on_turn)
-    form_sides: form_properties.form_sides(glimpse.on_turn)
-    form_weights: form_properties.form_weights(glimpse.on_turn)
+    form: form_properties.form()
+    form_sides: form_properties.form_sides()
+    form_weights: form_properties.form_weights()
     capture_strength: FloatProperty(
         name="Strength",
         description="How strongly the surface turns the way the normal capture shows, beside the"
@@ -150,7 +150,6 @@ class RunProperties:
         description="Directions that the sides of the form face, in its own axes: three numbers for"
         ' each, such as "0 0 1, 1 0 0". Directions from Selection writes them',
         options=_OPTIONS,
-        update=glimpse.on_turn,
     )
     orientation: form_properties.orientation(glimpse.on_turn)
     space: EnumProperty(
@@ -159,7 +158,6 @@ class RunProperties:
         items=_SPACES,
         default=Settings.space,
         options=_OPTIONS,
-        update=glimpse.on_turn,
     )
     use_handles: BoolProperty(
         name="Handles",
@@ -332,14 +330,14 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         type=bpy.types.Object,
         poll=_may_be_capture,
     )
-    handles: CollectionProperty(type=CubicCraftHandle)
+    handles: CollectionProperty(name="Handles", type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",
         description="Index of the handle that the buttons act on",
         min=0,
         options=set(),
     )
-    regions: CollectionProperty(type=CubicCraftRegion)
+    regions: CollectionProperty(name="Regions", type=CubicCraftRegion)
     active_region: IntProperty(
         name="Active Region",
         description="Index of the region that the buttons act on",

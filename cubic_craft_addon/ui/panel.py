@@ -21,6 +21,7 @@ from . import (
     animation_panel,
     edited,
     form_panel,
+    job_progress,
     overlay,
     seen,
     send_panel,
@@ -77,15 +78,18 @@ def _draw_cubify(context, layout, obj):
     edited.draw(context, column, obj)
     presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
+    hint = seen.hint_to_draw(obj)
     row = layout.row()
-    row.scale_y = 1.5
-    row.operator(
+    row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
+    job_progress.operator(
+        row,
         "cubic_craft.cubify",
         text="Update" if changes else "Cubify",
         icon="FILE_REFRESH" if changes else "MESH_CUBE",
     )
     row = row.row(align=True)
-    row.operator(
+    job_progress.operator(
+        row,
         "cubic_craft.live",
         icon="CHECKMARK" if session else "PLAY",
         text="Confirm" if session else "Live",
@@ -94,15 +98,18 @@ def _draw_cubify(context, layout, obj):
     if session:
         row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
-    row.operator("cubic_craft.restore", icon="LOOP_BACK")
+    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon="LOOP_BACK")
     if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
         row.operator("cubic_craft.restore_first", icon="REW")
-    row.operator("cubic_craft.apply", icon="CHECKMARK")
+    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon="CHECKMARK")
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
-    seen.draw_hint(layout, obj)
+    if hint:
+        seen.draw_hint(layout, hint)
+    seen.draw_source(layout, obj)
+    animation_panel.draw_animated(context, layout, obj)
 
 
 def _draw_other(context, layout):

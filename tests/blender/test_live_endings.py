@@ -206,6 +206,7 @@ def test_a_file_saved_in_the_middle_has_what_is_seen(live, begin, tmp_path, resu
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
     assert set(bpy.data.objects) == objects and bpy.context.object == obj
+    assert obj.visible_get() and not obj.hide_render and obj.select_get()
     if is_at_rest:
         assert not session.is_ended and bits(tick_to_rest(session) and obj) == shown
     session.on(live.Event.CANCEL)
@@ -216,6 +217,7 @@ def test_a_file_saved_in_the_middle_has_what_is_seen(live, begin, tmp_path, resu
         assert not differences(one, other, ignore)
     name = obj.name
     bpy.ops.wm.open_mainfile(filepath=path)
+    assert bpy.data.objects[name].hide_get() == (result == "NEW_OBJECT")
     obj = bpy.data.objects[f"{name} Cubic" if result == "NEW_OBJECT" else name]
     assert obj.cubic_craft.cubeness == pytest.approx(0.7)
     key = obj.data.shape_keys.key_blocks["Cubic"] if result == "SHAPE_KEY" else None

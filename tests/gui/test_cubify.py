@@ -12,6 +12,7 @@ import guidrive as gui
 import numpy as np
 import open_sections  # noqa: F401
 
+ADDON = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
 NAME = "Suzanne"  # of the monkey and of its mesh
 SETTINGS = "cubic_craft"  # the property of objects
 
@@ -76,9 +77,8 @@ def check_status():
 
 def changes():
     """Return what the panel calls out of date."""
-    addon = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
-    run = importlib.import_module(f"{addon}.mesh_bridge").last_run(bpy.data.objects[NAME])
-    changes_since = importlib.import_module(f"{addon}.run.up_to_date").changes_since
+    run = importlib.import_module(f"{ADDON}.mesh_bridge").last_run(bpy.data.objects[NAME])
+    changes_since = importlib.import_module(f"{ADDON}.run.up_to_date").changes_since
     return changes_since(bpy.data.objects[NAME], run) if run else None
 
 
@@ -142,6 +142,23 @@ def start_from_the_original(cubic):
     yield from gui.screenshot("not_edited.png")
 
 
+def update_without_moving_the_mouse(original):
+    """Of a run that is watched, the button is grey, and after it, it takes a click at once."""
+    watched = importlib.import_module(f"{ADDON}.job.watched")
+    importlib.import_module(f"{ADDON}.job").FIRST_SLICE = 0.0
+    watched._SLICE, watched._TIMER_STEP = 0.0, 0.02  # a phase at a time, so that it is drawn
+    cubic = yield from cubify(original)
+    cubic_craft().cubeness = 0.1
+    yield from gui.screenshot("update_at_once.png")
+    gui.events().press("LEFTMOUSE")
+    yield 0.2
+    gui.events().release("LEFTMOUSE")
+    yield from gui.wait_until(
+        lambda: not is_bitwise(positions(), cubic) and not gui.running_operators(),
+        what="the update",
+    )
+
+
 def test():
     add_monkey()
     original = positions()
@@ -181,6 +198,7 @@ def test():
         lambda: is_bitwise(positions(), original), what="the original shape, bit for bit"
     )
     yield from gui.screenshot("restored.png")
+    yield from update_without_moving_the_mouse(original)
 
 
 gui.run(test)
