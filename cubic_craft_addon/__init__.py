@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Blender side that is not an operator."""
 
-from . import handle_gizmos, job, live, presets
+from . import handle_gizmos, hidden_source, job, live, presets
 from .animation import properties as animation_properties
 from .handles import properties as handles_properties
 from .run import object_cache
@@ -25,6 +25,7 @@ _modules = (
     region_properties,
     properties,
     animation_properties,
+    hidden_source,
     send_properties,
     preferences,
     live,

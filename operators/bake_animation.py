@@ -36,7 +36,7 @@ class _BakeOperator(WatchedOperator, BakeProperties):
         sources = list(dict.fromkeys(map(source_of, selected_sources(context))))
         if not sources:
             raise CubicCraftError("Select an object with a mesh first")
-        return Bake(_overrides(sources), sources, self._options(context.scene))
+        return Bake(_OfSources(sources), sources, self._options(context.scene))
 
     def _options(self, scene):
         values = given_or_shared(self, bake_properties(scene), BakeProperties)
@@ -100,6 +100,17 @@ class CUBIC_CRAFT_OT_bake_process(_BakeOperator, bpy.types.Operator):
             if self.process_from and chosen is None:
                 raise CubicCraftError(f'there is no object "{self.process_from}"')
         return None if chosen is None else _overrides([chosen], is_for_all=True)
+
+
+class _OfSources:
+    """The settings of some objects, read anew in each frame: they may be animated."""
+
+    def __init__(self, sources):
+        self._sources = sources
+
+    def settings_for(self, obj):
+        """Return those of one of the objects, in the present frame."""
+        return _overrides(self._sources).settings_for(obj)
 
 
 def _overrides(sources, *, is_for_all=False):

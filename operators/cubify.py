@@ -17,6 +17,7 @@ from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
 from ..cubic_craft_addon.mesh_bridge import last_run
 from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.run.up_to_date import changes_since
+from ..cubic_craft_addon.screen import glimpse
 from ..cubic_craft_addon.settings.forms import form_settings
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
@@ -57,8 +58,8 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
     )
 
     is_edited: BoolProperty(
-        description="The mesh was edited before this run, so Adjust Last Operation offers what to"
-        " start from",
+        description="The mesh was edited by hand before this run, so Adjust Last Operation offers"
+        " what to start from",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -92,7 +93,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         layout = self.layout
         layout.use_property_split = True
         if self.is_edited:
-            layout.row().prop(self, "start", expand=True)
+            layout.column().prop(self, "start", expand=True)
         layout.prop(self, "cubeness", slider=True)
         layout.prop(self, "form")
         for name in form_settings(self.form):
@@ -143,6 +144,7 @@ def _asks_for_what_is_seen(operator, context):
     return result == "NEW_OBJECT" and is_with
 
 
+@glimpse.quiet()
 def _adopt_settings(operator, objects):
     """Take unset values from the active object, so that Adjust Last Operation shows them."""
     if objects[0].type != "MESH":
@@ -156,7 +158,8 @@ def _adopt_settings(operator, objects):
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
     if len(objects) == 1 and objects[0].type == "MESH":
-        operator.is_edited = mesh_bridge.is_edited(mesh_bridge.mesh_of(objects[0]))
+        mesh = mesh_bridge.mesh_of(objects[0])
+        operator.is_edited = mesh_bridge.has_strokes(mesh) or mesh_bridge.is_edited(mesh)
         if not operator.properties.is_property_set("start"):
             operator.start = source.start
     for name in asked_for(values_of(operator)):

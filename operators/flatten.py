@@ -6,7 +6,7 @@ import math
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
-from ..cubic_craft_addon import mesh_bridge
+from ..cubic_craft_addon import hidden_source, mesh_bridge
 from ..cubic_craft_addon.run.facets import flat_facets
 from ._shared.originals import for_each_original
 from ._shared.selection import poll_any_usable, poll_meshes, selected_meshes
@@ -74,14 +74,25 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
         if was_edited:
             facts.append("edits made since Cubify are now part of the result")
 
-        def write():
-            mesh_bridge.write_reshaped(obj, facets.positions)
-
         if self.dissolve:
-            mesh_bridge.write_ngons(obj, facets.positions, facets.facet_of, write)
+            _write_ngons(obj, facets)
         else:
-            write()
+            mesh_bridge.write_reshaped(obj, facets.positions)
         return "; ".join(facts)
+
+
+def _write_ngons(obj, facets):
+    put_back = hidden_source.as_it_was(obj)
+
+    def finish(new):
+        hidden_source.hide(obj, new)
+        mesh_bridge.write_reshaped(obj, facets.positions)
+
+    try:
+        mesh_bridge.write_ngons(obj, facets.positions, facets.facet_of, finish)
+    except BaseException:
+        put_back()
+        raise
 
 
 def _poll_results(operator_class, context):

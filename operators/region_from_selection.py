@@ -27,8 +27,8 @@ class CUBIC_CRAFT_OT_region_from_selection(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh, in Edit Mode or Object Mode."""
-        return poll_mesh(cls, context, ("OBJECT", "EDIT_MESH"))
+        """There is a mesh in Edit Mode, where the selection is seen."""
+        return poll_mesh(cls, context, ("EDIT_MESH",))
 
     def execute(self, context):
         """Make the vertex group and the region."""

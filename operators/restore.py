@@ -33,7 +33,7 @@ class CUBIC_CRAFT_OT_restore(bpy.types.Operator):
 
 
 def _restore(obj):
-    was_edited = mesh_bridge.is_edited(obj.data)
+    was_edited = mesh_bridge.is_edited(obj.data) or mesh_bridge.has_strokes(obj.data)
     remember_pose(obj, is_posed=False)
     mesh_bridge.restore(obj)
-    return "edits made since Cubify are lost (Ctrl-Z brings them back)" if was_edited else ""
+    return "edits made by hand are lost (Ctrl-Z brings them back)" if was_edited else ""

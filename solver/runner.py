@@ -18,9 +18,10 @@ from .setup import Setup
 from .stop_rule import StopRule
 from .stylization import Energy, Stylization
 
-LEAST_ROUND = 20
-"""iterations of a round of Keep Apart, at most; or half of those that led to it, if that is more.
-Never more than these"""
+OF_ROUND = 4
+LEAST_ROUND = 10
+"""A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
+that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
 
 
 @dataclass(frozen=True)
@@ -312,7 +313,7 @@ class Run:
             return
         if not self._round:
             done = self.stylization.iteration
-            self._end, self._round = reason, min(max(done // 2, LEAST_ROUND), done)
+            self._end, self._round = reason, min(max(done // OF_ROUND, LEAST_ROUND), done)
         self._phase = self._check
 
     def _check(self):
@@ -320,7 +321,11 @@ class Run:
         self._phase = self._renew if needs_round else self._finish
 
     def _renew(self):
-        self.stylization = self._apart.renewed(self.stylization)
+        renewed = self._apart.renewed(self.stylization)
+        if renewed is None:
+            self._phase = self._finish
+            return
+        self.stylization = renewed
         self._rule = StopRule(self._tolerance, self.stylization.resolution)
         self._last = self.stylization.iteration + self._round
         self._phase = self._local_step

@@ -6,6 +6,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import bpy
 import numpy as np
@@ -19,11 +20,18 @@ from ..run.bones import read_pose
 from ..run.member import Member, Shape, read_member
 from ..run.object_frame import placements
 from ..run.up_to_date import what_matters
-from ..settings.overrides import SettingsOverrides
 from ..settings.values import Settings
 from .on_the_way import on_the_way
 
 _STILL = 1e-9  # of the unit box; less is no movement
+
+
+class FrameSettings(Protocol):
+    """The settings in the present frame, such as `SettingsOverrides`."""
+
+    def settings_for(self, obj: bpy.types.Object) -> Settings:
+        """Return those with which an object is to be cubified."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -45,9 +53,9 @@ class Animated:
 
     def settings(
         self,
-        overrides: SettingsOverrides,
+        overrides: FrameSettings,
         share: float = 1.0,
-        start: SettingsOverrides | None = None,
+        start: FrameSettings | None = None,
     ) -> Settings:
         """Return the settings in this frame, a share of the way from others or the original.
 
@@ -70,8 +78,8 @@ class AnimatedGroup:
     Parameters
     ----------
     objects : sequence of Animated
-    overrides : SettingsOverrides
-    start : SettingsOverrides, optional
+    overrides : FrameSettings
+    start : FrameSettings, optional
         Those that a share of 0 stands for, instead of the original.
     is_process : bool
         Whether only the settings change from frame to frame.
@@ -85,8 +93,8 @@ class AnimatedGroup:
     def __init__(
         self,
         objects: Sequence[Animated],
-        overrides: SettingsOverrides,
-        start: SettingsOverrides | None = None,
+        overrides: FrameSettings,
+        start: FrameSettings | None = None,
         *,
         is_process: bool = False,
     ):

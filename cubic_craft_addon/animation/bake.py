@@ -20,9 +20,8 @@ from ..environment.lock import BusyError
 from ..job.job import Step
 from ..run.assembly import assemblies
 from ..run.object_frame import Placement, placements
-from ..settings.overrides import SettingsOverrides
 from ..settings.values import Settings
-from .animated import Animated, AnimatedGroup
+from .animated import Animated, AnimatedGroup, FrameSettings
 from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES, check_format
 from .options import BakeOptions, BakeResult
@@ -59,7 +58,7 @@ class Bake:
 
     Parameters
     ----------
-    overrides : SettingsOverrides
+    overrides : FrameSettings
     sources : list of bpy.types.Object
         The active one first.
     options : BakeOptions
@@ -79,7 +78,7 @@ class Bake:
 
     def __init__(
         self,
-        overrides: SettingsOverrides,
+        overrides: FrameSettings,
         sources: Sequence[bpy.types.Object],
         options: BakeOptions,
     ):

@@ -12,7 +12,8 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
-from .. import mesh_bridge
+from .. import hidden_source, mesh_bridge
+from ..environment.curves import curves_of
 from ..environment.new_file import replacing
 from .exchange import export_frames
 from .point_cache import read_point_cache
@@ -71,9 +72,7 @@ def shown(
         raise
     if baked is not None:
         bpy.data.objects.remove(new)
-    source.hide_render = True
-    with contextlib.suppress(RuntimeError):  # it is in no collection of this view layer
-        source.hide_set(True)
+    hidden_source.hide(source, new if baked is None else baked)
 
 
 @contextlib.contextmanager
@@ -199,11 +198,7 @@ def _play_keys(baked, frames, start):
 
 
 def _make_linear(action):
-    curves = getattr(action, "fcurves", None)
-    if curves is None:  # Blender 5 has them in layers
-        strips = (strip for layer in action.layers for strip in layer.strips)
-        curves = [c for strip in strips for bag in strip.channelbags for c in bag.fcurves]
-    for curve in curves:
+    for curve in curves_of(action):
         for point in curve.keyframe_points:
             point.interpolation = "LINEAR"
 

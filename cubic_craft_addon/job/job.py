@@ -81,7 +81,7 @@ class Job:
         with settings_untouched(_meshes(meshes)):
             rebase_edited_handles(meshes, self._overrides.start_of)
             self._tasks, problems = plan(self._overrides, objects)
-        self._problems += problems
+        self._problems += problems + [_lost(task) for task in self._tasks if _is_lost(task)]
         sources = {new.session_uid: source for new, source in self._made}
         for task in self._tasks:
             task.source = sources.get(task.uid)
@@ -217,8 +217,23 @@ def _unseen(tasks: list[Task], looks: list[mesh_bridge.Look]) -> list[str]:
     found = []
     for task, look in zip(tasks, looks, strict=True):
         if task.written is not None and task.solution is not None:
-            found.append(look.problem(task.written, task.solution.positions))
+            positions = mesh_bridge.result_positions(task.written)  # with strokes
+            found.append(look.problem(task.written, positions))
     return [text for text in found if text]
+
+
+def _is_lost(task: Task) -> bool:
+    try:
+        return mesh_bridge.is_lost(task.mesh)
+    except CubicCraftError:  # reading the member will say what is wrong
+        return False
+
+
+def _lost(task: Task) -> str:
+    return (
+        f'"{task.obj.name}" starts from its current shape: it was edited so that its original can'
+        " no longer be determined"
+    )
 
 
 def _meshes(objects: list[bpy.types.Object]) -> list[bpy.types.Mesh]:

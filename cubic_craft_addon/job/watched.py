@@ -17,7 +17,7 @@ from bpy.app.handlers import persistent
 from ..environment import handlers
 from ..run.failures import UNEXPECTED
 from ..screen import status_text
-from ..screen.redraw import redraw_panels
+from ..screen.redraw import find_button_under_mouse, redraw_panels
 from .job import Step
 
 FIRST_SLICE = 0.7
@@ -118,15 +118,19 @@ class WatchedJob:
     def write(self) -> tuple[str, list[str]]:
         """Write what was solved, as `Job.write`, and end."""
         assert self._job is not None
+        is_alone = _current is not self
         try:
-            return self._job.write(is_alone=_current is not self)
+            return self._job.write(is_alone=is_alone)
         finally:
             self.close()
+            if not is_alone:
+                find_button_under_mouse()
 
     def stop(self) -> None:
         """Do what Esc does: cancel, or end soon with what is done."""
         if self._job is None or not self._job.stop():
             self.cancel()
+            find_button_under_mouse()
 
     def cancel(self, reason: str = "") -> None:
         """Cancel; nothing has changed."""

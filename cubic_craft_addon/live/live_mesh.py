@@ -59,6 +59,11 @@ class LiveMesh:
         return self.run.status if self.run else (("",), 0.0)
 
     @property
+    def numbers(self):
+        """The iteration and the energy as a text, or an empty one."""
+        return self.run.numbers if self.run else ""
+
+    @property
     def solution(self):
         """The result, once the run has ended."""
         return self.run.solution_of(self.object_uid) if self.run else None

@@ -66,7 +66,6 @@ def adopt(obj: bpy.types.Object) -> None:
     source = object_properties(obj)
     names = {name: pointer.name if (pointer := getattr(source, name)) else "" for name in POINTERS}
     set_live_values(values_of(source) | names | {_POSES: {}})
-    glimpse.forget()  # this has not rotated the cube
 
 
 def live_values() -> dict[str, Any]:
@@ -74,6 +73,7 @@ def live_values() -> dict[str, Any]:
     return values_of(live_properties(), (*ALL, *POINTERS)) | {_POSES: poses.live_poses()}
 
 
+@glimpse.quiet()
 def set_live_values(values: dict[str, Any]) -> None:
     """Set settings by their names."""
     target = live_properties()

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import bpy
 
-from .. import mesh_bridge
+from .. import hidden_source, mesh_bridge
 from ..run.tasks import Task, write_task
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_untouched
@@ -34,7 +34,9 @@ def write_for_file(
         stack.enter_context(settings_untouched(meshes))
         stack.enter_context(_selection_untouched())
         for task in kept:
+            put_back = hidden_source.as_it_was(task.obj)
             write_task(overrides, task, task.run)
+            stack.callback(put_back)
             if task.written is not None and task.written != task.obj:
                 stack.callback(_remove, task.written)
         return stack.pop_all()

@@ -17,6 +17,7 @@ from ..environment.handlers import install, remove
 from ..object_properties import object_properties
 from ..run.failures import UNEXPECTED
 from ..run.up_to_date import what_matters
+from ..screen import glimpse
 from ..settings.overrides import ALL
 from ..settings.properties import settings_of
 from ..settings.rollback import settings_kept
@@ -72,9 +73,10 @@ def _keep_one(mesh: bpy.types.Mesh, outcome: Any) -> None:
         return
     start = object_properties(objects[0]).start
     values["start"] = Settings.start  # it has been for this run
-    for obj in objects:
-        for name, value in values.items():
-            setattr(object_properties(obj), name, value)
+    with glimpse.quiet():
+        for obj in objects:
+            for name, value in values.items():
+                setattr(object_properties(obj), name, value)
     run = mesh_bridge.LastRun(
         what_matters(settings_of(objects[0])),
         **outcome["run"],

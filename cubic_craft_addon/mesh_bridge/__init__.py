@@ -3,7 +3,8 @@
 
 Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
 normals, which point somewhere in object space. Besides them, the bridge keeps its own attributes
-and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace.
+and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace (a
+first original is removed by Apply and *Restore First*).
 """
 
 from .access.any_mode import flush, glance, in_no_mode
@@ -15,11 +16,14 @@ from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group
 from .memory.cubic_key import find_cubic_key
+from .memory.first_original import has_first
 from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
     has_original,
+    has_strokes,
     is_edited,
+    is_lost,
     original_positions,
     read_positions,
     starts_here,
@@ -32,8 +36,8 @@ from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
 from .result.plain_copy import plain_copy, remove_copy
 from .result.reshaped import result_positions, write_reshaped
-from .result.restore import discard_original, has_traces, restore
-from .result.results import write_mesh, write_shape_key
+from .result.restore import discard_original, has_traces, restore, restore_first
+from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, remove_seen, show_seen, write_seen
 
@@ -59,11 +63,14 @@ __all__ = (
     "flush",
     "glance",
     "group_weights",
+    "has_first",
     "has_original",
     "has_preview",
+    "has_strokes",
     "has_traces",
     "in_no_mode",
     "is_edited",
+    "is_lost",
     "is_still",
     "keep_preview",
     "last_run",
@@ -76,6 +83,7 @@ __all__ = (
     "noted_outcome",
     "original_positions",
     "plain_copy",
+    "positions_with_strokes",
     "read_evaluated",
     "read_evaluated_points",
     "read_positions",
@@ -83,6 +91,7 @@ __all__ = (
     "remove_copy",
     "remove_seen",
     "restore",
+    "restore_first",
     "result_positions",
     "select_faces",
     "select_instead",

@@ -8,6 +8,7 @@ from typing import Any
 
 from bpy.props import EnumProperty
 
+from ..screen import glimpse
 from .files import Preset, find, presets
 from .pictures import icon_of
 
@@ -39,6 +40,7 @@ def preset_of(properties: Any) -> Preset | None:
     return next(iter(chosen + fitting), None)
 
 
+@glimpse.quiet()
 def apply(identifier: str, properties: Any) -> Preset:
     """Apply the settings of a preset, given by its identifier or its name.
 

@@ -135,7 +135,7 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     Parameters
     ----------
     obj
-    start : {"HERE", "ORIGINAL"}
+    start : {"HERE", "ORIGINAL", "EDITS"}
         Which shape is the original if the mesh was edited by hand since its last result.
 
     Raises

@@ -211,11 +211,20 @@ def write(
         )
     remember(obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(obj, solution.positions, run, solution.start)
+        mesh_bridge.write_shape_key(
+            obj, solution.positions, solution.rotations, run, solution.start
+        )
     else:
         mesh = mesh_bridge.mesh_of(obj)
         mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)
     return obj
+
+
+def shape_of(obj: bpy.types.Object, solution: Solution) -> np.ndarray:
+    """Return the positions (n,3) that writing a Solution would give the object's mesh."""
+    return mesh_bridge.positions_with_strokes(
+        mesh_bridge.mesh_of(obj), solution.positions, solution.rotations, solution.start
+    )
 
 
 def read_back(prepared, positions, rotations):

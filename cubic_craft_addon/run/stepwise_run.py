@@ -3,6 +3,7 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -12,6 +13,7 @@ import numpy as np
 from ... import solver
 from . import pipeline
 from .assembly import Prepared
+from .countdown import Countdown
 from .member import Member
 from .tasks import Task, key_of, prepare_all
 
@@ -141,6 +143,7 @@ class StepwiseRun:
         try:
             self._run = pipeline.start(self.prepared)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
+            self._countdown = Countdown()
         except solver.CubicCraftError as error:
             self.problems = [*self.problems, str(error)]
 
@@ -208,17 +211,22 @@ class StepwiseRun:
         if self._run is None or energy is None:
             is_coarse = self._run is not None and self._run.is_on_coarser_mesh
             return (("First on a coarser mesh", "Coarser mesh") if is_coarse else ("",)), 0.0
-        energy_now = f"energy {max(energy.total, 0.0):.5f}"
         if self._posed or self._is_held or (self._is_behind and not self.is_done):
             progress = self._progress.update(self._run.stylization) if self._is_behind else 0.0
             return ("Following the original", "Following"), progress
         if self._solutions is None:
-            text = f"Iteration {self.iteration}"
-            return (f"{text}, {energy_now}", text), self._progress.update(self._run.stylization)
+            fraction = self._progress.update(self._run.stylization)
+            return self._countdown.texts(fraction, time.perf_counter()), fraction
         solution = next(iter(self._solutions.values()))
-        end = "Converged" if solution.result.converged else "Not converged"
-        text = f"{end}, {self.iteration} iterations"
-        return (f"{text}, {energy_now}", text, end), 1.0
+        return ("Converged" if solution.result.converged else "Not converged",), 1.0
+
+    @property
+    def numbers(self):
+        """The iteration and the energy as a text, empty before the first."""
+        energy = self._run.stylization.energy if self._run else None
+        if energy is None:
+            return ""
+        return f"Iteration {self.iteration}, energy {max(energy.total, 0.0):.5f}"
 
     # -- current state ---------------------------------------------------------------------------
 

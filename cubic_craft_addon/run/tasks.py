@@ -13,8 +13,8 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
-from .. import mesh_bridge
-from ..environment.new_taichi_warnings import new_taichi_warnings
+from .. import hidden_source, mesh_bridge
+from ..environment.taichi_notes import look_at_taichi
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
 from ..mesh_bridge import LastRun
@@ -214,8 +214,8 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     summary : str
         Empty if nothing was written.
     problems : list of str
-        Meshes written before a failure stay and need their undo step. If Taichi does not work,
-        this is also reported, once, and so is hair that does not follow.
+        Meshes written before a failure stay and need their undo step. Hair that does not follow is
+        reported, too.
     """
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
@@ -223,7 +223,9 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     statuses = [run.status for run in runs]
     waits = [(id(solution.result), solution.total_seconds) for solution in solutions]
     hair = [hair_left_behind(task.obj, task.settings.result) for task in tasks]
-    written, problems = 0, new_taichi_warnings() if tasks else []
+    written, problems = 0, []
+    if tasks:
+        look_at_taichi()
     try:
         for task, run in zip(tasks, runs, strict=True):
             write_task(overrides, task, run)
@@ -244,8 +246,13 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
 
 
 def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
-    """Write the solution of a task with the summary of its run, or nothing at all."""
+    """Write the solution of a task with the summary of its run, or nothing at all.
+
+    The source of a new object is hidden behind it.
+    """
     assert task.solution is not None
+    source = task.source if task.is_seen else task.obj
+    put_back = (lambda: None) if source is None else hidden_source.as_it_was(source)
 
     def remember(target):
         keep_poses(target, overrides.poses.get(task.uid, {}))
@@ -253,26 +260,31 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         is_posed = task.settings.result != "SHAPE_KEY" and overrides.uses_own_handles(task.obj)
         remember_pose(target, is_posed=is_posed)
         overrides.remember_on(target, task.settings)
+        # What was followed is beside the new object, and worked on.
+        if source is not None and target != source and not task.is_followed:
+            hidden_source.hide(source, target)
 
     solution = task.solution
-    if task.is_followed_as_seen:
-        task.written = mesh_bridge.write_seen(
-            mesh_bridge.make_seen(task.obj),
-            task.obj,
-            solution.positions,
-            solution.rotations,
-            remember,
-            asdict(run),
-        )
-        return
-    if task.is_seen:
-        source = task.source
-        assert source is not None
-        task.written = mesh_bridge.write_seen(
-            task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
-        )
-        return
-    with settings_kept([task.mesh]):
-        task.written = pipeline.write(
-            task.obj, solution, task.settings.result, remember, asdict(run)
-        )
+    try:
+        if task.is_followed_as_seen:
+            task.written = mesh_bridge.write_seen(
+                mesh_bridge.make_seen(task.obj),
+                task.obj,
+                solution.positions,
+                solution.rotations,
+                remember,
+                asdict(run),
+            )
+            return
+        if task.is_seen:
+            task.written = mesh_bridge.write_seen(
+                task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
+            )
+            return
+        with settings_kept([task.mesh]):
+            task.written = pipeline.write(
+                task.obj, solution, task.settings.result, remember, asdict(run)
+            )
+    except BaseException:
+        put_back()
+        raise

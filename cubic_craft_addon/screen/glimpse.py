@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A brief view of the cube after it was rotated, even if its overlay is off."""
+"""A brief view of the cube while it is rotated by hand, even if its overlay is off."""
 
+import contextlib
 import time
+from collections.abc import Iterator
 
 import bpy
 
@@ -9,17 +11,31 @@ SECONDS = 1.5
 """seconds that the cube stays visible"""
 
 _until = 0.0
+_is_quiet = False
 
 
 def on_turn(_properties, _context):
     """Show the cube from now on, as the update of a property that turns it."""
     global _until
+    if _is_quiet:
+        return
     _until = time.monotonic() + SECONDS
     if bpy.app.background:
         return
     redraw_views()
     if not bpy.app.timers.is_registered(_end):
         bpy.app.timers.register(_end, first_interval=SECONDS)
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Set properties without showing the cube: this is not the artist who rotates it."""
+    global _is_quiet
+    before, _is_quiet = _is_quiet, True
+    try:
+        yield
+    finally:
+        _is_quiet = before
 
 
 def is_seen() -> bool:

@@ -1,14 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Redraw the panel, which Blender does by itself only after changes by the artist."""
 
+import contextlib
+from collections.abc import Iterator
+
 import bpy
 
 
 def redraw_panels() -> None:
     """Draw the sidebars of all viewports with the next redraw."""
+    for _, _, region in _sidebars():
+        region.tag_redraw()
+
+
+def find_button_under_mouse() -> None:
+    """Let Blender look for the button under the mouse after the next redraw.
+
+    A button that another one replaces there would get no click before the mouse moves. That Blender
+    acts as if it did is a side effect of panning, here by nothing.
+    """
+    if bpy.app.background:
+        return
+    for window, area, region in _sidebars():
+        with (
+            contextlib.suppress(RuntimeError),
+            bpy.context.temp_override(window=window, area=area, region=region),
+        ):
+            bpy.ops.view2d.pan(deltax=0, deltay=0)
+
+
+def _sidebars() -> Iterator[tuple[bpy.types.Window, bpy.types.Area, bpy.types.Region]]:
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 for region in area.regions:
                     if region.type == "UI":
-                        region.tag_redraw()
+                        yield window, area, region

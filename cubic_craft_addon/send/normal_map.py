@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
-from .. import mesh_bridge
+from .. import hidden_source, mesh_bridge
 from ..environment.file_names import file_stem
 from ..run.facets import flat_facets
 from . import low_poly
@@ -216,9 +216,7 @@ def _show_instead(undo: contextlib.ExitStack, obj: bpy.types.Object, new: bpy.ty
     """Show the new object, selected and active, in place of the old one."""
     view_layer = bpy.context.view_layer
     undo.callback(setattr, view_layer.objects, "active", view_layer.objects.active)
-    undo.callback(obj.select_set, obj.select_get())
-    undo.callback(obj.hide_set, obj.hide_get())
+    undo.callback(hidden_source.as_it_was(obj))
     mesh_bridge.link_beside(obj, new)
     mesh_bridge.select_instead(obj, new)
-    if new.name in view_layer.objects:
-        obj.hide_set(True)
+    hidden_source.hide(obj, new)

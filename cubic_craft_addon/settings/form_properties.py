@@ -39,7 +39,7 @@ def cubeness() -> Any:
     )
 
 
-def form(on_change: Any = None) -> Any:
+def form() -> Any:
     """Return the declaration of Form."""
     return EnumProperty(
         name="Form",
@@ -47,11 +47,10 @@ def form(on_change: Any = None) -> Any:
         items=form_items,
         default=Settings.form,
         options=OPTIONS,
-        update=on_change,
     )
 
 
-def form_sides(on_change: Any = None) -> Any:
+def form_sides() -> Any:
     """Return the declaration of Sides."""
     return IntProperty(
         name="Sides",
@@ -61,11 +60,10 @@ def form_sides(on_change: Any = None) -> Any:
         max=64,
         soft_max=12,
         options=OPTIONS,
-        update=on_change,
     )
 
 
-def form_weights(on_change: Any = None) -> Any:
+def form_weights() -> Any:
     """Return the declaration of Weights."""
     return FloatVectorProperty(
         name="Weights",
@@ -77,7 +75,6 @@ def form_weights(on_change: Any = None) -> Any:
         max=10.0,
         soft_max=2.0,
         options=OPTIONS,
-        update=on_change,
     )
 
 

@@ -18,6 +18,7 @@ from ..handles.own_pose import Pose
 from ..handles.pose import posed_handles
 from ..mesh_bridge import Start
 from ..object_properties import object_properties
+from ..screen import glimpse
 from .forms import OF_OBJECT
 from .properties import CubicCraftProperties, RunProperties, settings_of, value_of
 from .region import object_regions
@@ -83,6 +84,7 @@ class SettingsOverrides:
         """Return what an object starts from if it was edited by hand since its last result."""
         return self.values.get("start", object_properties(obj).start)
 
+    @glimpse.quiet()
     def remember_on(self, target: bpy.types.Object, settings: Settings) -> None:
         """Store the settings used on the new object, so that its panel shows them."""
         properties = object_properties(target)
@@ -96,8 +98,8 @@ class SettingsOverrides:
             is_outdated = getattr(properties, name) == "" != value
             if is_outdated or value_of(properties, name) != value:
                 setattr(properties, name, value)
-        if properties.start != Settings.start:
-            properties.start = Settings.start  # it has been for this run
+        if properties.is_property_set("start"):
+            properties.property_unset("start")  # it has been for this run
 
 
 def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:

@@ -86,9 +86,22 @@ def _status(properties):
     return run.status if run else ""
 
 
+# The numbers are in files. Who sculpts on a result and then moves a slider wants to keep both.
 _STARTS = (
-    ("HERE", "From Here", "Start from the mesh as it is now; the previous original is lost"),
-    ("ORIGINAL", "From the Original", "Start from the original; edits made since are lost"),
+    (
+        "EDITS",
+        "Original and Edits",
+        "Start from the original, and put what you moved by hand back onto the result",
+        2,
+    ),
+    (
+        "HERE",
+        "From Here",
+        "Start from the mesh as it is now, which replaces the original; Restore First brings the"
+        " first one back until Apply",
+        0,
+    ),
+    ("ORIGINAL", "From the Original", "Start from the original; edits by hand are lost", 1),
 )
 _OPTIONS = form_properties.OPTIONS
 
@@ -96,8 +109,8 @@ _OPTIONS = form_properties.OPTIONS
 class StartProperty:
     """Mixin of the property that the operator and the object share, but not Live and presets.
 
-    Each object keeps its own for one run: on a mesh that is edited again, a click must not discard
-    anything without being asked to.
+    Each object keeps its own for one run: on a mesh that is edited again, a click must neither
+    discard nor replace anything without being asked to.
     """
 
     start: EnumProperty(
@@ -117,9 +130,9 @@ class RunProperties:
     """
 
     cubeness: form_properties.cubeness()
-    form: form_properties.form(glimpse.on_turn)
-    form_sides: form_properties.form_sides(glimpse.on_turn)
-    form_weights: form_properties.form_weights(glimpse.on_turn)
+    form: form_properties.form()
+    form_sides: form_properties.form_sides()
+    form_weights: form_properties.form_weights()
     capture_strength: FloatProperty(
         name="Strength",
         description="How strongly the surface turns the way the normal capture shows, beside the"
@@ -137,7 +150,6 @@ class RunProperties:
         description="Directions that the sides of the form face, in its own axes: three numbers for"
         ' each, such as "0 0 1, 1 0 0". Directions from Selection writes them',
         options=_OPTIONS,
-        update=glimpse.on_turn,
     )
     orientation: form_properties.orientation(glimpse.on_turn)
     space: EnumProperty(
@@ -146,7 +158,6 @@ class RunProperties:
         items=_SPACES,
         default=Settings.space,
         options=_OPTIONS,
-        update=glimpse.on_turn,
     )
     use_handles: BoolProperty(
         name="Handles",
@@ -319,14 +330,14 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         type=bpy.types.Object,
         poll=_may_be_capture,
     )
-    handles: CollectionProperty(type=CubicCraftHandle)
+    handles: CollectionProperty(name="Handles", type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",
         description="Index of the handle that the buttons act on",
         min=0,
         options=set(),
     )
-    regions: CollectionProperty(type=CubicCraftRegion)
+    regions: CollectionProperty(name="Regions", type=CubicCraftRegion)
     active_region: IntProperty(
         name="Active Region",
         description="Index of the region that the buttons act on",

@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from ..object_properties import PROPERTY, has_properties, object_properties
+from ..screen import glimpse
 
 _DERIVED = ("preset",)  # derived from the others: setting it would set them
 
@@ -46,6 +47,7 @@ def _read_all(meshes: Iterable[bpy.types.Mesh]) -> list[tuple[bpy.types.Object, 
     ]
 
 
+@glimpse.quiet()
 def _put_all_back(before: list[tuple[bpy.types.Object, Any]]) -> None:
     for obj, values in before:
         if values is not None:

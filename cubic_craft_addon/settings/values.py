@@ -45,8 +45,8 @@ class Settings:
     map_group: str = ""
     """name of the vertex group that scales the cubeness, or empty"""
     map_invert: bool = False
-    start: Start = "HERE"
-    """what a mesh starts from if it was edited by hand since its last result: HERE or ORIGINAL"""
+    start: Start = "EDITS"
+    """what a mesh starts from if it was edited by hand since its last result, see `Start`"""
     result: str = "MESH"
     """MESH, SHAPE_KEY or NEW_OBJECT"""
     with_modifiers: bool = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel's message about a mesh that was edited by hand since it was cubified.
+"""The panel's message about a result that was edited by hand, and what to start from.
 
 The check takes too long for each redraw, so its result is kept until Blender reports that a
 mesh has changed, or may have changed.
@@ -12,34 +12,69 @@ from ...solver import CubicCraftError
 from .. import live, mesh_bridge
 from ..environment import handlers
 from ..object_properties import object_properties
+from ..screen.text_fit import room_for_text, wrapped
 
-_known: dict[int, bool] = {}
-"""whether a mesh is edited, by its ``session_uid``"""
+_REPLACED = "This shape replaces the original. Restore First brings that back until Apply"
+_LOST = (
+    "New vertices were moved by hand, so that the original can no longer be determined: Cubify"
+    " starts from here"
+)
+_BOX = 1.0  # width of an icon, that a box takes from a line
+
+_known: dict[int, dict[str, bool]] = {}
+"""what was found out about a mesh, by its ``session_uid``"""
 
 
-def draw(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer what to start from if the mesh of the object was edited; nothing while Live runs."""
     if live.current() is not None or obj.mode not in ("OBJECT", "WEIGHT_PAINT"):
         return
-    if not is_edited(mesh_bridge.mesh_of(obj)):
+    mesh = mesh_bridge.mesh_of(obj)
+    if is_lost(mesh):
+        _draw_text(context, layout.box(), _LOST)
         return
+    if not has_edits(mesh):
+        return
+    properties = object_properties(obj)
     box = layout.box()
-    box.label(text="Edited since Cubify: start", icon="INFO")
-    row = box.row()
-    row.use_property_split = False
-    row.prop(object_properties(obj), "start", expand=True)
+    box.label(text="Edited by hand: start", icon="INFO")
+    column = box.column(align=True)  # side by side, three names would not fit
+    column.use_property_split = False
+    column.prop(properties, "start", expand=True)
+    if properties.start == "HERE":
+        _draw_text(context, box, _REPLACED)
+
+
+def has_edits(mesh: bpy.types.Mesh) -> bool:
+    """Return whether the result was edited by hand, or has edits of earlier ones in it."""
+    return mesh_bridge.has_strokes(mesh) or is_edited(mesh)
 
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Return whether the mesh was edited since it was cubified, and its original is still there."""
+    return _found_out(mesh, "is edited", mesh_bridge.is_edited)
+
+
+def is_lost(mesh: bpy.types.Mesh) -> bool:
+    """Return whether the original of the mesh can no longer be determined."""
+    return _found_out(mesh, "is lost", mesh_bridge.is_lost)
+
+
+def _found_out(mesh, what, find_out):
     if not mesh_bridge.has_traces(mesh):
         return False
-    if mesh.session_uid not in _known:
+    known = _known.setdefault(mesh.session_uid, {})
+    if what not in known:
         try:
-            _known[mesh.session_uid] = mesh_bridge.is_edited(mesh)
+            known[what] = find_out(mesh)
         except CubicCraftError:
             return False
-    return _known[mesh.session_uid]
+    return known[what]
+
+
+def _draw_text(context, layout, text):
+    for line in wrapped(text, room_for_text(context, _BOX)):
+        layout.label(text=line)
 
 
 @persistent

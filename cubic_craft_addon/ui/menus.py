@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The menu Object > CubicCraft, also on right click: F3 and Quick Favorites search menus."""
+"""The menu Object > Cubic Craft, also on right click: F3 and Quick Favorites search menus."""
 
 from typing import Any
 
 import bpy
 
+from .. import mesh_bridge
 from ..handles.owner import panel_object
 from ..object_properties import object_properties
 
 _PARENTS = ("VIEW3D_MT_object", "VIEW3D_MT_object_context_menu")
+_RESTORE_FIRST = "cubic_craft.restore_first"  # only where there is one
 # Names that say what they do where no panel stands around them.
 _ENTRIES: tuple[tuple[str, str, Any] | None, ...] = (
     ("cubic_craft.cubify", "Cubify", "MESH_CUBE"),
@@ -16,6 +18,7 @@ _ENTRIES: tuple[tuple[str, str, Any] | None, ...] = (
     ("cubic_craft.auto_orient", "Auto Orient Cube", "ORIENTATION_GLOBAL"),
     None,
     ("cubic_craft.restore", "Restore Original Shape", "LOOP_BACK"),
+    (_RESTORE_FIRST, "Restore First Original Shape", "REW"),
     ("cubic_craft.apply", "Apply Cubic Shape", "CHECKMARK"),
     None,
     ("cubic_craft.bake_animation", "Cubify Animation", "RENDER_ANIMATION"),
@@ -26,7 +29,7 @@ _ENTRIES: tuple[tuple[str, str, Any] | None, ...] = (
 class VIEW3D_MT_object_cubic_craft(bpy.types.Menu):
     """What can be done with the selected objects."""
 
-    bl_label = "CubicCraft"
+    bl_label = "Cubic Craft"
 
     def draw(self, context):
         """Draw the entries, and the setting that characters need."""
@@ -38,11 +41,18 @@ class VIEW3D_MT_object_cubic_craft(bpy.types.Menu):
                 layout.separator()
                 continue
             identifier, text, icon = entry
+            if identifier == _RESTORE_FIRST and not _has_first(context):
+                continue
             layout.operator(identifier, text=text, icon=icon)
         obj = panel_object(context)
         if obj is not None:
             layout.separator()
             layout.prop(object_properties(obj), "keep_pose")
+
+
+def _has_first(context: bpy.types.Context) -> bool:
+    obj = panel_object(context)
+    return obj is not None and mesh_bridge.has_first(mesh_bridge.mesh_of(obj))
 
 
 def _draw_entry(self: Any, _context: bpy.types.Context) -> None:

@@ -7,6 +7,7 @@ from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_known_requirements
+from ..environment.taichi_notes import taichi_note
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
@@ -20,6 +21,7 @@ from . import (
     animation_panel,
     edited,
     form_panel,
+    job_progress,
     overlay,
     seen,
     send_panel,
@@ -38,7 +40,7 @@ _BOX = 2.0  # widths of an icon that a box and its icon take from a line
 class CUBIC_PT_main(bpy.types.Panel):
     """All of CubicCraft."""
 
-    bl_label = "CubicCraft"
+    bl_label = DEFAULT_TAB
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
@@ -73,18 +75,21 @@ def _draw_cubify(context, layout, obj):
     changes = changes_since(obj, run) if run and not session else []
     column = layout.column()
     column.enabled = job.current() is None
-    edited.draw(column, obj)
+    edited.draw(context, column, obj)
     presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
+    hint = seen.hint_to_draw(obj)
     row = layout.row()
-    row.scale_y = 1.5
-    row.operator(
+    row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
+    job_progress.operator(
+        row,
         "cubic_craft.cubify",
         text="Update" if changes else "Cubify",
         icon="FILE_REFRESH" if changes else "MESH_CUBE",
     )
     row = row.row(align=True)
-    row.operator(
+    job_progress.operator(
+        row,
         "cubic_craft.live",
         icon="CHECKMARK" if session else "PLAY",
         text="Confirm" if session else "Live",
@@ -93,13 +98,18 @@ def _draw_cubify(context, layout, obj):
     if session:
         row.operator("cubic_craft.live_cancel", text="", icon="X")
     row = layout.row(align=True)
-    row.operator("cubic_craft.restore", icon="LOOP_BACK")
-    row.operator("cubic_craft.apply", icon="CHECKMARK")
+    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon="LOOP_BACK")
+    if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
+        row.operator("cubic_craft.restore_first", icon="REW")
+    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon="CHECKMARK")
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:
         _draw_problem(context, layout, problem)
     status_panel.draw(context, layout, obj, run, changes)
-    seen.draw_hint(layout, obj)
+    if hint:
+        seen.draw_hint(layout, hint)
+    seen.draw_source(layout, obj)
+    animation_panel.draw_animated(context, layout, obj)
 
 
 def _draw_other(context, layout):
@@ -158,6 +168,10 @@ def _draw_map(layout, obj):
     row = layout.row()
     row.active = bool(properties.map_group)
     row.prop(properties, "map_invert")
+    is_painted = obj.mode == "WEIGHT_PAINT"
+    text = "Back to Object Mode" if is_painted else "Paint Map"
+    icon = "OBJECT_DATAMODE" if is_painted else "BRUSH_DATA"
+    layout.operator("cubic_craft.paint_map", text=text, icon=icon)
 
 
 def _draw_result(layout, obj):
@@ -174,15 +188,22 @@ def _draw_solver(layout, obj):
     layout.prop(properties, "device")
     layout.prop(properties, "max_iterations")
     layout.prop(properties, "tolerance")
+    session = live.current()
+    mesh = session.mesh_of(obj) if session else None
+    if mesh is not None and mesh.numbers:
+        layout.label(text=mesh.numbers)
+    if taichi_note():
+        for line in wrapped(taichi_note(), room_for_text(bpy.context)):
+            layout.label(text=line)
 
 
 _SECTIONS = (
     ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
-    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, False),
-    (handles_panel.SECTION, "Handles", handles_panel.draw, False),
+    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, True),
+    (handles_panel.SECTION, "Handles", handles_panel.draw, True),
     (regions_panel.SECTION, "Regions", regions_panel.draw, True),
-    ("CUBIC_PT_map", "Cubeness Map", _draw_map, False),
-    ("CUBIC_PT_result", "Result", _draw_result, False),
+    ("CUBIC_PT_map", "Cubeness Map", _draw_map, True),
+    ("CUBIC_PT_result", "Result", _draw_result, True),
     (animation_panel.SECTION, "Animation", animation_panel.draw, True),
     (send_panel.SECTION, "Send To", send_panel.draw, True),
     ("CUBIC_PT_solver", "Solver", _draw_solver, True),

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The visible mesh and the one that becomes cubic: if they differ, the panel offers both."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
 
-from .. import job, live, mesh_bridge
+from .. import hidden_source, job, live, mesh_bridge
 from ..object_properties import object_properties
 from . import job_progress as job_panel
 
 # Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
 _MAKING = {"ARRAY", "BOOLEAN", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY", "WIREFRAME"}
-_ROUNDING = {"SUBSURF", "BEVEL"}
+_ROUNDING = {
+    "SUBSURF": lambda subsurf: subsurf.levels > 0 and subsurf.subdivision_type != "SIMPLE",
+    "BEVEL": lambda bevel: True,
+}
 _COARSE = 2000  # vertices
+MAIN = 1.5
+"""height of the button to click, in those of others"""
 _ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
@@ -20,22 +26,53 @@ def can_be_seen(obj: bpy.types.Object) -> bool:
     """Return whether an object may show a mesh that is not its own."""
     if obj.type not in mesh_bridge.KINDS or not obj.visible_get():
         return False
-    return obj.type != "MESH" or bool(_that_matter(obj))
+    return obj.type != "MESH" or hint_for(obj) is not None
 
 
-def draw_hint(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """Show that the visible mesh is not the one that becomes cubic, and offer it."""
-    properties = object_properties(obj)
-    is_asked_for = properties.result == "NEW_OBJECT" and properties.with_modifiers
-    if is_asked_for or live.current() or job.current() or not _that_matter(obj):
-        return
-    box = layout.box()
+@dataclass(frozen=True)
+class Hint:
+    """What is said about the modifiers, beside the offer to make cubic what they show."""
+
+    text: str
+    is_needed: bool
+    """whether the cubic mesh itself will not look cubic"""
+
+
+def hint_for(obj: bpy.types.Object) -> Hint | None:
+    """Return what the visible mesh of an object makes of the cubic one; None if little."""
     covers = mesh_bridge.covers(obj)
     if covers:
-        box.label(text=f"{covers[0]} hides the result", icon="ERROR")
-    else:
-        box.label(text="Modifiers are ignored", icon="INFO")
-    _draw_button(box, "Cubify What You See")
+        return Hint(f"{covers[0]} hides the result", is_needed=True)
+    shown = [each for each in obj.modifiers if each.show_viewport]
+    if len(mesh_bridge.mesh_of(obj).vertices) < _COARSE:
+        for modifier in shown:
+            if modifier.type in _ROUNDING and _ROUNDING[modifier.type](modifier):
+                return Hint(f"{modifier.name} will round it again", is_needed=True)
+    if any(each.type in _MAKING and not _only_shades(each) for each in shown):
+        return Hint("Modifiers are ignored", is_needed=False)
+    return None
+
+
+def hint_to_draw(obj: bpy.types.Object) -> Hint | None:
+    """Return the same for the panel, which has no use for it where that is asked for or runs."""
+    properties = object_properties(obj)
+    is_asked_for = properties.result == "NEW_OBJECT" and properties.with_modifiers
+    return None if is_asked_for or live.current() or job.current() else hint_for(obj)
+
+
+def draw_hint(layout: bpy.types.UILayout, hint: Hint) -> None:
+    """Show that the visible mesh is not the one that becomes cubic, and offer it."""
+    box = layout.box()
+    box.label(text=hint.text, icon="ERROR" if hint.is_needed else "INFO")
+    _draw_button(box, "Cubify What You See", is_main=hint.is_needed)
+
+
+def draw_source(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Offer to show what the object was made from, while that is hidden behind it."""
+    source = hidden_source.hidden_source(obj)
+    if source is not None and not live.current():
+        text = "Show in Renders" if source == obj else f"Show {source.name}"
+        layout.operator("cubic_craft.show_source", text=text, icon="HIDE_ON")
 
 
 def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
@@ -43,30 +80,19 @@ def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
     if obj is None or obj.type not in mesh_bridge.KINDS:
         layout.label(text="Select a mesh to make cubic", icon="INFO")
         return
+    draw_source(layout, obj)
     running = job.current()
     if running is not None:
         job_panel.draw(layout, running, lambda texts: tuple(texts)[-1])
     else:
-        _draw_button(layout, "Cubify to New Mesh")
+        _draw_button(layout, "Cubify to New Mesh", is_main=True)
 
 
-def _draw_button(layout, text):
+def _draw_button(layout, text, *, is_main):
     row = layout.row()
-    row.scale_y = 1.5
+    row.scale_y = MAIN if is_main else 1.0
     button = row.operator("cubic_craft.cubify", text=text, icon="MESH_CUBE")
     button.result, button.with_modifiers = "NEW_OBJECT", True
-
-
-def _that_matter(obj):
-    """Return the names of the modifiers that make the visible mesh differ, in the viewport."""
-    is_coarse = len(obj.data.vertices) < _COARSE
-    return mesh_bridge.covers(obj) + [
-        modifier.name
-        for modifier in obj.modifiers
-        if modifier.show_viewport
-        and (modifier.type in _MAKING or (is_coarse and modifier.type in _ROUNDING))
-        and not _only_shades(modifier)
-    ]
 
 
 def _only_shades(modifier):

@@ -16,7 +16,10 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
     if not poll_idle(operator_class):
         return False
     if context.mode not in modes:
-        operator_class.poll_message_set("Switch to Object Mode first")
+        is_edited = "OBJECT" not in modes
+        operator_class.poll_message_set(
+            "Select vertices in Edit Mode first" if is_edited else "Switch to Object Mode first"
+        )
         return False
     obj = panel_object(context)
     if obj is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shared by Restore and Apply, which work on meshes with data of ours."""
+"""Shared by operators that work on meshes with data of ours, such as Restore and Apply."""
 
 import logging
 
@@ -24,8 +24,8 @@ def poll_originals(operator_class, context):
     return poll_any_usable(operator_class, objects)
 
 
-def for_each_original(operator, context, action, done):
-    """Call ``action(obj)`` once per selected mesh with data of ours, and report.
+def for_each_original(operator, context, action, done, is_meant=mesh_bridge.has_traces):
+    """Call ``action(obj)`` once per selected mesh with data of ours (`is_meant`), and report.
 
     The action changes the mesh as its last step, or not at all. It returns a remark,
     or an empty text.
@@ -33,7 +33,7 @@ def for_each_original(operator, context, action, done):
     problems, names, remarks = [], [], []
     meshes = set()
     for obj in selected_meshes(context):
-        if obj.data in meshes or not mesh_bridge.has_traces(obj.data):
+        if obj.data in meshes or not is_meant(obj.data):
             continue
         meshes.add(obj.data)
         try:

@@ -52,8 +52,8 @@ def _low_poly(meshes: FigureMeshes, model: Model) -> bpy.types.Object:
         operators.cubify(cubeness=CUBENESS, space="OBJECT", **meshes.limit)
         operators.bake_normal_map(triangles=TRIANGLES, **size)
         low = bpy.context.object
+        operators.show_source()
         model.scene.collection.objects.unlink(low)
-        obj.hide_set(False)
         obj.select_set(True)
         bpy.context.view_layer.objects.active = obj
         operators.restore()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import bpy
+import numpy as np
 
 from .errors import InputError
 from .extension import Extension
@@ -35,6 +36,11 @@ class Sculpture:
     def object(self) -> bpy.types.Object:
         """The object that was solved."""
         return self.users[0]
+
+    def shape(self, number: int, extension: Extension) -> np.ndarray:
+        """Return the positions (n,3) of a cubic version, as a .blend would have them."""
+        shape: np.ndarray = extension.pipeline.shape_of(self.object, self.solutions[number])
+        return shape
 
 
 def cubify_all(

@@ -37,7 +37,7 @@ class Extension:
         self.region = _room("cubic_craft_addon.settings.region")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
-        self._warnings = _room("cubic_craft_addon.environment.new_taichi_warnings")
+        self._warnings = _room("cubic_craft_addon.environment.taichi_notes")
         self.version = read_version(root)
 
     def notices(self) -> list[str]:

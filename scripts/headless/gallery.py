@@ -142,7 +142,7 @@ def _groups(
         copies, places = [], []
         for sculpture in sculptures:
             original = sculpture.member.shape.original
-            shape = original if number is None else sculpture.solutions[number].positions
+            shape = original if number is None else sculpture.shape(number, extension)
             for user in sculpture.users:
                 copy = detached_copy(user, shape, extension, keep_modifiers=True)
                 scene.collection.objects.link(copy)

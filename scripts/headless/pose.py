@@ -28,7 +28,7 @@ def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
 def start_of(obj: bpy.types.Object) -> str:
     """Return what a mesh starts from that was edited since it was cubified: what the file says."""
     # Before Blender 5, reading the settings stores them on the object.
-    return obj.cubic_craft.start if obj.is_property_set("cubic_craft") else "HERE"
+    return obj.cubic_craft.start if obj.is_property_set("cubic_craft") else "EDITS"
 
 
 def handles_of_all(

@@ -95,7 +95,7 @@ def _copies(
     renamed = []
     try:
         for sculpture in sculptures:
-            shape = sculpture.solutions[number].positions
+            shape = sculpture.shape(number, extension)
             for user in sculpture.users:
                 copy = detached_copy(user, shape, extension, keep_modifiers=False)
                 bpy.context.scene.collection.objects.link(copy)

@@ -41,11 +41,51 @@ def crossings(V, F):
     size = float((high - low).max())
     if not size > 0.0:
         return np.empty((0, 2), np.intp)
-    triangles = _Planes((V - low) / size, F[used])
+    planes = _Planes((V - low) / size, F[used])
+
+    def crossing(block):
+        return planes.crossing(*planes.apart(*block))
+
     with ThreadPoolExecutor(2) as beside:
-        found = list(beside.map(triangles.crossing, blocks_of_overlaps(*triangles.boxes)))
+        found = list(beside.map(crossing, blocks_of_overlaps(*planes.boxes)))
     pairs = np.sort(used[np.concatenate([np.empty((0, 2), np.intp), *found])], axis=1)
     return pairs[np.lexsort(pairs.T[::-1])]
+
+
+class Watched:
+    """The pairs of triangles that may come to cross while their corners move only a little.
+
+    They are searched for once. Which of them cross is then found again and again in little time.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Positions, finite and in the unit box.
+    F : (m,3) int array
+    is_moved : (m,) bool array
+        Triangles that move; pairs of two others are not watched.
+    reach : float
+        How far each coordinate may go from V.
+    """
+
+    def __init__(self, V, F, is_moved, reach):
+        planes = _Planes(V, F)
+        low, high = planes.boxes
+        margin = reach * is_moved[:, None]
+        low, high = low - margin, high + margin
+        origin = low.min(axis=0)
+        size = (high.max(axis=0) - origin).max()
+        pairs = [np.empty((2, 0), np.int32)]
+        for block in blocks_of_overlaps((low - origin) / size, (high - origin) / size):
+            i, j = planes.apart(*block)
+            is_watched = is_moved[i] | is_moved[j]
+            pairs.append(np.stack([i[is_watched], j[is_watched]]))
+        self._used, place = np.unique(np.concatenate(pairs, axis=1), return_inverse=True)
+        self._F, self._pairs = F[self._used], place.reshape(2, -1)
+
+    def crossings(self, V):
+        """Return which of these pairs cross at other positions, as triangles (k,2)."""
+        return self._used[_Planes(V, self._F).crossing(*self._pairs)]
 
 
 class _Planes:
@@ -61,15 +101,17 @@ class _Planes:
         normal /= np.maximum(np.sqrt(dot(*normal, *normal)), 1e-300)
         self.normal, self.offset = list(normal), dot(*normal, *a)
 
-    def crossing(self, block):
-        """Return which pairs of a block of `blocks_of_overlaps` cross, as triangles (k,2)."""
-        box, i, j = block
+    def apart(self, box, i, j):
+        """Return the pairs of triangles of a block of `blocks_of_overlaps` that share no vertex."""
         F = self.F.take(box, axis=1)
         one, other = F.take(i, axis=1), F.take(j, axis=1)
         meets = np.zeros(len(i), dtype=bool)
         for corner in one:
             meets |= (corner == other[0]) | (corner == other[1]) | (corner == other[2])
-        i, j = box[i[~meets]], box[j[~meets]]
+        return box[i[~meets]], box[j[~meets]]
+
+    def crossing(self, i, j):
+        """Return which pairs of triangles i and j (k,) cross, as (c,2)."""
         i, j = self._straddling(i, j)
         j, i = self._straddling(j, i)
         is_crossing = self._overlap(i, j) > DEPTH

@@ -2,10 +2,12 @@
 """Rounds in which surfaces that have come to cross are drawn apart again.
 
 At the end of a run, triangles that cross and did not cross at rest are found. Without any, that is
-all. Otherwise links are made across the gaps that are closed, the global step is factorized anew,
-and the iteration goes on from where it is; up to four times. The links only add a term to the
-energy, so it falls in every step of a round.
+all. A few are pushed apart. Otherwise links are made across the gaps that are closed, the global
+step is factorized anew, and the iteration goes on from where it is; up to four times. The links
+only add a term to the energy, so it falls in every step of a round.
 """
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +20,23 @@ from .push import pushed
 ROUNDS = 4
 FEW = 1.0 / 2000.0
 """of the triangles: so few are pushed apart first, and only if that fails there is a round"""
+FEWEST = 40
+"""triangles that are few on any mesh, however coarse: to push them apart takes less than a round"""
+HELPED = 0.5
+"""share of the pairs that cross between which there must be links, or a round would be in vain"""
+
+
+@dataclass(frozen=True)
+class _State:
+    """A state of the run, and what crosses in it."""
+
+    count: int
+    """of triangles that cross and did not at rest"""
+    pairs: np.ndarray
+    """(k,2) int of triangles"""
+    U: np.ndarray
+    R: np.ndarray
+    is_pushed: bool = False
 
 
 class KeepApart:
@@ -37,35 +56,40 @@ class KeepApart:
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
         self._links, self._gaps, self._rounds = no_links(), None, 0
-        self._pairs = np.empty((0, 2), np.intp)
-        self._best: tuple | None = None
-        self._progress, self._is_pushed = (0, 0), False
+        self._now: _State | None = None
+        self._best: _State | None = None
+        self._progress = 0, 0
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
-        U = stylization.positions
-        self._pairs = self._new(U)
-        count = self._count(self._pairs)
-        if self._best is None or count < self._best[0]:
-            self._best = count, U.copy(), stylization.rotations.copy(), self._pairs
-        progress = len(self._links), -count
+        U, R = stylization.positions, stylization.rotations
+        now = self._now = self._state(U.copy(), R.copy())
+        self._keep(now)
+        progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
         self._progress = progress
-        if not count or self._rounds == ROUNDS or is_stuck:
+        if not now.count or self._rounds == ROUNDS or is_stuck:
             return False
-        if count > FEW * len(self._shown):
+        if now.count > max(FEW * len(self._shown), FEWEST):
             return True
-        self._push(stylization)
-        return self._best[0] > 0
+        self._push(now, stylization)
+        return self._best.count > 0
 
     def renewed(self, stylization):
-        """Return a Stylization with links against what crosses, from the same state."""
+        """Return a Stylization with links against what crosses, from the same state.
+
+        Or None, if hardly any of it could be linked, as where parts cross at rest: they have no gap
+        beside that line, and the links would only make the shape stiffer.
+        """
         if self._gaps is None:
             self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
         U, R = stylization.positions, stylization.rotations
         is_wide = self._rounds > 0  # fewer links have not been enough
-        found = links_against(self._rest, self._gaps, self._shown, self._pairs, U, R, is_wide)
+        pairs = self._now.pairs
+        found = links_against(self._rest, self._gaps, self._shown, pairs, U, R, is_wide)
+        if self._share_linked(pairs, found) < HELPED:
+            return None
         found = mirrored(found, stylization.setup.mirrors)
         self._links = merged(self._links, found)
         self._rounds += 1
@@ -73,27 +97,36 @@ class KeepApart:
 
     def finish(self, stylization):
         """Go to the best state, and push apart what still crosses there."""
-        assert self._best is not None
-        if self._best[0]:
-            self._push(stylization)
-        _, U, R, pairs = self._best
-        if self._rounds or self._is_pushed:
-            stylization.go_to(R, U)
-        crossing = self._triangles(pairs)
+        if self._best.count and not self._best.is_pushed:
+            self._push(self._best, stylization)
+        best = self._best
+        if self._rounds or best.is_pushed:
+            stylization.go_to(best.R, best.U)
+        crossing = self._triangles(best.pairs)
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
 
-    def _push(self, stylization):
-        """Push apart what crosses in the best state, which becomes a better one if that helps."""
-        assert self._best is not None
-        count, U, R, pairs = self._best
-        is_free = np.ones(len(U), dtype=bool)
+    def _push(self, state, stylization):
+        """Push apart what crosses in a state; the result counts if less crosses."""
+        is_free = np.ones(len(state.U), dtype=bool)
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
-        U = pushed(V, U, shown, pairs, self._counts, is_free, impose)
+        U = pushed(V, state.U, shown, state.pairs, self._counts, is_free, impose)
+        self._keep(replace(self._state(U, state.R), is_pushed=True))
+
+    def _state(self, U, R):
         pairs = self._new(U)
-        if self._count(pairs) < count:
-            self._best, self._is_pushed = (self._count(pairs), U, R, pairs), True
+        return _State(len(np.unique(self._triangles(pairs))), pairs, U, R)
+
+    def _keep(self, state):
+        if self._best is None or state.count < self._best.count:
+            self._best = state
+
+    def _share_linked(self, pairs, links):
+        """Return the share of pairs (k,2) of triangles that both have a vertex with a link."""
+        is_linked = np.zeros(len(self._rest.V), dtype=bool)
+        is_linked[links.vertices[links.coefficients != 0.0]] = True
+        return is_linked[self._shown].any(axis=1)[pairs].all(axis=1).mean()
 
     def _new(self, U):
         """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
@@ -105,9 +138,6 @@ class KeepApart:
         if not len(pairs):
             return np.zeros(0, dtype=bool)
         return ~self._rest.crossing_at_rest[pairs].all(axis=1)
-
-    def _count(self, pairs):
-        return len(np.unique(self._triangles(pairs)))
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

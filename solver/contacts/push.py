@@ -9,7 +9,7 @@ Which side is the right one is known from the rest shape; where it is not, it is
 import numpy as np
 
 from ..proxy.closest_point import closest_points
-from .crossings import DEPTH, crossings
+from .crossings import DEPTH, Watched
 
 STEPS = 40
 MARGIN = 20.0 * DEPTH
@@ -17,8 +17,6 @@ MARGIN = 20.0 * DEPTH
 
 REACH = 3e-3
 """that nothing is moved beyond, of the largest extent: more would be seen as a spike"""
-MANY = 2000
-"""triangles that move; for more, all others are looked at"""
 
 _RINGS = 2  # of triangles around those that cross, as others may come to cross
 
@@ -41,7 +39,7 @@ def pushed(V, U, triangles, pairs, is_new, is_free, impose):
         Moves positions (n,3) in place so that they satisfy all constraints.
     """
     start, best, fewest = U, U, len(pairs)
-    near = _near(U, triangles, pairs)
+    watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH)
     for _ in range(STEPS):
         if not fewest:
             break
@@ -49,33 +47,21 @@ def pushed(V, U, triangles, pairs, is_new, is_free, impose):
             U + _corrections(V, U, triangles, pairs, is_free) - start, -REACH, REACH
         )
         impose(U)
-        pairs = near[crossings(U, triangles[near])]
+        pairs = watched.crossings(U)
         pairs = pairs[is_new(pairs)]
         if len(pairs) < fewest:
             best, fewest = U, len(pairs)
     return best
 
 
-def _near(U, triangles, pairs):
-    """Return the triangles (k,) that may come to cross others when those of pairs are moved."""
-    is_moved, of_pairs = np.zeros(len(U), dtype=bool), np.unique(pairs)
-    is_moved[triangles[of_pairs]] = True
+def _moved(triangles, pairs, n):
+    """Return a mask (m,) of triangles around those of pairs, which may come to cross others."""
+    is_moved = np.zeros(n, dtype=bool)
+    is_moved[triangles[pairs.ravel()]] = True
     for _ in range(_RINGS):
         moved = is_moved[triangles].any(axis=1)
         is_moved[triangles[moved]] = True
-    low, high = U[triangles].min(axis=1), U[triangles].max(axis=1)
-    moved = np.flatnonzero(moved)
-    if len(moved) > MANY:
-        return np.arange(len(triangles))
-    is_near = np.zeros(len(triangles), dtype=bool)
-    low, high = low.T.copy() - REACH, high.T.copy() + REACH
-    for k in moved:
-        is_beside = (low[0] < high[0, k]) & (high[0] > low[0, k])
-        rows = np.flatnonzero(is_beside)
-        for x in (1, 2):
-            rows = rows[(low[x, rows] < high[x, k]) & (high[x, rows] > low[x, k])]
-        is_near[rows] = True
-    return np.flatnonzero(is_near)
+    return moved
 
 
 def _corrections(V, U, triangles, pairs, is_free):

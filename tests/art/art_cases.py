@@ -53,6 +53,7 @@ def _fox():
 CASES = {
     "monkey": Case(art_meshes.monkey),
     "teapot": Case(art_meshes.teapot),
+    "teapot_firm": Case(art_meshes.teapot, options={"solidity": 0.3}),
     "character": Case(art_character.character),
     "clothes": Case(art_figure.dressed, is_dressed=True),
     "body": Case(art_figure.body),
@@ -131,9 +132,9 @@ class Outcome:
         """Return the drift of parts; see `measures.drift`."""
         return measures.drift(self.V, self.U, self.F, is_welded)
 
-    def seat(self):
+    def seat(self, reach=measures.REACH):
         """Return the drift of vertices against the surface of other parts; see `measures.seat`."""
-        return measures.seat(self.V, self.U, self.F)
+        return measures.seat(self.V, self.U, self.F, reach)
 
     def volume_ratio(self):
         """Return the volume after, divided by that at rest."""

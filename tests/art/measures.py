@@ -78,10 +78,11 @@ def drift(V, U, F, is_welded=True):
     return float(np.percentile(np.linalg.norm(moved[i] - moved[j], axis=1), 99) / size)
 
 
-def seat(V, U, F):
+def seat(V, U, F, reach=REACH):
     """Return the drift of vertices against the nearest place of another part, on its triangles.
 
-    The 99th percentile, as `drift`; for coarse parts, whose vertices are far from each other.
+    The 99th percentile, as `drift`; for coarse parts, whose vertices are far from each other. Of
+    places within a reach, a share of the size.
     """
     size, (_, part) = size_of(V), part_of(V, F)
     moves = []
@@ -89,7 +90,7 @@ def seat(V, U, F):
         own = F[part[F[:, 0]] == number]
         tree = BVHTree.FromPolygons(V.tolist(), own.tolist())
         for i in np.flatnonzero((part != number) & (part >= 0)):
-            place, _, index, _ = tree.find_nearest(Vector(V[i]), REACH * size)
+            place, _, index, _ = tree.find_nearest(Vector(V[i]), reach * size)
             if index is not None:
                 a, b, c = map(Vector, V[own[index]])
                 after = barycentric_transform(place, a, b, c, *map(Vector, U[own[index]]))

@@ -24,7 +24,7 @@ COARSE = (
     ("sphere", 0.75),
     ("torus", 0.75),
     ("monkey_507", 0.75),
-    ("car", 0.78),  # its wheels stay out of its body
+    ("car", 0.75),
     ("text", 0.75),
     ("cylinder", 0.85),
 )
@@ -35,6 +35,11 @@ def test_parts_that_touch_stay_together(name):
     outcome = outcome_of(name)
     assert outcome.drift() <= 0.01
     assert outcome.seat() <= 0.0125  # a pair a hundredth apart drifts by turning alone
+
+
+def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
+    # Brows and nose become cubic, with every setting by about as much.
+    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.02
 
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
@@ -82,6 +87,11 @@ def test_no_surface_comes_to_cross_another(name):
 def test_a_dense_mesh_keeps_its_volume(name):
     least = 0.8 if name == "skin" else 0.85  # thin arms and fingers lose more, as the horse's legs
     assert outcome_of(name).volume_ratio() >= least
+
+
+def test_a_belly_that_is_flattened_keeps_its_volume_with_more_solidity():
+    assert outcome_of("teapot").volume_ratio() >= 0.77
+    assert outcome_of("teapot_firm").volume_ratio() >= 0.82
 
 
 @pytest.mark.parametrize(("name", "bound"), COARSE)

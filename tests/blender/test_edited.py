@@ -6,11 +6,13 @@ The row in the panel is tested in a window.
 
 import importlib
 
+import bmesh
 import bpy
+import numpy as np
 import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from rich_mesh import position_of
-from scene import cubify, reports_of, select
+from scene import bmesh_of, cubify, reports_of, select
 
 
 @pytest.fixture
@@ -86,7 +88,7 @@ def test_it_is_found_out_once(edited, extension, monkeypatch):
     assert len(calls) == 1
 
 
-@pytest.mark.parametrize("start", ["HERE", "ORIGINAL"])
+@pytest.mark.parametrize("start", ["HERE", "ORIGINAL", "EDITS"])
 @pytest.mark.parametrize("change", ["edited", "transformed"])
 def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     shapes = []
@@ -109,7 +111,7 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
             confirm(live, session)
         else:
             bpy.ops.cubic_craft.cubify(start=start, cubeness=0.7)
-        assert obj.cubic_craft.start == "HERE"
+        assert obj.cubic_craft.start == "EDITS"
         shapes.append(bits(obj))
         bpy.ops.cubic_craft.restore()
         shapes.append(bits(obj))
@@ -117,11 +119,11 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     assert shapes[:2] == shapes[2:]
 
 
-def test_an_edited_mesh_starts_from_where_it_is():
+def test_an_edited_mesh_may_start_from_where_it_is():
     obj = add_monkey()
     cubify()
     edited = edit(obj)
-    cubify()
+    cubify(start="HERE")
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
 
@@ -137,11 +139,10 @@ def test_an_edited_mesh_may_start_from_the_original(by):
         cubify()
     else:
         cubify(start="ORIGINAL")
-    assert obj.cubic_craft.start == "HERE"  # it was for that run
+    assert obj.cubic_craft.start == "EDITS"  # it was for that run
     assert position_of(obj.data).tobytes() == cubic.tobytes()
     edited = edit(obj)
     cubify()
-    bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
 
 
@@ -151,7 +152,7 @@ def test_each_of_several_edited_meshes_starts_from_what_it_says():
     cubify(together="PARTS")
     edit(one)
     edited = edit(other)
-    one.cubic_craft.start = "ORIGINAL"
+    one.cubic_craft.start, other.cubic_craft.start = "ORIGINAL", "HERE"
     cubify(together="PARTS")
     bpy.ops.cubic_craft.restore()
     assert position_of(one.data)[3, 0] != edited[3, 0]
@@ -165,4 +166,174 @@ def test_restore_takes_back_an_edit_as_well():
     edit(obj)
     said = reports_of(bpy.ops.cubic_craft.restore)
     assert position_of(obj.data).tobytes() == before.tobytes()
-    assert "Restored Suzanne; edits made since Cubify are lost (Ctrl-Z brings them back)" in said
+    assert "Restored Suzanne; edits made by hand are lost (Ctrl-Z brings them back)" in said
+
+
+def test_strokes_stay_while_the_cubeness_changes(edited):
+    obj = add_monkey()
+    original = position_of(obj.data)
+    cubify(cubeness=0.4)
+    cubic = position_of(obj.data)
+    sculpted = edit(obj)
+    cubify(cubeness=0.1)
+    softer = position_of(obj.data)
+    assert np.abs(softer - sculpted).max() > 0.01 and softer[3, 0] > original[3, 0] + 0.3
+    cubify(cubeness=0.4)
+    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
+    update()
+    assert not edited.is_edited(obj.data) and edited.has_edits(obj.data)
+    said = reports_of(bpy.ops.cubic_craft.restore)
+    assert position_of(obj.data).tobytes() == original.tobytes()
+    assert "edits made by hand are lost (Ctrl-Z brings them back)" in said
+    cubify(cubeness=0.4)
+    assert position_of(obj.data).tobytes() == cubic.tobytes()
+
+
+def test_live_shows_and_keeps_strokes(live, begin):
+    obj = add_monkey()
+    cubify(max_iterations=1000, cubeness=0.4)
+    sculpted = edit(obj)
+    session = tick_to_rest(begin(obj, cubeness=0.1, max_iterations=1000))
+    shown = position_of(obj.data)
+    assert np.abs(shown - sculpted).max() > 0.01
+    live.live_properties().cubeness = 0.4
+    session.wake()
+    tick_to_rest(session)
+    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
+    live.live_properties().cubeness = 0.1
+    confirm(live, session)
+    np.testing.assert_allclose(position_of(obj.data), shown, atol=1e-6)
+    cubify(max_iterations=1000, cubeness=0.4)
+    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
+
+
+def test_strokes_are_saved_and_undone(tmp_path):
+    obj = add_monkey()
+    bpy.ops.ed.undo_push(message="Add")
+    cubify(cubeness=0.4)
+    sculpted = edit(obj)
+    bpy.ops.ed.undo_push(message="Sculpt")
+    cubify(cubeness=0.1)
+    bpy.ops.ed.undo_push(message="Cubify")
+    softer = position_of(obj.data)
+    bpy.ops.ed.undo()
+    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == sculpted.tobytes()
+    bpy.ops.ed.redo()
+    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == softer.tobytes()
+    path = str(tmp_path / "sculpted.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Suzanne"]
+    select(obj)
+    cubify(cubeness=0.4)
+    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
+
+
+def test_strokes_are_part_of_what_is_seen():
+    """Modifiers compare what is seen; a result that differs by its strokes only is no news."""
+    obj = add_monkey()
+    obj.modifiers.new("Smooth", "SMOOTH").factor = 0.1
+    cubify(max_iterations=1000)
+    edit(obj)
+    for _ in range(2):
+        said = reports_of(lambda: cubify(max_iterations=1000))
+        assert "still shows the old shape" not in said
+
+
+def test_the_first_original_comes_back():
+    obj = add_monkey()
+    original = position_of(obj.data)
+    cubify()
+    assert not bpy.ops.cubic_craft.restore_first.poll()
+    edited = edit(obj)
+    cubify(start="HERE")
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == edited.tobytes()
+    cubify()
+    said = reports_of(bpy.ops.cubic_craft.restore_first)
+    assert "Restored the first original of Suzanne" in said
+    assert position_of(obj.data).tobytes() == original.tobytes()
+    assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
+
+
+def test_apply_leaves_no_first_original():
+    obj = add_monkey()
+    cubify()
+    edit(obj)
+    cubify(start="HERE")
+    bpy.ops.cubic_craft.apply()
+    assert not bpy.ops.cubic_craft.restore_first.poll()
+
+
+class Recorder:
+    """A layout that notes what is drawn."""
+
+    def __init__(self):
+        self.texts, self.properties = [], []
+
+    def box(self):
+        return self
+
+    def column(self, **_):
+        return self
+
+    def label(self, *, text, **_):
+        self.texts.append(text)
+
+    def prop(self, _data, name, **_):
+        self.properties.append(name)
+
+
+def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
+    monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
+    obj = add_monkey()
+    cubify()
+    for shape in ("cubic", "edited", "with strokes"):
+        layout = Recorder()
+        edited.draw(bpy.context, layout, obj)
+        assert layout.properties == ([] if shape == "cubic" else ["start"])
+        obj.cubic_craft.start = "HERE"
+        layout = Recorder()
+        edited.draw(bpy.context, layout, obj)
+        is_said = "This shape replaces the original. Restore First brings that" in str(layout.texts)
+        assert is_said == (shape != "cubic")
+        obj.cubic_craft.property_unset("start")
+        if shape == "cubic":
+            edit(obj)
+        else:
+            cubify()
+        update()
+
+
+def test_a_lost_original_is_named(edited, monkeypatch):
+    """New vertices that were moved each its own way: Cubify starts from here, and says so."""
+    monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
+    obj = add_monkey()
+    cubify(max_iterations=2)
+    with bmesh_of(obj.data) as bm:
+        made = bmesh.ops.extrude_vert_indiv(bm, verts=bm.verts[100:200])["verts"]
+        for vertex in made:
+            vertex.co = np.multiply(vertex.co, 1 + np.sin(9 * np.array(vertex.co)))
+    update()
+    layout = Recorder()
+    edited.draw(bpy.context, layout, obj)
+    assert "no longer be determined: Cubify starts from here" in layout.texts[0]
+    assert layout.properties == []
+    shape = position_of(obj.data)
+    said = reports_of(lambda: cubify(max_iterations=2))
+    assert '"Suzanne" starts from its current shape' in said
+    update()
+    assert not edited.is_lost(obj.data)
+    bpy.ops.cubic_craft.restore()
+    assert position_of(obj.data).tobytes() == shape.tobytes()
+
+
+@pytest.mark.parametrize("number, start", [(0, "HERE"), (1, "ORIGINAL"), (None, "EDITS")])
+def test_what_older_files_say_stays(number, start):
+    """Blender stores the number of a choice."""
+    obj = add_monkey()
+    if number is not None:
+        obj.cubic_craft.start = start
+        choices = obj.cubic_craft.bl_rna.properties["start"].enum_items
+        assert choices[start].value == number
+    assert obj.cubic_craft.start == start

@@ -55,11 +55,13 @@ SCENARIOS = {
     "mesh": (None, run_cubify("MESH", **FINER)),
     "mesh with Taichi": (None, run_cubify("MESH", device="CPU", **FINER)),
     "mesh after a key": ("SHAPE_KEY", run_cubify("MESH")),
-    "key after a mesh": ("MESH", run_cubify("SHAPE_KEY")),
+    "key after what was edited": ("edited", run_cubify("SHAPE_KEY")),
     "new object after a mesh": ("MESH", run_cubify("NEW_OBJECT")),
     "edited since": ("edited", run_cubify("MESH")),
+    "from here": ("edited", run_cubify("MESH", start="HERE")),
     "restore a mesh": ("MESH", lambda: bpy.ops.cubic_craft.restore()),
     "restore a key": ("SHAPE_KEY", lambda: bpy.ops.cubic_craft.restore()),
+    "restore the first": ("replaced", lambda: bpy.ops.cubic_craft.restore_first()),
     "apply": ("MESH", lambda: bpy.ops.cubic_craft.apply()),
     "flatten a mesh": ("MESH", run_flatten()),
     "flatten a key to n-gons": ("SHAPE_KEY", run_flatten(dissolve=True)),
@@ -75,12 +77,14 @@ def build(before):
     select(obj)
     bpy.context.view_layer.update()
     if before is not None:
-        cubify(result="MESH" if before == "edited" else before, **OPTIONS)
-    if before == "edited":
+        cubify(result="MESH" if before in ("edited", "replaced") else before, **OPTIONS)
+    if before in ("edited", "replaced"):
         # All shape keys, else carrying them would be what takes the edit back.
         for key in obj.data.shape_keys.key_blocks:
             key.points[3].co.x += 0.1
         obj.data.update()
+    if before == "replaced":
+        cubify(start="HERE", **OPTIONS)
 
 
 def open_file(path):

@@ -64,7 +64,7 @@ def test_what_is_missing_is_said_before_the_click():
     with pytest.raises(RuntimeError, match="No handle is posed or follows anything"):
         bpy.ops.cubic_craft.handle_reset_pose()
     bpy.context.view_layer.objects.active = None
-    for verb in ("add", "remove", "move", "follow", "pin_selection", "reset_pose"):
+    for verb in ("add", "remove", "move", "follow", "reset_pose"):
         with pytest.raises(RuntimeError, match="Make a mesh object active first"):
             getattr(bpy.ops.cubic_craft, f"handle_{verb}")()
 
@@ -102,11 +102,14 @@ def test_pin_selection_in_edit_mode_is_one_undo_step():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_pin_selection_in_object_mode_takes_the_last_selection():
+def test_pin_selection_wants_to_see_the_selection():
     obj = add_monkey()
     select_vertices(obj, [4, 6])
     bpy.ops.object.mode_set(mode="OBJECT")
+    with pytest.raises(RuntimeError, match="Select vertices in Edit Mode first"):
+        bpy.ops.cubic_craft.handle_pin_selection()
     for name in ("Handle", "Handle.001"):
+        bpy.ops.object.mode_set(mode="EDIT")
         click(bpy.ops.cubic_craft.handle_pin_selection)
         group = obj.vertex_groups[name].index
         assert [v.index for v in obj.data.vertices if group in [g.group for g in v.groups]] == [

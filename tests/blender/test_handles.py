@@ -295,7 +295,7 @@ def test_a_pose_that_is_part_of_the_original_is_not_done_twice(posed, way, resul
         obj.data.update()
         once = position_of(obj.data)
     empty.location.z += 0.5  # since it was written
-    cubify(cubeness=0.0, result="MESH")
+    cubify(cubeness=0.0, result="MESH", start="HERE")
     np.testing.assert_allclose(
         position_of(obj.data)[right], once[right] + [0, 0, 0.5], rtol=0, atol=2e-6
     )

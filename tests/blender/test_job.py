@@ -70,12 +70,12 @@ def test_slices_give_the_bits_of_the_script(package, start):
     assert [bits(one), bits(other)] == before, "written before all was solved"
     texts = [step.texts[0] for step in said]
     assert texts[0] == '1 of 2: Preparing "One"'
-    assert any(text.startswith("2 of 2: Iteration ") and ", energy " in text for text in texts)
+    assert any(text.startswith("2 of 2: ") and " %" in text for text in texts)
     factors = [step.factor for step in said]
     assert factors == sorted(factors) and factors[0] == 0.0 and 0.9 < factors[-1] <= 1.0
     summary, problems = watched.write()
     assert summary.startswith("Cubified 2 meshes in")
-    assert not [text for text in problems if "Taichi" not in text]
+    assert not problems
     check_nothing_left(package)
     after = [bits(one), bits(other)]
     assert after[0] != before[0] and after[1] != before[1]
@@ -226,6 +226,7 @@ def test_a_pose_that_was_settled_for_it_is_put_back(start):
     handle.group = "Ear"
     handle.is_baked = True
     handle.baked = Matrix.Translation((0, 0, 1))
+    obj.cubic_craft.start = "HERE"
     watched = start(obj)
     assert handle.is_baked and handle.rest != handle.baked
     watched.cancel()

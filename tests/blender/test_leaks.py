@@ -70,6 +70,7 @@ def test_cubify_and_restore(result, device):
         if result == "NEW_OBJECT":
             made = bpy.context.object
             mesh = made.data
+            bpy.ops.cubic_craft.show_source()
             bpy.data.objects.remove(made)
             bpy.data.meshes.remove(mesh)
             select(obj)

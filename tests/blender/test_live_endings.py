@@ -203,10 +203,11 @@ def test_a_file_saved_in_the_middle_has_what_is_seen(live, begin, tmp_path, resu
     else:
         session.tick(bpy.context)
         tick_to_sight(session)
-    shown, name_seen = bits(seen), seen.name
+    shown, name_seen, name = bits(seen), seen.name, obj.name
     path = str(tmp_path / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
     assert set(bpy.data.objects.keys()) == objects and bpy.context.object == obj
+    assert obj.visible_get() and not obj.hide_render and obj.select_get()
     if is_at_rest:
         tick_to_rest(session)
         assert not session.is_ended and bits(bpy.data.objects[name_seen]) == shown
@@ -217,6 +218,7 @@ def test_a_file_saved_in_the_middle_has_what_is_seen(live, begin, tmp_path, resu
     for one, other in zip(before, (snapshot_mesh(obj.data), snapshot_object(obj)), strict=True):
         assert not differences(one, other, ignore)
     bpy.ops.wm.open_mainfile(filepath=path)
+    assert not bpy.data.objects[name].hide_get(), "what is followed is not in the way"
     obj = bpy.data.objects[name_seen]
     assert obj.cubic_craft.cubeness == pytest.approx(0.7)
     key = obj.data.shape_keys.key_blocks["Cubic"] if result == "SHAPE_KEY" else None

@@ -5,7 +5,7 @@ import importlib
 
 import bpy
 import pytest
-from scene import add_monkey
+from scene import add_monkey, cubify
 
 NAME = "VIEW3D_MT_object_cubic_craft"
 
@@ -63,3 +63,14 @@ def test_each_entry_is_an_operator(menus, has_mesh):
     assert all(hasattr(getattr(bpy.ops, module), name) for module, name in operators)
     assert ["cubic_craft", "cubify"] in operators and ["cubic_craft", "live"] in operators
     assert ("keep_pose" in drawn) == has_mesh
+
+
+def test_the_first_original_has_an_entry_where_there_is_one(menus):
+    obj = add_monkey()
+    for start in (None, "HERE"):
+        drawn = _drawn(getattr(bpy.types, NAME).draw, Owner())
+        assert "cubic_craft.restore" in drawn and "cubic_craft.restore_first" not in drawn
+        cubify(max_iterations=2, **({"start": start} if start else {}))
+        obj.data.vertices[3].co.x += 0.5
+        obj.data.update()
+    assert "cubic_craft.restore_first" in _drawn(getattr(bpy.types, NAME).draw, Owner())

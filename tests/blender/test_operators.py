@@ -43,6 +43,7 @@ def test_all_else_stays_bit_identical(result, keys):
     if result == "NEW_OBJECT":
         made = bpy.context.object
         assert made != obj and made.name == "Suzanne Cubic"
+        bpy.ops.cubic_craft.show_source()
         select(obj)
         assert differences(before, snapshot_object(obj), SETTINGS) == []
         return
@@ -145,6 +146,7 @@ def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
     shapes = [
         position_of(bpy.data.objects[name].data) for name in ("First Cubic", "First.001 Cubic")
     ]
+    bpy.ops.cubic_craft.show_source()
     select(twin)
     cubify(result="MESH", space="WORLD")
     assert position_of(twin.data).tobytes() == shapes[1].tobytes()

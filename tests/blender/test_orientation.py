@@ -186,7 +186,9 @@ def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(exten
     np.testing.assert_allclose(axes / np.linalg.norm(axes[0]), np.eye(3), atol=1e-6)
 
 
-def test_the_cube_is_seen_for_a_moment_when_it_is_turned(extension, live, begin, monkeypatch):
+def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
+    extension, live, begin, monkeypatch
+):
     glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.glimpse")
     obj = add_monkey()
 
@@ -198,16 +200,23 @@ def test_the_cube_is_seen_for_a_moment_when_it_is_turned(extension, live, begin,
 
     settings = obj.cubic_craft
     assert is_seen_after(lambda: setattr(settings, "orientation", (0.0, 0.0, 0.3)))
-    assert is_seen_after(lambda: setattr(settings, "space", "OBJECT"))
     assert is_seen_after(lambda: bpy.ops.cubic_craft.auto_orient())
-    assert not is_seen_after(lambda: setattr(settings, "cubeness", 0.3))
-    session = begin(obj)
-    assert not glimpse.is_seen(), "to begin Live turns nothing"
-    in_live = live.live_properties()
-    assert is_seen_after(lambda: setattr(in_live, "orientation", (0.0, 0.2, 0.3)))
+    for name, value in (("cubeness", 0.3), ("space", "WORLD"), ("form", "OCTAHEDRON")):
+        assert not is_seen_after(lambda name=name, value=value: setattr(settings, name, value))
+    settings.form, settings.orientation = "CUBE", (0.1, 0.2, 0.3)
+    other = add_monkey("Other")
+    select(obj, other)
+    assert not is_seen_after(lambda: cubify(max_iterations=1)), "all get the settings of the first"
+    assert tuple(other.cubic_craft.orientation) == pytest.approx((0.1, 0.2, 0.3))
+    select(obj)
+    assert not is_seen_after(lambda: begin(obj)), "to begin Live turns nothing"
+    session, in_live = live.current(), live.live_properties()
+    assert is_seen_after(lambda: setattr(in_live, "orientation", (0.0, 0.4, 0.3)))
     session.tick(bpy.context)
-    assert session.tasks[0].settings.orientation[1] == pytest.approx(0.2), "Live is told as well"
+    assert session.tasks[0].settings.orientation[1] == pytest.approx(0.4), "Live is told as well"
     assert not is_seen_after(lambda: setattr(in_live, "cubeness", 0.8))
+    assert not is_seen_after(lambda: session.take_back() and session.take_back())
+    assert in_live.orientation[1] == pytest.approx(0.2), "Ctrl-Z in Live"
     monkeypatch.setattr(glimpse, "SECONDS", 0.01)
     in_live.orientation = (0.0, 0.0, 0.0)
     time.sleep(0.02)

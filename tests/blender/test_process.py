@@ -89,6 +89,7 @@ def clicked(obj):
     new = bpy.context.object
     points = shown(new, 1)
     bpy.data.objects.remove(new)
+    obj.hide_set(False)
     return points
 
 

@@ -116,6 +116,7 @@ def test_posed_by_its_rig_it_is_as_if_made_cubic_in_that_pose(figure):
     take_pose(rig)
     cubify(result="NEW_OBJECT", with_modifiers=True)
     in_pose = position_of(bpy.context.object.data)
+    bpy.ops.cubic_craft.show_source()
     select(obj)
     cubify()
     far = np.linalg.norm(seen(obj) - in_pose, axis=1) / SIZE

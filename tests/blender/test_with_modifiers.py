@@ -29,6 +29,16 @@ def add_modifiers(obj):
     return obj
 
 
+def check_hidden(source, new):
+    """Check that the source is hidden behind the new object, and shown by a click."""
+    assert source.hide_get() and source.hide_render and not source.select_get()
+    assert new.visible_get() and not new.hide_render
+    assert bpy.ops.cubic_craft.show_source() == {"FINISHED"}
+    assert source.visible_get() and not source.hide_render
+    assert bpy.context.object == new and bpy.context.selected_objects == [new]
+    assert not bpy.ops.cubic_craft.show_source.poll()
+
+
 def check_new(source, original):
     """Check the new object that is active: cubic, of what was seen, in the place of the source."""
     new = bpy.context.object
@@ -36,7 +46,7 @@ def check_new(source, original):
     assert not new.modifiers and new.data.shape_keys is None and new.data.users == 1
     assert np.allclose(new.matrix_world, source.matrix_world)
     assert list(new.users_collection) == list(source.users_collection)
-    assert not source.select_get() and source.visible_get()
+    check_hidden(source, new)
     shape = position_of(new.data)
     assert shape.shape == original.shape and np.abs(shape - original).max() > 0.01
     assert not new.cubic_craft.with_modifiers and new.cubic_craft.result == "MESH"
@@ -169,3 +179,91 @@ def test_the_panel_hints_where_the_mesh_says_little(extension):
     assert not seen.can_be_seen(obj)
     nodes.node_group.name = "Rocks"
     assert seen.can_be_seen(obj)
+
+
+def test_the_source_of_a_copy_is_hidden_behind_it_and_its_children_are_not():
+    obj = add_monkey()
+    eye = add_monkey("Eye", size=0.2)
+    eye.parent = obj
+    select(obj)
+    cubify(result="NEW_OBJECT")
+    assert eye.visible_get() and not eye.hide_render
+    check_hidden(obj, bpy.data.objects["Suzanne Cubic"])
+
+
+def test_what_an_artist_has_hidden_from_renders_stays_so():
+    obj = add_monkey()
+    obj.hide_render = True
+    cubify(result="NEW_OBJECT")
+    assert obj.hide_get() and bpy.context.object.hide_render
+    bpy.ops.cubic_craft.show_source()
+    assert obj.visible_get() and obj.hide_render
+
+
+@pytest.mark.parametrize("options", [{"result": "NEW_OBJECT"}, SEEN])
+def test_a_source_without_its_new_object_is_rendered_again(options):
+    obj = add_monkey()
+    cubify(**options)
+    bpy.data.objects.remove(bpy.context.object)
+    obj.hide_set(False)
+    select(obj)
+    cubify(**options)
+    assert obj.hide_render and not bpy.context.object.hide_render, "this is no copy of the source's"
+    bpy.data.objects.remove(bpy.context.object)
+    obj.hide_set(False)
+    select(obj)
+    assert obj.hide_render and bpy.ops.cubic_craft.show_source() == {"FINISHED"}
+    assert not obj.hide_render
+
+
+def test_a_source_is_hidden_in_each_scene_that_has_the_new_object():
+    obj = add_monkey()
+    second, third = bpy.data.scenes.new("Second"), bpy.data.scenes.new("Third")
+    second.collection.children.link(obj.users_collection[0])
+    cubify(result="NEW_OBJECT")
+    third.collection.objects.link(obj)
+    layers = [scene.view_layers[0] for scene in (bpy.context.scene, second, third)]
+    assert [obj.hide_get(view_layer=layer) for layer in layers] == [True, True, False]
+    bpy.ops.cubic_craft.show_source()
+    assert not any(obj.hide_get(view_layer=layer) for layer in layers)
+
+
+def test_what_is_painted_is_not_hidden():
+    obj = add_monkey()
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    cubify(result="NEW_OBJECT")
+    assert obj.visible_get() and not obj.hide_render and obj.mode == "WEIGHT_PAINT"
+    assert not bpy.ops.cubic_craft.show_source.poll()
+
+
+def test_what_will_be_rounded_again_is_named_and_helped_first(extension):
+    seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.seen")
+    bpy.ops.mesh.primitive_cube_add()
+    cage = bpy.context.object
+    cage.modifiers.new("Mirror", "MIRROR")  # solved as a whole: it stays cubic
+    assert seen.hint_to_draw(cage) is None
+    cage.modifiers.new("Array", "ARRAY")
+    assert seen.hint_to_draw(cage) == seen.Hint("Modifiers are ignored", is_needed=False)
+    subdivision = cage.modifiers.new("Subdivision", "SUBSURF")
+    hint = seen.Hint("Subdivision will round it again", is_needed=True)
+    assert seen.hint_to_draw(cage) == hint
+    cubify(max_iterations=1)
+    assert seen.hint_to_draw(cage) == hint
+    subdivision.subdivision_type = "SIMPLE"
+    assert not seen.hint_to_draw(cage).is_needed
+    subdivision.subdivision_type, subdivision.levels = "CATMULL_CLARK", 0
+    assert not seen.hint_to_draw(cage).is_needed
+    subdivision.levels = 1
+    cage.cubic_craft.result, cage.cubic_craft.with_modifiers = "NEW_OBJECT", True
+    assert seen.hint_to_draw(cage) is None
+
+
+def test_one_undo_shows_the_source_again():
+    add_monkey()
+    bpy.ops.ed.undo_push(message="Monkey")
+    cubify(result="NEW_OBJECT")
+    bpy.ops.ed.undo_push(message="Cubify")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Suzanne"]
+    assert list(bpy.data.objects) == [obj] and bpy.context.object == obj
+    assert obj.visible_get() and not obj.hide_render and obj.select_get()

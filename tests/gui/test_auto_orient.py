@@ -7,6 +7,7 @@ import importlib
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 from mathutils import Euler
 
 NAME = "Cube"

@@ -10,7 +10,9 @@ import os
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 
+ADDON = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
 NAME = "Suzanne"  # of the monkey and of its mesh
 SETTINGS = "cubic_craft"  # the property of objects
 
@@ -75,9 +77,8 @@ def check_status():
 
 def changes():
     """Return what the panel calls out of date."""
-    addon = "bl_ext.user_default.cubic_craft.cubic_craft_addon"
-    run = importlib.import_module(f"{addon}.mesh_bridge").last_run(bpy.data.objects[NAME])
-    changes_since = importlib.import_module(f"{addon}.run.up_to_date").changes_since
+    run = importlib.import_module(f"{ADDON}.mesh_bridge").last_run(bpy.data.objects[NAME])
+    changes_since = importlib.import_module(f"{ADDON}.run.up_to_date").changes_since
     return changes_since(bpy.data.objects[NAME], run) if run else None
 
 
@@ -126,18 +127,35 @@ def edit_by_hand():
 
 
 def start_from_the_original(cubic):
-    """Edit the result; the panel offers both, and the original gives the same result again."""
+    """Edit the result; the panel offers three, and the original gives the same result again."""
     edited = yield from edit_by_hand()
     assert not is_bitwise(edited, cubic)
     choice = yield from gui.find_button("cubic_craft.start")
-    assert cubic_craft().start == "HERE"
+    assert cubic_craft().start == "EDITS"
     yield from gui.screenshot("edited.png")
-    yield from gui.click(choice.at(0.9))
+    yield from gui.click((choice.at()[0], choice.top - 50))  # the lowest of three in a column
     yield from gui.wait_until(lambda: cubic_craft().start == "ORIGINAL", what="the other choice")
     yield from gui.screenshot("from_the_original.png")
     assert is_bitwise((yield from cubify(edited)), cubic)
-    assert cubic_craft().start == "HERE"
+    assert cubic_craft().start == "EDITS"
     yield from gui.screenshot("not_edited.png")
+
+
+def update_without_moving_the_mouse(original):
+    """Of a run that is watched, the button is grey, and after it, it takes a click at once."""
+    watched = importlib.import_module(f"{ADDON}.job.watched")
+    importlib.import_module(f"{ADDON}.job").FIRST_SLICE = 0.0
+    watched._SLICE, watched._TIMER_STEP = 0.0, 0.02  # a phase at a time, so that it is drawn
+    cubic = yield from cubify(original)
+    cubic_craft().cubeness = 0.1
+    yield from gui.screenshot("update_at_once.png")
+    gui.events().press("LEFTMOUSE")
+    yield 0.2
+    gui.events().release("LEFTMOUSE")
+    yield from gui.wait_until(
+        lambda: not is_bitwise(positions(), cubic) and not gui.running_operators(),
+        what="the update",
+    )
 
 
 def test():
@@ -179,6 +197,7 @@ def test():
         lambda: is_bitwise(positions(), original), what="the original shape, bit for bit"
     )
     yield from gui.screenshot("restored.png")
+    yield from update_without_moving_the_mouse(original)
 
 
 gui.run(test)

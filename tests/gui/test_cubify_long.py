@@ -33,7 +33,7 @@ def start(is_slow=True):
     yield from gui.click((yield from scene.button("cubic_craft.cubify")))
     yield from gui.wait_until(current, what="a run that is watched")
     yield from gui.wait_until(
-        lambda: current() is None or "Iteration" in current().step.texts[0], what="an iteration"
+        lambda: current() is None or " %" in current().step.texts[0], what="an iteration"
     )
     assert current() is not None and OPERATOR in gui.running_operators()
 

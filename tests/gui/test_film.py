@@ -14,6 +14,7 @@ import sys
 import bpy
 import guidrive as gui
 import live_scene as scene
+import open_sections
 from mathutils import Euler, Quaternion
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "art"))  # before what is in it
@@ -103,6 +104,7 @@ def cut():
 
 
 def test():
+    open_sections.as_shipped()
     yield from gui.open_sidebar("Cubic Craft")
     yield from set_the_stage()
     original = scene.positions(NAME)

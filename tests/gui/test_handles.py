@@ -9,6 +9,7 @@ import os
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 
 NAME = "Suzanne"
 EAR, CHIN = "Ear", "Chin"

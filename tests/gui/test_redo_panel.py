@@ -5,6 +5,7 @@
 import bpy
 import guidrive as gui
 import numpy as np
+import open_sections  # noqa: F401
 import redo_panel
 
 NAME = "Suzanne"

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from headless import headless_ok, read_files
+from headless import headless_ok, make_blend, read_files
 from make_inputs import FACES, POSITIONS, TINY
 
 REST = POSITIONS * TINY
@@ -14,6 +14,20 @@ ROUND_TRIPS = (".ply", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend")
 COMMON = ("--device", "numpy", "--max-iterations", 30, "--no-render")
 FAST = (*COMMON, "--paper")
 """without a finer copy, on which the place of vertices in a file does not depend"""
+BALL = """
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
+SCULPT = """
+import sys, bpy
+bpy.ops.wm.open_mainfile(filepath={source!r})
+mesh = bpy.data.meshes[0]
+for vertex in mesh.vertices[:5]:
+    vertex.co.x += 0.25
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
 
 
 @pytest.fixture(scope="module")
@@ -276,3 +290,22 @@ def test_vertices_that_gltf_had_to_split_are_joined(inputs, tmp_path):
     headless_ok(inputs / "awkward.glb", *arguments, cwd=tmp_path)
     positions = obj_positions(tmp_path / "joined.obj")
     assert len(np.unique(positions, axis=0)) == len(positions)
+
+
+def test_what_was_sculpted_on_a_result_is_in_all_files(tmp_path):
+    """Whichever format: the same cubeness again gives the sculpted shape, another keeps strokes."""
+    fast = ("--device", "numpy", "--max-iterations", 20, "--refine", "off", "--no-render")
+    ball = make_blend(BALL, tmp_path / "ball.blend")
+    headless_ok(ball, *fast, "--cubeness", 0.4, "--save-mesh", "cubic.blend", cwd=tmp_path)
+    sculpt = SCULPT.format(source=str(tmp_path / "cubic.blend"))
+    sculpted = make_blend(sculpt, tmp_path / "sculpted.blend")
+    for name, cubeness in (("again.blend", 0.4), ("again.ply", 0.4), ("softer.ply", 0.1)):
+        options = ("--cubeness", cubeness, "--save-mesh", name)
+        headless_ok(sculpted, *fast, *options, cwd=tmp_path)
+    names = ("cubic.blend", "sculpted.blend", "again.blend", "again.ply", "softer.ply")
+    read = read_files(*(tmp_path / name for name in names), folder=tmp_path)
+    cubic, expected, *again, softer = (next(iter(found.values()))[0] for found in read)
+    for points in again:
+        np.testing.assert_allclose(points, expected, atol=1e-5)
+    assert np.abs(expected - cubic).max() > 0.2
+    assert np.abs(softer - expected).max() > 0.01

@@ -27,12 +27,14 @@ ORIGINAL = "cubic_craft_original"
 ROTATION = "cubic_craft_rotation"
 LIVE = "cubic_craft_live"
 KEY = "cubic_craft_key"
+FIRST = "cubic_craft_first"
 
-NORMALS = f"{ORIGINAL}.normals"
-"""as `free_normals`, on points, corners or faces; all others are on points"""
+RESULT_KINDS = (ORIGINAL, ROTATION, LIVE, KEY)
+"""what belongs to the result that is there; FIRST outlives it"""
 
-_ENDINGS = r"\.position|\.normals|\.key\d+|\.written|\.mark|\.base"
-_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY})({_ENDINGS})?")
+_NORMALS = ".normals"  # as `free_normals`, on points, corners or faces; all others are on points
+_ENDINGS = r"\.position|\.normals|\.key\d+|\.written|\.mark|\.base|\.rotation|\.strokes"
+_NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY}|{FIRST})({_ENDINGS})?")
 
 
 def is_our_name(name: str) -> bool:
@@ -41,7 +43,7 @@ def is_our_name(name: str) -> bool:
 
 
 def our_attributes(
-    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (ORIGINAL, ROTATION, LIVE, KEY)
+    mesh: bpy.types.Mesh, kinds: tuple[str, ...] = (*RESULT_KINDS, FIRST)
 ) -> list[str]:
     """List the names of our attributes on a mesh, of all kinds or of some."""
     return [
@@ -136,7 +138,7 @@ def active_kept(mesh: bpy.types.Mesh) -> Iterator[None]:
 
 def _is_ours(attribute: bpy.types.Attribute) -> bool:
     """Return whether an attribute with one of our names is ours."""
-    is_in_domain = attribute.domain == "POINT" or attribute.name == NORMALS
+    is_in_domain = attribute.domain == "POINT" or attribute.name.endswith(_NORMALS)
     return is_in_domain and attribute.data_type in ("FLOAT_VECTOR", "QUATERNION")
 
 

@@ -6,6 +6,9 @@ It is JSON text, because custom properties cannot hold lists of texts, with some
 ``"mesh"``
     a result written to the mesh: ``fingerprint`` of the base as we wrote it, and per shape key
     other than the reference its ``name``, ``fingerprint`` and the ``attribute`` of its original.
+``"first"``
+    the first original, which *From Here* has replaced: what ``"mesh"`` says, of the original that
+    took its place.
 ``"key"``
     a result written to a shape key: its ``name`` and ``fingerprint``; the fingerprint of the
     ``base`` under it, and the key's ``offsets`` from that; and ``made_basis``.
@@ -96,9 +99,9 @@ def check_note(mesh: bpy.types.Mesh) -> None:
 
 def _is_ours(note: dict[str, Any]) -> bool:
     """Return whether a note is valid, so that no other code must check it."""
-    if not note or not note.keys() <= {"mesh", "key", "live", "run"}:
+    if not note or not note.keys() <= {"mesh", "first", "key", "live", "run"}:
         return False
-    for part in (note[name] for name in ("mesh", "live") if name in note):
+    for part in (note[name] for name in ("mesh", "first", "live") if name in note):
         if not _fits(part, _MESH_PART) or not all(_fits(key, _MESH_KEY) for key in part["keys"]):
             return False
     if "run" in note and not _fits(note["run"], _RUN_PART):

@@ -23,6 +23,7 @@ from .offsets import offset_sums, same_offsets
 
 _NAME = "Cubic"
 _BASE = f"{KEY}.base"
+_STROKES = f"{KEY}.strokes"  # that are in the key, see `strokes`
 
 
 def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
@@ -53,10 +54,24 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
     return None
 
 
+def key_strokes(mesh: bpy.types.Mesh) -> np.ndarray | None:
+    """Read the strokes (n,3) float32 in our shape key, transformed with Basis; None for none."""
+    strokes, written = read_attribute(mesh, _STROKES, 3), read_attribute(mesh, _BASE, 3)
+    if strokes is None or written is None or mesh.shape_keys is None:
+        return strokes
+    way = fit(written, read_key(mesh, mesh.shape_keys.reference_key))
+    if way is None or way.is_identity:
+        return strokes
+    return (strokes @ way.linear.T).astype(np.float32)
+
+
 def write_cubic_key(
-    obj: bpy.types.Object, positions: np.ndarray, key: bpy.types.ShapeKey | None
+    obj: bpy.types.Object,
+    positions: np.ndarray,
+    key: bpy.types.ShapeKey | None,
+    strokes: np.ndarray | None = None,
 ) -> None:
-    """Write positions to our shape key, which is created if it is missing.
+    """Write positions, with the strokes in them, to our shape key; it is created if it is missing.
 
     `key` is what `find_cubic_key` found before anything was written. It keeps its value, range
     and drivers. A key that the artist has edited is no longer ours and is kept; the note then
@@ -74,8 +89,9 @@ def write_cubic_key(
     write_key(key, positions)
     assert mesh.shape_keys is not None
     base = read_key(mesh, mesh.shape_keys.reference_key)
-    for name, points in ((KEY, positions), (_BASE, base)):
-        add_attribute(mesh, name, points)
+    for name, points in ((KEY, positions), (_BASE, base), (_STROKES, strokes)):
+        if points is not None:
+            add_attribute(mesh, name, points)
     part = {
         "name": key.name,
         "fingerprint": fingerprint_of_values(positions),

@@ -22,6 +22,7 @@ from ..access.rounded_for_storage import carry_finite, rotations_for_storage, ro
 from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
+from ..memory.strokes import read_strokes, with_strokes
 from .end import end_preview
 from .moved import take_along
 from .store import marked, store_live, write_live_part
@@ -56,6 +57,7 @@ class Preview:
         self._cubic_key = cubic_key.name if cubic_key is not None else None
         # A preview moves no free normals, which it would have to store first.
         self._original = replace(original_shapes(mesh, start), normals=None)
+        self._strokes = read_strokes(mesh, start)
         self._loose = loose_vertices(mesh)
         self._keys = _key_names(mesh)
         present = read_shapes(mesh)
@@ -64,8 +66,8 @@ class Preview:
 
     @property
     def needs_rotations(self) -> bool:
-        """Whether there are shape keys that follow the base."""
-        return bool(self._original.relative)
+        """Whether there are shape keys that follow the base, or strokes that turn with it."""
+        return bool(self._original.relative) or self._strokes is not None
 
     def show(
         self,
@@ -83,7 +85,7 @@ class Preview:
         mesh : the mesh, or its replacement after an undo; in Object Mode
         positions : (n,3) numpy array, object space; ignored for vertices in no face
         rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
-            rotate, or no shape keys need them
+            rotate, or `needs_rotations` is false
         outcome : values for JSON, which `keep_preview` returns if a file is opened with this shape
 
         Raises
@@ -95,7 +97,9 @@ class Preview:
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh) | {"outcome": outcome}
         base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
-        shown = self._with_keys(mesh, base, rotations)
+        matrices = self._matrices(mesh, rotations)
+        base = with_strokes(mesh, base, self._strokes, matrices)
+        shown = self._with_keys(mesh, base, matrices)
         finished = marked(part, shown)
         # If writing fails half-way, `end_preview` must not mistake the mixture for an edit.
         write_live_part(mesh, marked(part, None))
@@ -129,9 +133,13 @@ class Preview:
         self._shown = present.base
         return True
 
-    def _with_keys(
-        self, mesh: bpy.types.Mesh, base: np.ndarray, rotations: np.ndarray | None
-    ) -> Shapes:
+    def _matrices(self, mesh: bpy.types.Mesh, rotations: np.ndarray | None) -> np.ndarray:
+        """Return what offsets are turned by, (n,3,3), as they will be stored."""
+        if rotations is None or not self.needs_rotations:
+            return np.broadcast_to(np.eye(3), (len(self._loose), 3, 3))
+        return matrices_from_quaternions(rotations_for_storage(mesh, rotations, self._loose))
+
+    def _with_keys(self, mesh: bpy.types.Mesh, base: np.ndarray, matrices: np.ndarray) -> Shapes:
         """Add all shape keys to the base to be shown."""
         original = self._original
         if original.reference is None:
@@ -139,11 +147,6 @@ class Preview:
         if not original.relative:
             shown = Shapes(base, {original.reference: base}, original.reference, {})
         else:
-            if rotations is None:
-                matrices = np.broadcast_to(np.eye(3), (len(base), 3, 3))
-            else:
-                quaternions = rotations_for_storage(mesh, rotations, self._loose)
-                matrices = matrices_from_quaternions(quaternions)
             shown = carry_finite(mesh, original, base, matrices)
         if self._cubic_key is None:
             return shown

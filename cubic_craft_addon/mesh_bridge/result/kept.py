@@ -16,8 +16,10 @@ from ..access.fingerprint import fingerprint_of_values
 from ..access.note import is_run, read_note
 from ..access.shapes import read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key
+from ..memory.first_original import first_kept
 from ..memory.last_run import note_run
 from ..memory.original import Start, drop_stored, original_shapes, store_original
+from ..memory.strokes import read_strokes
 from ..preview.end import end_preview
 from .rollback import all_or_nothing
 
@@ -55,8 +57,11 @@ def keep_preview(mesh: bpy.types.Mesh, run: dict[str, Any], start: Start) -> Non
         end_preview(mesh)
         cubic_key = find_cubic_key(mesh)
         original = original_shapes(mesh, start)
+        strokes = read_strokes(mesh, start)
+        keep_first = first_kept(mesh, start, original)
         drop_stored(mesh)
-        store_original(mesh, original, shown, unturned)
+        keep_first()
+        store_original(mesh, original, shown, unturned, strokes)
         note_run(mesh, run)
         write_shapes(mesh, shown)
         remove_cubic_key(mesh, cubic_key)

@@ -18,7 +18,7 @@ def write_ngons(
     obj: bpy.types.Object,
     positions: np.ndarray,
     facet_of: np.ndarray,
-    finish: Callable[[], None] = lambda: None,
+    finish: Callable[[bpy.types.Object], None] = lambda new: None,
 ) -> bpy.types.Object:
     """Copy an object in another shape, and dissolve the faces of each facet.
 
@@ -32,7 +32,7 @@ def write_ngons(
     obj : an object with a mesh, not in Edit Mode
     positions : (n,3) numpy float32 array, object space, in which the facets are planar
     facet_of : (m,) numpy int array, the facet of each of its `triangles`, or -1
-    finish : called last
+    finish : called last, with the new object
 
     Returns
     -------
@@ -53,7 +53,7 @@ def write_ngons(
         new_mesh.name, new.name = f"{mesh.name} Facets", f"{obj.name} Facets"
         link_beside(obj, new)
         select_instead(obj, new)
-        finish()
+        finish(new)
     except BaseException:
         remove_copy(new)
         if is_selected:

@@ -9,15 +9,15 @@ import numpy as np
 
 from ....solver.errors import CubicCraftError
 from ..access.arrays import loose_vertices, read_key
-from ..access.attributes import ROTATION, check_names, read_attribute
+from ..access.attributes import check_names
 from ..access.checks import check_writable, mesh_of
 from ..access.note import read_note
-from ..access.rotations import matrices_from_quaternions, quaternions_from_matrices
 from ..access.rounded_for_storage import carry_finite, rounded_for_storage
 from ..access.shapes import read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key
 from ..memory.last_run import note_run
 from ..memory.original import (
+    RESULT,
     drop_stored,
     original_shapes,
     read_positions,
@@ -25,8 +25,9 @@ from ..memory.original import (
     store_original,
 )
 from ..memory.recognition import Recognised
+from ..memory.strokes import read_strokes
 from ..preview.end import end_preview
-from .results import write_shape_key
+from .results import reshape_key
 from .rollback import all_or_nothing
 
 
@@ -59,7 +60,7 @@ def result_positions(obj: bpy.types.Object) -> np.ndarray:
 def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
     """Write a changed shape of a result to where `result_positions` reads it.
 
-    Shape keys follow: they keep their offsets. Edits by hand become a part of the result.
+    Shape keys follow: they keep their offsets. Edits by hand become strokes in the result.
 
     Parameters
     ----------
@@ -78,17 +79,18 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
     end_preview(mesh)
     run = read_note(mesh).get("run")
     if find_cubic_key(mesh) is not None:
-        write_shape_key(obj, positions, run)
+        reshape_key(obj, positions, run)
         return
     recognised = _recognised(mesh, obj.name)
     present, original = read_shapes(mesh), original_shapes(mesh, "ORIGINAL")
-    quaternions = _present_rotations(mesh, recognised)
+    quaternions = RESULT.rotations(mesh, recognised)
+    strokes = read_strokes(mesh, "EDITS")
     positions = rounded_for_storage(mesh, positions, present.base, loose_vertices(mesh))
     unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
     written = carry_finite(mesh, present, positions, unturned)
     with all_or_nothing(mesh):
         drop_stored(mesh)
-        store_original(mesh, original, written, quaternions)
+        store_original(mesh, original, written, quaternions, strokes)
         note_run(mesh, run)
         write_shapes(mesh, written)
 
@@ -102,18 +104,3 @@ def _recognised(mesh: bpy.types.Mesh, name: str) -> Recognised:
             "its current shape"
         )
     return found
-
-
-def _present_rotations(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
-    """Return the stored rotations as quaternions (n,4), turned with what has been transformed."""
-    quaternions = read_attribute(mesh, ROTATION, 4)
-    if quaternions is None:
-        return np.tile(np.array((1, 0, 0, 0), np.float32), (len(mesh.vertices), 1))
-    quaternions[np.square(quaternions).sum(axis=1) < 1e-6] = (1, 0, 0, 0)
-    for part in recognised.parts:
-        if not part.map.is_identity:
-            linear = part.map.linear
-            rotations = matrices_from_quaternions(quaternions[part.rows])
-            U, _, Vt = np.linalg.svd(linear @ rotations @ np.linalg.inv(linear))
-            quaternions[part.rows] = quaternions_from_matrices(U @ Vt)
-    return quaternions

@@ -9,13 +9,14 @@ from ..access.checks import check_writable, mesh_of
 from ..access.note import read_note, write_note
 from ..access.shapes import write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key
+from ..memory.first_original import drop_first, first_shapes, has_first
 from ..memory.original import drop_stored, has_original, has_stored, original_shapes
 from ..preview.end import end_preview
 from .rollback import all_or_nothing
 
 
 def restore(obj: bpy.types.Object) -> None:
-    """Restore the original bits of a mesh and remove all our data from it.
+    """Restore the original bits of a mesh and remove all our data but a first original from it.
 
     If the mesh has been transformed since, as a whole or in parts, so is the original. Edits by
     hand are lost.
@@ -29,6 +30,11 @@ def restore(obj: bpy.types.Object) -> None:
     check_writable(mesh, obj.name)
     end_preview(mesh)
     if not has_original(mesh):
+        if has_first(mesh) and not has_stored(mesh):
+            raise CubicCraftError(
+                f'"{obj.name}" has the shape that it was last cubified from: Restore First brings '
+                "back the first original"
+            )
         if has_traces(mesh):
             how = " so that its original can no longer be determined" if has_stored(mesh) else ""
             raise CubicCraftError(
@@ -41,6 +47,31 @@ def restore(obj: bpy.types.Object) -> None:
     with all_or_nothing(mesh):
         write_shapes(mesh, original)
         drop_stored(mesh)
+        remove_cubic_key(mesh, cubic_key)
+
+
+def restore_first(obj: bpy.types.Object) -> None:
+    """Restore the original that *From Here* has replaced, and remove all our data from the mesh.
+
+    It is transformed as `restore` does. The later originals, which were edited by hand, are lost.
+
+    Raises
+    ------
+    CubicCraftError
+        There is no first original, or a mesh that cannot be written, which is then unchanged.
+    """
+    mesh = mesh_of(obj)
+    check_writable(mesh, obj.name)
+    end_preview(mesh)
+    first = first_shapes(mesh)
+    if first is None:
+        how = "can no longer be determined" if has_first(mesh) else "is the only one"
+        raise CubicCraftError(f'The first original of "{obj.name}" {how}: use Restore')
+    cubic_key = find_cubic_key(mesh)
+    with all_or_nothing(mesh):
+        write_shapes(mesh, first)
+        drop_stored(mesh)
+        drop_first(mesh)
         remove_cubic_key(mesh, cubic_key)
 
 
@@ -68,4 +99,5 @@ def discard_original(mesh: bpy.types.Mesh) -> None:
     end_preview(mesh)
     with all_or_nothing(mesh):
         drop_stored(mesh)
+        drop_first(mesh)
         write_note(mesh, {})

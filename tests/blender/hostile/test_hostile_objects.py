@@ -40,6 +40,8 @@ def test_only_positions_change_and_come_back(case):
     if options["result"] == "NEW_OBJECT":
         made = bpy.context.object
         assert made != obj
+        if obj.hide_get():
+            bpy.ops.cubic_craft.show_source()
         select_only(obj)
         assert differences(before, everything(obj), SETTINGS) == []
         check_positions(position_of(made.data), rest, case)

@@ -6,7 +6,13 @@ import pytest
 from rich_mesh import add_rich_monkey, cubic_like, position_of
 from snapshot import differences, snapshot_mesh, snapshot_object
 
-NAMES = ("cubic_craft_original", "cubic_craft_rotation", "cubic_craft_original.key1")
+NAMES = (
+    "cubic_craft_original",
+    "cubic_craft_rotation",
+    "cubic_craft_original.key1",
+    "cubic_craft_original.strokes",
+    "cubic_craft_first",
+)
 NUMBERED = "cubic_craft_original.001"  # what Blender calls an attribute, ours being there already
 
 

@@ -46,6 +46,15 @@ def restore(_rng):
     yield
 
 
+@action(2)
+def restore_first(_rng):
+    """Go back to what *From Here* has replaced."""
+    if not is_on():
+        return None
+    return call("cubic_craft.restore_first", "INVOKE_DEFAULT")
+    yield
+
+
 @action(1)
 def apply(_rng):
     return call("cubic_craft.apply", "INVOKE_DEFAULT") if is_on() else None
@@ -84,9 +93,6 @@ def handles(rng):
     if name in ("pose", "kind"):
         return _change_handle(name, rng)
     options = {"direction": rng.choice(["UP", "DOWN"])} if name == "move" else {}
-    if name == "pin_selection" and (obj := active_mesh()) and obj.mode == "OBJECT":
-        vertices = obj.data.vertices
-        vertices.foreach_set("select", [rng.random() < 0.2 for _ in vertices])
     return call(f"cubic_craft.handle_{name}", "INVOKE_DEFAULT", **options)
     yield
 
@@ -176,7 +182,7 @@ def change_setting(rng):
             ("symmetry", tuple(rng.random() < 0.4 for _ in range(3))),
             ("floor", rng.random() < 0.5),
             ("hold_rest", rng.random() < 0.5),
-            ("start", rng.choice(["HERE", "ORIGINAL"])),
+            ("start", rng.choice(["HERE", "ORIGINAL", "EDITS"])),
             ("with_modifiers", rng.random() < 0.3),
             ("preset", rng.choice(["Soft", "Cubic", "As_in_the_Paper"])),
             ("device", rng.choice(["AUTO", "NUMPY"])),

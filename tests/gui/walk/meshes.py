@@ -12,6 +12,8 @@ import numpy as np
 NOTE = "cubic_craft_note"
 ORIGINAL = "cubic_craft_original"
 LIVE = "cubic_craft_live"
+STROKES = f"{ORIGINAL}.strokes"
+FIRST = "cubic_craft_first"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,7 +27,8 @@ class MeshState:
     is_finite: bool
     has_preview: bool
     has_traces: bool
-    is_edited: bool  # since a result was written to it; another original may then belong to it
+    is_edited: bool  # a result by hand; another original may then belong to it
+    has_first: bool  # an original that was replaced
 
 
 def read_all():
@@ -46,17 +49,22 @@ def _read(mesh):
         has_preview="live" in note,
         has_traces=bool(note),
         is_edited=_is_edited(data, note),
+        has_first=data.attribute(FIRST) is not None,
     )
 
 
 def _is_edited(data, note):
-    """Return whether the shape, of which a preview may be shown, is none that was written to it."""
+    """Return whether the shape, of which a preview may be shown, has been edited by hand.
+
+    It is then none that was written to it, or one with strokes.
+    """
     shape = data.shape
     if "live" in note:
         before = data.attribute(LIVE)
         shape = shape if before is None else before
     if "mesh" in note:
-        return note["mesh"]["fingerprint"] != _hash(shape)
+        is_written = note["mesh"]["fingerprint"] == _hash(shape)
+        return not is_written or data.attribute(STROKES) is not None
     return "key" in note and note["key"]["base"] != _hash_values(shape)
 
 

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from solver.contacts import overlaps
-from solver.contacts.crossings import crossings
+from solver.contacts.crossings import Watched, crossings
 
 
 def soup(count, size, spread=0.3, seed=0):
@@ -62,6 +62,19 @@ def test_a_folded_surface_has_the_crossings_that_its_edges_have():
 def test_neither_place_nor_size_matter(factor):
     V, F = soup(200, 0.1)
     np.testing.assert_array_equal(crossings(factor * (V + 3.0), F), crossings(V, F))
+
+
+def test_what_is_watched_has_the_crossings_that_a_new_search_finds():
+    V, F = soup(800, 0.05)
+    rng = np.random.default_rng(1)
+    is_moved = rng.random(len(F)) < 0.3
+    watched = Watched(V, F, is_moved, 0.02)
+    moves = rng.uniform(-0.02, 0.02, V.shape) * np.repeat(is_moved, 3)[:, None]
+    found = np.sort(watched.crossings(V + moves), axis=1)
+    expected = crossings(V + moves, F)
+    expected = expected[is_moved[expected].any(axis=1)]
+    assert len(expected) > 50
+    np.testing.assert_array_equal(found[np.lexsort(found.T[::-1])], expected)
 
 
 def test_twice_it_has_the_same_bits_in_any_order_of_the_triangles():

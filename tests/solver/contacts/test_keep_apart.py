@@ -19,6 +19,7 @@ from solver import (
     run,
     stylize,
 )
+from solver.contacts import keep_apart
 from solver.contacts.crossings import crossings
 from solver.proxy import no_links
 
@@ -129,9 +130,10 @@ def test_in_a_round_the_energy_of_the_plain_iteration_falls():
         assert (np.diff(values) <= 1e-9 * values[0]).all()
 
 
-def test_a_round_takes_up_to_half_of_the_first_iterations_or_twenty():
+@pytest.mark.parametrize("first", [8, 60])
+def test_a_round_takes_up_to_a_quarter_of_the_first_iterations_or_ten(first):
     V, F = contact_shapes.hand()
-    limited = Run(stylization(V, F, options=COARSE), max_iterations=10)
+    limited = Run(stylization(V, F, options=COARSE, is_accelerated=False), max_iterations=first)
     counts, state = [], limited.stylization
     while limited.reason is None:
         before = limited.stylization.iteration
@@ -140,10 +142,41 @@ def test_a_round_takes_up_to_half_of_the_first_iterations_or_twenty():
             counts.append(before)
             state = limited.stylization
     counts.append(limited.stylization.iteration)
-    assert counts[0] == 10 and 1 < len(counts) <= 5
-    assert (np.diff(counts) <= 20).all()
+    assert counts[0] == first and 1 < len(counts) <= 5
+    assert (np.diff(counts) <= min(max(first // 4, 10), first)).all()
     result = limited.result()
     assert result.reason == "max_iterations" and result.iterations == limited.iterations
+
+
+def rounds_of(state):
+    """Return the Run to its end, and how many rounds there were."""
+    whole, seen = Run(state), set()
+    whole.complete(lambda now: seen.add(now.setup))
+    return whole, len(seen) - 1
+
+
+def test_a_few_are_pushed_apart_without_a_round(monkeypatch):
+    V, F = contact_shapes.hand(fingers=2, count=3)
+    assert len(F) / 2000 < 1
+    options = {"options": BARE | COARSE}
+    whole, rounds = rounds_of(stylization(V, F, 0.8, **options))
+    assert rounds == 0
+    monkeypatch.setattr(keep_apart, "FEWEST", 0)
+    other, more_rounds = rounds_of(stylization(V, F, 0.8, **options))
+    assert more_rounds > 0
+    U = whole.result().positions
+    assert whole.iterations < other.iterations and len(new_crossings(V, U, F)) == 0
+
+
+def test_there_is_no_round_where_hardly_anything_can_be_linked(monkeypatch):
+    V, F = contact_shapes.hand()
+    state = stylization(V, F, options=COARSE)
+    monkeypatch.setattr(keep_apart, "links_against", lambda *_: no_links())
+    whole, rounds = rounds_of(state)
+    assert rounds == 0
+    result = whole.result()
+    assert result.crossings == len(new_crossings(V, result.positions, F)) > 40
+    assert result.iterations == run(stylization(V, F, apart=False, options=COARSE)).iterations
 
 
 def test_a_run_that_is_cancelled_does_not_look():

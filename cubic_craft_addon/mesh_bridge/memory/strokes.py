@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strokes: what was moved by hand on a result, to be put back onto the next one.
+
+A stroke is the offset of a vertex from the cubic shape, turned back by the rotation of the vertex
+(as the offsets of shape keys are), so that it lies on the original and turns with the next result.
+Those that are in a result are stored with it, and strokes made since are added to them.
+"""
+
+import bpy
+import numpy as np
+
+from ..access.attributes import read_attribute
+from ..access.rounded_for_storage import check_shape
+from .cubic_key import find_cubic_key, key_strokes
+from .original import RESULT, STROKES, Start, has_strokes, read_positions, recognise_result
+from .recognition import Recognised
+
+
+def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
+    """Read the strokes that belong onto the next result.
+
+    Parameters
+    ----------
+    mesh : a mesh without a preview
+    start : what the next result is made from; strokes are kept with "EDITS" only
+
+    Returns
+    -------
+    (n,3) numpy float32 array in object space, on the original as it is now; None if there are none
+    """
+    if start != "EDITS":
+        return None
+    recognised = recognise_result(mesh)
+    if recognised is None:
+        return key_strokes(mesh) if find_cubic_key(mesh) is not None else None
+    if not (recognised.is_edited or has_strokes(mesh)):
+        return None
+    strokes = _earlier(mesh, recognised)
+    if recognised.is_edited:
+        strokes += _since(mesh, recognised)
+    if not strokes.any():
+        return None
+    with np.errstate(over="ignore"):  # infinities are refused when the result is written
+        return strokes.astype(np.float32)
+
+
+def with_strokes(
+    mesh: bpy.types.Mesh, points: np.ndarray, strokes: np.ndarray | None, matrices: np.ndarray
+) -> np.ndarray:
+    """Put strokes onto a result.
+
+    Parameters
+    ----------
+    mesh : the mesh of the result, named in messages
+    points : (n,3) numpy float32 array, the cubic shape
+    strokes : (n,3) numpy float32 array, or None for none
+    matrices : (n,3,3) numpy float64 array, the rotations of the vertices
+
+    Returns
+    -------
+    (n,3) numpy float32 array; the bits of `points` where there are no strokes
+
+    Raises
+    ------
+    CubicCraftError
+        As `check_shape`.
+    """
+    if strokes is None:
+        return points
+    is_moved = strokes.any(axis=1)
+    result = points.copy()
+    with np.errstate(over="ignore"):  # infinities are refused
+        turned = np.einsum("nij,nj->ni", matrices[is_moved], strokes[is_moved].astype(np.float64))
+        result[is_moved] = points[is_moved] + turned
+    check_shape(mesh, result, points.shape, "positions")
+    return result
+
+
+def _earlier(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+    """Return the strokes (n,3) float64 in the result, transformed with the mesh."""
+    stored = read_attribute(mesh, STROKES, 3)
+    strokes = np.zeros((len(mesh.vertices), 3))
+    if stored is None:
+        return strokes
+    for part in recognised.parts:
+        strokes[part.rows] = stored[part.rows].astype(np.float64) @ part.map.linear.T
+    return strokes
+
+
+def _since(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+    """Return the strokes (n,3) float64 made since the result."""
+    present = read_positions(mesh)
+    written = RESULT.written(mesh)
+    assert written is not None  # or it would not have been recognised as edited
+    offset = present.astype(np.float64) - recognised.moved(written, present)
+    for part in recognised.parts:
+        if not part.map.is_identity:  # whose rounding is no stroke
+            is_still = part.map.agrees(written[part.rows], present[part.rows])
+            offset[part.rows] = np.where(is_still[:, None], 0.0, offset[part.rows])
+    return np.einsum("nij,nj->ni", RESULT.ways_back(mesh, recognised), offset)
