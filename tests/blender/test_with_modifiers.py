@@ -155,14 +155,6 @@ def test_what_was_not_written_is_removed(extension):
     assert not bpy.data.objects and len(bpy.data.meshes) == 1
 
 
-def test_live_says_that_it_shows_no_modifiers():
-    obj = add_modifiers(add_monkey())
-    assert bpy.ops.cubic_craft.live.poll()
-    obj.cubic_craft.result, obj.cubic_craft.with_modifiers = "NEW_OBJECT", True
-    assert not bpy.ops.cubic_craft.live.poll()
-    assert bpy.ops.cubic_craft.cubify.poll()
-
-
 def test_the_panel_hints_where_the_mesh_says_little(extension):
     seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.seen")
     obj = add_monkey()
