@@ -26,7 +26,7 @@ CLOTHED = ("Body", "Shirt", "Trousers")
 MAX_DRIFT = 0.01  # of the size, of neighbours of different parts
 MAX_TURN = 1.0  # degrees
 MAX_INSIDE = 0.005  # share of the clothes' vertices that end inside the body
-HEADER_ABOVE = 84  # pixels from the row to the middle of the header; the form is between
+HEADER_ABOVE = 92  # pixels from the row to the middle of the header; the form is between
 
 
 def set_the_stage():
