@@ -46,8 +46,10 @@ test: test-solver test-blender ## All tests that need no window
 test-solver: setup ## The solver, what decides in Live, packages, and the documentation, without Blender
 	$(PY) $(PYTEST) tests/hostile tests/solver tests/live tests/packages tests/docs
 
+# Leaks take minutes to be seen: test-reliability looks for them.
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
-	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender tests/scripts tests/art
+	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) --ignore tests/blender/test_leaks.py \
+		tests/blender tests/scripts tests/art
 
 test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in each run
 	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) $(PY) $(PYTEST) tests/hostile
@@ -66,10 +68,11 @@ $(VENV)-oldest/.done: requirements/*.txt
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
-# What is compared many times over in the mathematics is no other in another Python.
+# What is compared many times over in the mathematics is no other in another Python, and slow.
 test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
 	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" --ignore tests/solver/contacts \
-		$(patsubst %,--ignore tests/solver/test_%.py,auto_orient forms normal_capture sequence) tests/solver
+		--ignore tests/solver/proxy $(patsubst %,--ignore tests/solver/test_%.py,acceleration auto_orient \
+		forms holds moved normal_capture polytope rotation_fit sequence) tests/solver
 
 $(VENV)-py313/.done: requirements/*.txt
 	@test -n "$(PYTHON313)" || \
