@@ -48,6 +48,7 @@ def add_monkey(levels=0, is_refined=False):
     with gui.in_region():
         if bpy.context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.object.hide_view_clear()  # of what a new object has hidden
         bpy.ops.object.select_all(action="SELECT")
         bpy.ops.object.delete()
         bpy.ops.mesh.primitive_monkey_add()

@@ -11,6 +11,7 @@ import numpy as np
 def add_monkeys(*names):
     """Add monkeys in a row, ear in ear, selected, the first one active."""
     with gui.in_region():
+        bpy.ops.object.hide_view_clear()  # of what a new object has hidden
         bpy.ops.object.select_all(action="SELECT")
         bpy.ops.object.delete()
         for number, name in enumerate(names):

@@ -53,7 +53,6 @@ def test_nothing_reads_or_writes_in_edit_mode(bridge, cubify, error, monkey):
         lambda: bridge.original_positions(mesh),
         lambda: bridge.write_mesh(mesh, *result),
         lambda: bridge.write_shape_key(monkey, result[0]),
-        lambda: bridge.write_new_object(monkey, *result),
         lambda: bridge.restore(monkey),
         lambda: bridge.discard_original(mesh),
     ):
