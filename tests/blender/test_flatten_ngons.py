@@ -43,6 +43,7 @@ def test_facets_become_ngons_with_their_uvs():
     # it is a mesh like any other, and the source still has its original
     assert not [a.name for a in made.data.attributes if a.name.startswith("cubic_craft")]
     assert "cubic_craft_note" not in made.data and made.cubic_craft.status == ""
+    assert obj.hide_get() and bpy.ops.cubic_craft.show_source() == {"FINISHED"}
     select(obj)
     assert bpy.ops.cubic_craft.restore.poll()
 
@@ -86,6 +87,7 @@ def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
     assert made.data.shape_keys is None and obj.data.shape_keys is not None
     assert len([face for face in made.data.polygons if len(face.vertices) > 20]) == 6
     assert planar_share(made) > PLANAR
+    bpy.ops.cubic_craft.show_source()
     select(obj)
     obj.shape_key_add(name="Smile", from_mix=False)
     cubify(result="MESH")

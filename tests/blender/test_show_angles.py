@@ -173,6 +173,7 @@ def test_the_angles_follow_an_edit_through_another_object(angles_now):
 def test_the_angles_follow_the_form_and_its_orientation(angles_now):
     obj = add_monkey()
     frame = add_empty("Frame")
+    frame.rotation_euler.y = 0.2
 
     def is_new(name, value):
         before = angles_now(obj)
