@@ -141,7 +141,7 @@ def process_from_other_settings(folder, original):
     yield from gui.wait_until(lambda: chosen.process_from is not None, what="the object")
     assert chosen.process_from.name == "A Model"
     yield from gui.click((yield from gui.find_button("cubic_craft.bake_process")))
-    path = folder / f"{scene.NAME}_process.pc2"
+    path = folder / f"{scene.NAME}.process.pc2"
     yield from gui.wait_until(lambda: is_over() and path.exists(), what="the process", timeout=300)
     bpy.context.scene.frame_set(1)
     yield from gui.wait_redraw()

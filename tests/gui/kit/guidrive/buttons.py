@@ -102,6 +102,10 @@ def _look_at(place, matches, region_type, area_type):
         texts.append((yield from _hover(*button.at(across), region_type, area_type)))
         if not matches(texts[-1]):
             return None
+    x = button.at()[0]
+    for y in (button.bottom - 3, button.top + 3):  # or the panel has moved by some pixels
+        if (yield from _hover(x, y, region_type, area_type)) == texts[0]:
+            return None
     return Button(texts[0], *edges)
 
 
