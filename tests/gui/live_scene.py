@@ -48,9 +48,7 @@ def add_monkey(levels=0, is_refined=False):
     with gui.in_region():
         if bpy.context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.ops.object.hide_view_clear()  # of what a new object has hidden
-        bpy.ops.object.select_all(action="SELECT")
-        bpy.ops.object.delete()
+        bpy.data.batch_remove(bpy.data.objects[:])  # also what a new object has hidden
         bpy.ops.mesh.primitive_monkey_add()
         if levels:
             bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = levels

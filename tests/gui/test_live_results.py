@@ -11,9 +11,7 @@ import numpy as np
 def add_monkeys(*names):
     """Add monkeys in a row, ear in ear, selected, the first one active."""
     with gui.in_region():
-        bpy.ops.object.hide_view_clear()  # of what a new object has hidden
-        bpy.ops.object.select_all(action="SELECT")
-        bpy.ops.object.delete()
+        bpy.data.batch_remove(bpy.data.objects[:])  # also what a new object has hidden
         for number, name in enumerate(names):
             bpy.ops.mesh.primitive_monkey_add(location=(2.5 * number, 0, 0))
             bpy.context.object.name = bpy.context.object.data.name = name
