@@ -199,8 +199,8 @@ def choose_preset(name):
     """Open the pictures of the presets by the one that is shown, and choose one by the keys."""
     files = importlib.import_module(f"{scene.EXTENSION}.cubic_craft_addon.presets.files")
     number = [preset.identifier for preset in files.presets()].index(name)
-    save = yield from gui.find_button("cubic_craft.preset_add")
-    yield from gui.click((round(save.left - 45 * SCALE), save.at()[1]))
+    beside = yield from gui.find_button("cubic_craft.reset")
+    yield from gui.click((round(beside.left - 45 * SCALE), beside.at()[1]))
     yield 1.0
     save_screen(f"{name}.png")
     yield from gui.keys(*["DOWN_ARROW"] * (number + 1), "RET")
