@@ -68,8 +68,9 @@ $(VENV)-oldest/.done: requirements/*.txt
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
-# What is compared many times over in the mathematics is no other in another Python, and slow.
-test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
+# What is compared many times over in the mathematics is no other in another Python, and slow. With
+# Quadrants in place of Taichi: Taichi runs in all other environments, and on this Python in a window.
+test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2 and Quadrants
 	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" --ignore tests/solver/contacts \
 		--ignore tests/solver/proxy $(patsubst %,--ignore tests/solver/test_%.py,acceleration auto_orient \
 		forms holds moved normal_capture polytope rotation_fit sequence) tests/solver
@@ -78,7 +79,9 @@ $(VENV)-py313/.done: requirements/*.txt
 	@test -n "$(PYTHON313)" || \
 		{ echo "no Python 3.13 found; set it: make PYTHON313=path"; exit 1; }
 	$(PYTHON313) -m venv $(VENV)-py313
-	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2"
+	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2" \
+		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
+	$(VENV)-py313/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
 
 has-py313:

@@ -9,7 +9,7 @@ _problem = _told = ""
 def look_at_taichi() -> None:
     """Look whether Taichi works, once a run has tried it."""
     global _problem
-    _problem = solver.problem_with_taichi()
+    _problem = solver.problem_with_engine()
 
 
 def taichi_note() -> str:

@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from . import taichi_runtime
-
 
 class TaichiCycle:
     """One V-cycle on vectors with four coordinates, of which the last is not used.
@@ -87,7 +85,6 @@ def _stacked(matrices, columns, before=()):
 
 @cache
 def _kernel(level_count) -> Any:
-    taichi_runtime.import_taichi()
     from .taichi_cycle_kernels import make_cycle
 
     return make_cycle(level_count)
