@@ -9,10 +9,9 @@ import contextlib
 import os
 import sys
 from functools import cache
-from importlib import import_module
 from typing import Any
 
-from .engine_choice import engine
+from .engine_choice import TAICHI, engine
 from .engine_lock import alone
 from .quick_compilation import quick_module_search
 
@@ -29,7 +28,11 @@ def import_engine() -> Any:
     So the flag is filtered out for the time of the import.
     """
     with environment(engine().greeting, "False"), _without_deepbind(), quick_module_search():
-        return import_module(engine().package)
+        if engine() is TAICHI:
+            import taichi as imported
+        else:
+            import quadrants as imported  # pyright: ignore[reportMissingImports]
+    return imported
 
 
 def __getattr__(name):

@@ -56,4 +56,4 @@ def test_one_file_imports_the_engine():
     statement = re.compile(r"^\s*(import|from) (taichi|quadrants)\b", re.MULTILINE)
     rooms = ("solver", "cubic_craft_addon", "operators", "library")
     files = [path for room in rooms for path in (ROOT / room).rglob("*.py")]
-    assert [path.name for path in files if statement.search(path.read_text())] == []
+    assert [path.name for path in files if statement.search(path.read_text())] == ["engine.py"]
