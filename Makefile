@@ -119,7 +119,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
 
 test-package-gui: package ## Packages and repository in real Blender windows
-	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages $(ZIP)
+	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(PYTHON) -m venv $(VENV)-bare-$*
@@ -167,7 +167,7 @@ test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, i
 	$(call test_library,oldest,$(PYTHON),oldest,,--ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
 
-lock: setup ## Choose the wheels of the packages anew: requirements/wheels.lock
+lock: setup ## Choose the wheels of the packages anew: requirements/wheels*.lock
 	$(PY) scripts/package lock
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md
