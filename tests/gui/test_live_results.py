@@ -166,10 +166,11 @@ def with_keys():
     yield from scene.end_by("RET")
     confirmed = key_points(bpy.data.objects[scene.NAME])
     assert bpy.data.objects[scene.NAME].data.shape_keys.key_blocks["Smile"].value > 0.69
+    cubeness = scene.settings().cubeness  # Live has gone on where it was cancelled
     yield from gui.undo()
     assert key_points(bpy.data.objects[scene.NAME]) == before
     with gui.in_region():
-        bpy.ops.cubic_craft.cubify()
+        bpy.ops.cubic_craft.cubify(cubeness=cubeness)
     assert key_points(bpy.data.objects[scene.NAME]) == confirmed
 
 

@@ -9,6 +9,7 @@ from .screen import Button, area, in_region, region
 from .waiting import wait_redraw, wait_until
 
 SCAN_STEP = 12  # pixels; a row of buttons is 20 high
+_CUT_OFF = 8  # pixels; what is lower is cut off by the edge of the region, and is scrolled to
 
 _passed = {}  # text of a button: region, a point on it, how far the region was scrolled then
 
@@ -95,6 +96,8 @@ def _look_at(place, matches, region_type, area_type):
     """Return the Button at a place where it was before; None if it is not there, or narrower."""
     *edges, height = place
     button = Button("", *edges)
+    if button.top - button.bottom < _CUT_OFF:
+        return None
     if not (yield from _scroll_to(height, region_type, area_type)):
         return None
     texts = []
@@ -151,7 +154,8 @@ def _scan(matches, met, region_type, area_type, thorough):
                 height = _scrolled(region_type, area_type)
                 _passed[text] = ((region_type, area_type), x, y, height)
             if matches(text):
-                return (yield from _measure(text, x, y, region_type, area_type))
+                button = yield from _measure(text, x, y, region_type, area_type)
+                return button if button.top - button.bottom >= _CUT_OFF else None
             if x == columns[0]:
                 is_new_row, last = text not in ("", last), text
                 if not (is_new_row or thorough):
