@@ -18,6 +18,7 @@ from .ui import (
     panel,
     preferences,
     regions_panel,
+    worn,
 )
 
 _modules = (
@@ -42,6 +43,7 @@ _modules = (
     menus,
     header,
     edited,
+    worn,
     group_renames,
     object_cache,
 )

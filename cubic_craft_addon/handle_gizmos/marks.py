@@ -2,14 +2,11 @@
 """Rings where the handles of the active mesh are, while Live, which has dots there, does not run.
 
 They are in the middle of the vertices as these are seen now; a pose that Cubify has still to make
-does not move them. Reading vertex groups takes too long for each redraw, so the middles are kept
-until Blender reports that the mesh has changed, and found anew as soon as nothing is drawn for a
-moment. Until then there are no rings rather than rings in the wrong place.
+does not move them. They are kept until Blender reports that the mesh has changed.
 """
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 import bpy
@@ -28,16 +25,12 @@ from ..handles.owner import panel_object
 from ..handles.pose import live_target, object_handles
 from ..object_properties import object_properties
 from ..screen import glimpse
+from ..screen.found_later import FoundLater
 
-_PAUSE = 0.2  # seconds
-_MOST = 2  # objects of which middles are kept: windows may show different scenes
 _RADIUS, _WIDTH = 8.0, 2.0  # pixels at scale 1: those of the dots in Live
 _SEGMENTS = 24
 _COLOR, _ACTIVE_COLOR = (1.0, 1.0, 1.0, 0.7), (1.0, 0.6, 0.15, 1.0)
 
-_known: dict[int, tuple[tuple, dict[int, np.ndarray]]] = {}
-"""what the middles depend on besides the mesh, and the middles, by ``session_uid`` of the object"""
-_waiting: Any = None
 _drawer: Any = None
 
 
@@ -72,33 +65,13 @@ def middles_of(obj: bpy.types.Object) -> dict[int, np.ndarray]:
     return found
 
 
-def middles_now(obj: bpy.types.Object) -> dict[int, np.ndarray]:
-    """Return what is known of them, and let the rest be found soon."""
-    global _waiting
-    known = _known.get(obj.session_uid)
-    if known is not None and known[0] == _key_of(obj):
-        return known[1]
-    _stop_waiting()
-    _waiting = partial(find, obj.session_uid)
-    bpy.app.timers.register(_waiting, first_interval=_PAUSE)
-    return {}
-
-
-def find(uid: int) -> None:
-    """Find the middles of an object, if they can be."""
-    obj = next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
-    if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
-        return
-    _known.pop(uid, None)
-    while len(_known) >= _MOST:
-        del _known[next(iter(_known))]
-    _known[uid] = _key_of(obj), middles_of(obj)
-    glimpse.redraw_views()
-
-
 def _key_of(obj):
     handles = object_properties(obj).handles
-    return tuple((each.group, each.threshold, live_target(each) is None) for each in handles)
+    held = tuple((each.group, each.threshold, live_target(each) is None) for each in handles)
+    return obj.mode, held
+
+
+middles = FoundLater(middles_of, _key_of, glimpse.redraw_views)
 
 
 def _draw():
@@ -106,8 +79,8 @@ def _draw():
     obj = marked_object(context)
     if obj is None or not object_properties(obj).handles:
         return
-    middles = middles_now(obj)
-    if not middles:
+    found = middles.now(obj)
+    if not found:
         return
     scale = context.preferences.system.ui_scale
     turns = np.linspace(0.0, 2 * np.pi, _SEGMENTS + 1)
@@ -117,7 +90,7 @@ def _draw():
     gpu.state.blend_set("ALPHA")
     shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
     shader.uniform_float("lineWidth", _WIDTH * scale)
-    for number, middle in middles.items():
+    for number, middle in found.items():
         place = location_3d_to_region_2d(
             context.region, context.region_data, obj.matrix_world @ Vector(middle)
         )
@@ -129,34 +102,27 @@ def _draw():
     gpu.state.blend_set("NONE")
 
 
-def _stop_waiting():
-    global _waiting
-    if _waiting is not None and bpy.app.timers.is_registered(_waiting):
-        bpy.app.timers.unregister(_waiting)
-    _waiting = None
-
-
 @persistent
 def _on_update(_scene, depsgraph):
-    if not _known:
+    if middles.is_empty:
         return
     for update in depsgraph.updates:
         data = update.id.original
         if isinstance(data, bpy.types.Object) and update.is_updated_geometry:
-            _known.pop(data.session_uid, None)  # also if only one of its modifiers has changed
+            middles.has_changed(data.session_uid)  # also if only one of its modifiers has changed
 
 
 @persistent
-def _forget(*_):
-    _known.clear()
+def _on_other_data(*_):
+    middles.forget()
 
 
 _HANDLERS = (
     ("depsgraph_update_post", _on_update),
     ("frame_change_post", _on_update),
-    ("undo_post", _forget),
-    ("redo_post", _forget),
-    ("load_post", _forget),
+    ("undo_post", _on_other_data),
+    ("redo_post", _on_other_data),
+    ("load_post", _on_other_data),
 )
 
 
@@ -173,5 +139,4 @@ def unregister():
     bpy.types.SpaceView3D.draw_handler_remove(_drawer, "WINDOW")
     _drawer = None
     handlers.remove(_HANDLERS)
-    _stop_waiting()
-    _known.clear()
+    middles.forget()

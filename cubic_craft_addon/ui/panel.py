@@ -28,6 +28,7 @@ from . import (
     seen,
     send_panel,
     status_panel,
+    worn,
 )
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
@@ -101,6 +102,7 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
+    worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)
 

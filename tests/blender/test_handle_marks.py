@@ -9,15 +9,14 @@ import pytest
 from mathutils import Matrix
 from posing import LEFT, RIGHT, add_posable, follow, pin
 from rich_mesh import position_of
-from scene import add_monkey, cubify, select
+from scene import add_monkey, cubify
 
 
 @pytest.fixture
 def marks(part):
     module = part("handle_gizmos.marks")
     yield module
-    module._stop_waiting()
-    module._known.clear()
+    module.middles.forget()
 
 
 def middle(points):
@@ -83,19 +82,19 @@ def test_what_follows_an_object_is_marked_by_that(marks):
 def test_they_are_found_after_a_pause_and_forgotten_when_the_mesh_changes(marks):
     obj, _, _ = add_posable()
     pin(obj, LEFT)
-    assert marks.middles_now(obj) == {}
-    assert bpy.app.timers.is_registered(marks._waiting)
-    marks.find(obj.session_uid)
-    np.testing.assert_array_equal(marks.middles_now(obj)[0], marks.middles_of(obj)[0])
+    assert marks.middles.now(obj) is None
+    assert marks.middles.is_waiting
+    marks.middles.find(obj.session_uid)
+    np.testing.assert_array_equal(marks.middles.now(obj)[0], marks.middles_of(obj)[0])
     obj.location.x += 1
     bpy.context.view_layer.update()
-    assert marks.middles_now(obj), "they are in object space"
+    assert marks.middles.now(obj), "they are in object space"
     cubify(max_iterations=2)
-    assert marks.middles_now(obj) == {}
-    marks.find(obj.session_uid)
-    assert marks.middles_now(obj)
+    assert marks.middles.now(obj) is None
+    marks.middles.find(obj.session_uid)
+    assert marks.middles.now(obj)
     pin(obj, RIGHT)
-    assert marks.middles_now(obj) == {}, "the list is another one"
+    assert marks.middles.now(obj) is None, "the list is another one"
 
 
 def test_they_are_there_only_in_object_mode_without_live(is_marked, begin, live):
@@ -116,13 +115,9 @@ def test_they_are_there_only_in_object_mode_without_live(is_marked, begin, live)
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_nothing_is_found_of_what_is_gone_or_edited(marks):
+def test_nothing_is_found_of_what_is_gone(marks):
     obj = add_monkey()
     uid = obj.session_uid
-    select(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    marks.find(uid)
-    bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
-    marks.find(uid)
-    assert not marks._known
+    marks.middles.find(uid)
+    assert marks.middles.is_empty
