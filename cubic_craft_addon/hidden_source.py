@@ -66,6 +66,17 @@ def as_it_was(source: bpy.types.Object) -> Callable[[], None]:
     return put_back
 
 
+@contextlib.contextmanager
+def source_kept(source: bpy.types.Object | None) -> Iterator[None]:
+    """Show a source, if there is one, as it was before if the block raises."""
+    put_back = (lambda: None) if source is None else as_it_was(source)
+    try:
+        yield
+    except BaseException:
+        put_back()
+        raise
+
+
 def hidden_source(obj: bpy.types.Object) -> bpy.types.Object | None:
     """Return the object that is hidden behind this one, or itself if it is hidden in renders only.
 

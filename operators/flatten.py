@@ -82,17 +82,12 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
 
 
 def _write_ngons(obj, facets):
-    put_back = hidden_source.as_it_was(obj)
-
     def finish(new):
         hidden_source.hide(obj, new)
         mesh_bridge.write_reshaped(obj, facets.positions)
 
-    try:
+    with hidden_source.source_kept(obj):
         mesh_bridge.write_ngons(obj, facets.positions, facets.facet_of, finish)
-    except BaseException:
-        put_back()
-        raise
 
 
 def _poll_results(operator_class, context):

@@ -370,7 +370,7 @@ class Bake:
             self._works.clear()
         for one in self._made:
             try:
-                mesh_bridge.remove_seen(one.new)
+                mesh_bridge.remove_copy(one.new)
             except ReferenceError:
                 continue
         self._made.clear()

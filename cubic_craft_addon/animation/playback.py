@@ -65,7 +65,7 @@ def shown(
             with _mesh_exchanged(baked, mesh):
                 yield baked
     except BaseException:
-        mesh_bridge.remove_seen(new)
+        mesh_bridge.remove_copy(new)
         for obj in selected:
             obj.select_set(True)
         view_layer.objects.active = active

@@ -3,7 +3,10 @@
 
 import bpy
 
-_MODES = ("OBJECT", "PAINT_WEIGHT")  # in the latter the cubeness map is painted
+MODES = ("OBJECT", "WEIGHT_PAINT")
+"""those of objects in which meshes can be read and written; the cubeness map is painted"""
+
+_MODES = ("OBJECT", "PAINT_WEIGHT")  # what a context calls the same
 
 MESSAGE = "Switch to Object Mode first"
 """message in any other mode"""

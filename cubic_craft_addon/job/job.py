@@ -15,6 +15,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
 from ..run.assembly import assemblies
 from ..run.failures import UNEXPECTED
@@ -27,7 +28,6 @@ from ..settings.rollback import settings_kept, settings_untouched
 _log = logging.getLogger(__name__)
 
 _LONG_SETUP = 15_000  # vertices; larger meshes take noticeable time to factorise
-_MODES = ("OBJECT", "WEIGHT_PAINT")
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Job:
             except ReferenceError:
                 continue
             if not is_written:
-                mesh_bridge.remove_seen(new)
+                mesh_bridge.remove_copy(new)
         self._made.clear()
 
     def steps(self) -> Generator[Step]:
@@ -142,7 +142,7 @@ class Job:
                     task.obj.name  # noqa: B018 - raises where Blender has removed it
                 elif task.obj.data != task.mesh or not task.obj.users_scene:
                     return "an object was deleted or assigned another mesh"
-                if task.obj.mode not in _MODES:
+                if task.obj.mode not in MODES:
                     return f'"{task.obj.name}" is being edited'
             except ReferenceError:
                 return "an object was deleted"

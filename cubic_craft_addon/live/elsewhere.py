@@ -7,12 +7,10 @@ from typing import Any
 
 import bpy
 
+from ..environment.modes import MODES
 from ..object_properties import has_properties, object_properties
 from ..settings.overrides import POINTERS
 from . import properties
-
-MODES = ("OBJECT", "WEIGHT_PAINT")
-"""those in which meshes can be written"""
 
 
 def place_of(context: bpy.types.Context) -> tuple[int | None, int | None]:

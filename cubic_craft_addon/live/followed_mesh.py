@@ -175,7 +175,7 @@ class FollowedMesh(LiveMesh):
         values = {**values, "result": "MESH", "with_modifiers": False}
         run = self.run
         if run is not None and not self._is_stale and run.moment not in (None, self._shown_moment):
-            if self._follower.is_outdated or not self._fits(obj):
+            if not self._fits(obj):
                 self._follower.renew(obj)
                 super().begin_preview(obj)
             self._solved, self._is_carried = None, False

@@ -37,8 +37,6 @@ class Follower:
     ----------
     mesh_uid : int
         ``session_uid`` of its mesh, 0 for none.
-    is_outdated : bool
-        Whether the original has got other faces, groups or materials since its mesh was copied.
     """
 
     def __init__(self, *, is_as_seen: bool):
@@ -46,7 +44,6 @@ class Follower:
         self._uid = self.mesh_uid = 0
         self._name = ""
         self._place: _Place | None = None
-        self.is_outdated = False
 
     def find(self) -> bpy.types.Object | None:
         """Return the object, None if it is gone."""
@@ -70,7 +67,7 @@ class Follower:
             mesh.name, new.name = f"{own.name} Cubic", f"{source.name} Cubic"
         new[_MARK] = str(new.session_uid)
         mesh_bridge.link_beside(source, new)
-        self._uid, self.mesh_uid, self.is_outdated = new.session_uid, mesh.session_uid, False
+        self._uid, self.mesh_uid = new.session_uid, mesh.session_uid
         self._name = new.name
         place = self._place
         if place is None:
@@ -102,7 +99,7 @@ class Follower:
         name = before.name
         bpy.data.meshes.remove(before)
         mesh.name = name
-        self.mesh_uid, self.is_outdated = mesh.session_uid, False
+        self.mesh_uid = mesh.session_uid
 
     def remove(self) -> None:
         """Remove the object, and remember its place."""
@@ -117,8 +114,7 @@ class Follower:
         """Put a result where the follower was."""
         if self._place is not None:
             obj.matrix_basis = self._place.basis
-        if _MARK in obj:
-            del obj[_MARK]
+        release(obj)
 
 
 def remove_left() -> None:

@@ -38,18 +38,12 @@ def write_for_file(
             write_task(overrides, task, task.run)
             stack.callback(put_back)
             if task.written is not None and task.written != task.obj:
-                stack.callback(_remove, task.written)
+                stack.callback(mesh_bridge.remove_copy, task.written)
         return stack.pop_all()
 
 
 def _loses_key(task):
     return task.settings.result == "MESH" and mesh_bridge.find_cubic_key(task.mesh) is not None
-
-
-def _remove(obj):
-    mesh = obj.data
-    bpy.data.objects.remove(obj)
-    bpy.data.meshes.remove(mesh)
 
 
 @contextlib.contextmanager

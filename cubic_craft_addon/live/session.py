@@ -13,6 +13,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
 from ..run.assembly import assemblies
@@ -95,10 +96,7 @@ class Session:
         self._plan(objects)
         seen = set()
         for task in self._tasks.values():
-            if task.is_followed:
-                self.meshes.append(FollowedMesh(task))
-            else:
-                self.meshes.append(LiveMesh(task, is_shown=task.mesh not in seen))
+            self.meshes.append(_mesh_for(task, seen))
             seen.add(task.mesh)
         self._restart_changed()
         if not self._runs.is_working:
@@ -266,7 +264,7 @@ class Session:
         followers = [obj for mesh in self.meshes if (obj := mesh.follower()) is not None]
         if not self.meshes:
             self.on(Event.LOST)
-        elif not followers and any(obj.mode not in elsewhere.MODES for obj in objects.values()):
+        elif not followers and any(obj.mode not in MODES for obj in objects.values()):
             self.on(Event.MODE_LEFT)
         elif elsewhere.is_another_mesh_active([*objects.values(), *followers]):
             self.on(Event.SELECTED)
@@ -337,7 +335,7 @@ class Session:
         Where they cannot, all is read anew when Blender reports a change of the mesh.
         """
         return not any(
-            task.is_followed_as_seen or (task.is_followed and task.obj.mode not in elsewhere.MODES)
+            task.is_followed_as_seen or (task.is_followed and task.obj.mode not in MODES)
             for task in self._tasks.values()
         )
 
@@ -361,17 +359,15 @@ class Session:
         """Show results on followers, or on the objects themselves, as the setting is now."""
         seen = set()
         for mesh, task in self._pairs():
-            is_first = task.mesh not in seen
+            may_be_written = task.is_followed or task.obj.mode in MODES
+            if may_be_written and not mesh.suits(task):  # else the next tick ends it
+                mesh_bridge.end_preview(task.mesh)
+                mesh.put_back()
+                other = _mesh_for(task, seen)
+                other.take_over(mesh)
+                self.meshes[self.meshes.index(mesh)] = other
+                other.begin_preview(task.obj)
             seen.add(task.mesh)
-            may_be_written = task.is_followed or task.obj.mode in elsewhere.MODES
-            if mesh.suits(task) or not may_be_written:
-                continue  # the next tick ends it
-            mesh_bridge.end_preview(task.mesh)
-            mesh.put_back()
-            other = FollowedMesh(task) if task.is_followed else LiveMesh(task, is_shown=is_first)
-            other.take_over(mesh)
-            self.meshes[self.meshes.index(mesh)] = other
-            other.begin_preview(task.obj)
 
     def _is_changed_at_rest(self, objects):
         """Check a last time: the confirmed shape must match the settings.
@@ -396,7 +392,7 @@ class Session:
         """Continue with meshes after an undo or redo, which may have another shape now."""
         self._put_back()
         self._plan(list(self._objects(bpy.context).values()))
-        is_left = any(task.obj.mode not in elsewhere.MODES for task in self._tasks.values())
+        is_left = any(task.obj.mode not in MODES for task in self._tasks.values())
         if is_left and not self.is_following:
             return  # the next tick ends it
         for mesh, task in self._pairs():
@@ -545,6 +541,11 @@ class Session:
         """Return each mesh that has a task, with the task."""
         tasks = [(mesh, self._tasks.get(mesh.object_uid)) for mesh in self.meshes]
         return [(mesh, task) for mesh, task in tasks if task is not None]
+
+
+def _mesh_for(task, seen):
+    """Return what shows the result of a task, on a mesh only once: `seen` are those of others."""
+    return FollowedMesh(task) if task.is_followed else LiveMesh(task, task.mesh not in seen)
 
 
 _METHODS = {

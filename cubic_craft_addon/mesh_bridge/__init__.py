@@ -10,6 +10,7 @@ first original is removed by Apply and *Restore First*).
 from .access.any_mode import flush, glance, in_no_mode
 from .access.carried import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
+from .access.copies import remove_copy
 from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
@@ -34,12 +35,12 @@ from .result.cover import Look, cover_problem, covers, distance, is_still
 from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
 from .result.ngons import write_ngons
-from .result.plain_copy import plain_copy, remove_copy
+from .result.plain_copy import plain_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import mesh_untouched
-from .result.seen import KINDS, as_seen, make_seen, move_seen, remove_seen, show_seen, write_seen
+from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
 
 __all__ = (
     "KINDS",
@@ -89,7 +90,6 @@ __all__ = (
     "read_positions",
     "read_selected_faces",
     "remove_copy",
-    "remove_seen",
     "restore",
     "restore_first",
     "result_positions",

@@ -252,7 +252,6 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
     """
     assert task.solution is not None
     source = task.source if task.is_seen else task.obj
-    put_back = (lambda: None) if source is None else hidden_source.as_it_was(source)
 
     def remember(target):
         keep_poses(target, overrides.poses.get(task.uid, {}))
@@ -264,27 +263,15 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         if source is not None and target != source and not task.is_followed:
             hidden_source.hide(source, target)
 
-    solution = task.solution
-    try:
-        if task.is_followed_as_seen:
+    solution, note = task.solution, asdict(run)
+    with hidden_source.source_kept(source):
+        if task.is_seen or task.is_followed_as_seen:
+            new = task.obj if task.is_seen else mesh_bridge.make_seen(task.obj)
             task.written = mesh_bridge.write_seen(
-                mesh_bridge.make_seen(task.obj),
-                task.obj,
-                solution.positions,
-                solution.rotations,
-                remember,
-                asdict(run),
+                new, source, solution.positions, solution.rotations, remember, note
             )
-            return
-        if task.is_seen:
-            task.written = mesh_bridge.write_seen(
-                task.obj, source, solution.positions, solution.rotations, remember, asdict(run)
-            )
-            return
-        with settings_kept([task.mesh]):
-            task.written = pipeline.write(
-                task.obj, solution, task.settings.result, remember, asdict(run)
-            )
-    except BaseException:
-        put_back()
-        raise
+        else:
+            with settings_kept([task.mesh]):
+                task.written = pipeline.write(
+                    task.obj, solution, task.settings.result, remember, note
+                )

@@ -11,6 +11,7 @@ from bpy.app.handlers import persistent
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
 from ..environment import handlers
+from ..environment.modes import MODES
 from ..object_properties import object_properties
 from ..screen.text_fit import room_for_text, wrapped
 
@@ -27,7 +28,7 @@ _known: dict[int, dict[str, bool]] = {}
 
 def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer what to start from if the mesh of the object was edited; nothing while Live runs."""
-    if live.current() is not None or obj.mode not in ("OBJECT", "WEIGHT_PAINT"):
+    if live.current() is not None or obj.mode not in MODES:
         return
     mesh = mesh_bridge.mesh_of(obj)
     if is_lost(mesh):

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live with New Object: the original is worked on, and a follower shows what becomes of it."""
 
-import time
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from live_steps import STEPS, add_monkey, bits, check_gone, confirm
+from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest
 from scene import edit_mode, select
 from snapshot import differences, snapshot_mesh
 
@@ -23,17 +21,13 @@ def follow(live, begin, monkeypatch):
     return start
 
 
-def settle(session):
-    """Tick until the exact shape is there, which begins after a pause."""
-    bpy.context.view_layer.update()
-    for _ in range(STEPS):
-        session.tick(bpy.context)
-        bpy.context.view_layer.update()
-        if session.is_ended or session._timer is None:
-            return session
-        if not session._runs.is_working:
-            time.sleep(0.005)
-    raise AssertionError("Live does not come to rest")
+def check_asleep_in_all_modes(session):
+    for mode in ("EDIT", "SCULPT", "OBJECT"):
+        bpy.ops.object.mode_set(mode=mode)
+        tick_to_rest(session)
+        for _ in range(3):
+            bpy.context.view_layer.update()
+            assert session._timer is None, f"woken in {mode}"
 
 
 def follower_of(obj):
@@ -64,7 +58,7 @@ def check_same_as_new_object(obj, result):
 def test_the_original_is_not_touched_and_the_follower_shows_the_result(live, follow):
     obj = add_monkey()
     before = snapshot_mesh(obj.data)
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     follower = follower_of(obj)
     assert not differences(before, snapshot_mesh(obj.data))
     assert bits(follower) != bits(obj)
@@ -79,10 +73,10 @@ def test_the_original_is_not_touched_and_the_follower_shows_the_result(live, fol
 @pytest.mark.parametrize("mode", ["OBJECT", "WEIGHT_PAINT", "EDIT", "SCULPT"])
 def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, mode):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     shown = bits(follower_of(obj))
     bpy.ops.object.mode_set(mode=mode)
-    settle(session)
+    tick_to_rest(session)
     assert not session.is_ended and obj.mode == mode
     if mode == "EDIT":
         bm = bmesh.from_edit_mesh(obj.data)
@@ -96,7 +90,7 @@ def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, m
         bpy.context.view_layer.update()
     session.tick(bpy.context)
     assert bits(follower_of(obj)) != shown, "not seen within one tick"
-    settle(session)
+    tick_to_rest(session)
     confirm(live, session)
     assert obj.mode == mode
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -105,45 +99,40 @@ def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, m
 
 def test_other_faces_are_followed(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     with edit_mode(obj):
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.subdivide()
-        settle(session)
+        tick_to_rest(session)
         assert len(follower_of(obj).data.vertices) > 1500
-    settle(session)
+    tick_to_rest(session)
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
 
 
 def test_while_it_waits_the_status_says_that_it_follows(follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     assert session.meshes[0].status[0][-1] == "Converged"
     stroke(obj)
     session.tick(bpy.context)
     assert session.meshes[0].status[0][-1] == "Following"
-    settle(session)
+    tick_to_rest(session)
     assert session.meshes[0].status[0][-1] == "Converged"
 
 
 def test_what_live_writes_does_not_wake_it(follow):
     obj = add_monkey()
-    session = settle(follow(obj))
-    for mode in ("EDIT", "SCULPT", "OBJECT"):
-        bpy.ops.object.mode_set(mode=mode)
-        settle(session)
-        for _ in range(3):
-            bpy.context.view_layer.update()
-        assert session._timer is None, f"woken in {mode}"
+    session = tick_to_rest(follow(obj))
+    check_asleep_in_all_modes(session)
     follower_of(obj).location.z += 1.0
-    settle(session)
+    tick_to_rest(session)
     assert session._timer is None and not session.is_ended
 
 
 def test_confirming_does_not_wait_for_a_pause_and_keeps_the_place(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     follower_of(obj).location = (5.0, 1.0, 2.0)
     stroke(obj)
     confirm(live, session)
@@ -157,11 +146,11 @@ def test_confirming_does_not_wait_for_a_pause_and_keeps_the_place(live, follow):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
 def test_cancelling_removes_the_follower_and_keeps_the_strokes(live, follow, mode):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     moved = stroke(obj)
-    settle(session)
+    tick_to_rest(session)
     bpy.ops.object.mode_set(mode=mode)
-    settle(session)
+    tick_to_rest(session)
     session.on(live.Event.CANCEL)
     bpy.ops.object.mode_set(mode="OBJECT")
     assert [o.name for o in bpy.data.objects] == [obj.name] and len(bpy.data.meshes) == 1
@@ -171,11 +160,11 @@ def test_cancelling_removes_the_follower_and_keeps_the_strokes(live, follow, mod
 
 def test_without_the_original_the_follower_stays_as_a_result(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     original, follower = bits(obj), follower_of(obj)
     shown = bits(follower)
     bpy.data.objects.remove(obj)
-    settle(session)
+    tick_to_rest(session)
     assert session.is_ended and not session.error and "gone" in session.end_message
     check_gone(live)
     assert bits(follower) == shown
@@ -186,11 +175,11 @@ def test_without_the_original_the_follower_stays_as_a_result(live, follow):
 
 def test_without_the_follower_it_ends(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     bpy.data.objects.remove(follower_of(obj))
     bpy.context.view_layer.update()
     session.wake()
-    settle(session)
+    tick_to_rest(session)
     assert session.is_ended and not session.error
     check_gone(live)
     assert [o.name for o in bpy.data.objects] == [obj.name]
@@ -200,10 +189,10 @@ def test_without_the_follower_it_ends(live, follow):
 def test_where_it_is_written_can_be_changed_meanwhile(live, begin, first):
     obj = add_monkey()
     before = bits(obj)
-    session = settle(begin(obj, result=first, cubeness=0.5))
+    session = tick_to_rest(begin(obj, result=first, cubeness=0.5))
     other = "MESH" if first == "NEW_OBJECT" else "NEW_OBJECT"
     live.live_properties().result = other
-    settle(session)
+    tick_to_rest(session)
     assert (bits(obj) == before) == (other == "NEW_OBJECT")
     assert len(bpy.data.objects) == 1 + (other == "NEW_OBJECT")
     confirm(live, session)
@@ -212,11 +201,11 @@ def test_where_it_is_written_can_be_changed_meanwhile(live, begin, first):
 
 def test_a_setting_that_changes_after_a_stroke_is_solved_with_it(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     stroke(obj)
     session.tick(bpy.context)
     live.live_properties().cubeness = 0.9
-    settle(session)
+    tick_to_rest(session)
     confirm(live, session)
     obj.cubic_craft.cubeness = 0.9
     check_same_as_new_object(obj, follower_of(obj))
@@ -225,15 +214,15 @@ def test_a_setting_that_changes_after_a_stroke_is_solved_with_it(live, follow):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
 def test_a_file_saved_meanwhile_has_the_result_and_the_original(live, follow, mode, tmp_path):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     stroke(obj)
     bpy.ops.object.mode_set(mode=mode)
-    settle(session)
+    tick_to_rest(session)
     shown, original = bits(follower_of(obj)), bits(obj)
     follower_of(obj).location.z = 3.0
     path, name = str(tmp_path / "live.blend"), obj.name
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
-    settle(session)
+    tick_to_rest(session)
     assert not session.is_ended and bits(follower_of(obj)) == shown and obj.mode == mode
     session.on(live.Event.CANCEL)
     bpy.ops.wm.open_mainfile(filepath=path)
@@ -247,7 +236,7 @@ def test_a_file_saved_meanwhile_has_the_result_and_the_original(live, follow, mo
 
 def test_a_file_that_blender_saves_by_itself_has_it_too(live, follow, tmp_path):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     shown, path, name = bits(follower_of(obj)), str(tmp_path / "live.blend"), obj.name
     bpy.data.libraries.write(path, {bpy.context.scene}, fake_user=True)  # notifies nobody
     session.on(live.Event.CANCEL)
@@ -261,11 +250,11 @@ def test_a_file_that_blender_saves_by_itself_has_it_too(live, follow, tmp_path):
 
 def test_a_copy_of_the_follower_is_the_artists(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     select(follower_of(obj))
     bpy.ops.object.duplicate()
     copy = bpy.context.object
-    settle(session)
+    tick_to_rest(session)
     assert session.is_ended and "another mesh" in session.end_message
     assert len(bpy.data.objects) == 3 and bits(copy) == bits(obj)
     assert not [key for key in copy.keys() if "follower" in key]  # noqa: SIM118 - of an object
@@ -275,17 +264,17 @@ def test_undo_and_redo_of_a_stroke_are_followed(live, follow):
     obj = add_monkey()
     name = obj.name
     bpy.ops.ed.undo_push(message="Monkey")
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     bpy.ops.ed.undo_push(message="Before")
     shown = bits(follower_of(obj))
     stroke(obj)
     bpy.ops.ed.undo_push(message="Stroke")
-    settle(session)
+    tick_to_rest(session)
     followed = bits(follower_of(obj))
     assert followed != shown
     for step, expected in ((bpy.ops.ed.undo, shown), (bpy.ops.ed.redo, followed)):
         step()
-        settle(session)
+        tick_to_rest(session)
         obj = bpy.data.objects[name]
         assert not session.is_ended and bits(follower_of(obj)) == expected
         assert len(bpy.data.objects) == 2
@@ -297,17 +286,17 @@ def test_undo_and_redo_of_a_stroke_are_followed(live, follow):
 
 def test_a_shape_that_cannot_be_used_is_named_and_loses_nothing(live, follow):
     obj = add_monkey()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     shown = bits(follower_of(obj))
     points = stroke(obj)
     obj.data.vertices[3].co.x = float("nan")
     obj.data.update()
-    settle(session)
+    tick_to_rest(session)
     assert not session.is_ended and bits(follower_of(obj)) == shown
     assert "not finite" in "; ".join(session.all_problems)
     obj.data.vertices[3].co.x = points[3, 0]
     obj.data.update()
-    settle(session)
+    tick_to_rest(session)
     assert not session.all_problems and bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
@@ -342,11 +331,11 @@ def edit_cage(obj):
 @pytest.mark.parametrize("change", [push_in, set_levels, edit_cage])
 def test_what_modifiers_show_is_followed(live, follow, change):
     obj = add_box()
-    session = settle(follow(obj, with_modifiers=True))
+    session = tick_to_rest(follow(obj, with_modifiers=True))
     shown = bits(follower_of(obj))
     assert len(shown) > 12 * 300 and not follower_of(obj).modifiers
     change(obj)
-    settle(session)
+    tick_to_rest(session)
     assert bits(follower_of(obj)) != shown and session._timer is None
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
@@ -360,10 +349,10 @@ def test_the_timeline_is_followed(live, follow):
         key.value = frame / 10
         key.keyframe_insert("value", frame=frame)
     bpy.context.scene.frame_set(1)
-    session = settle(follow(obj, with_modifiers=True))
+    session = tick_to_rest(follow(obj, with_modifiers=True))
     shown = bits(follower_of(obj))
     bpy.context.scene.frame_set(10)
-    settle(session)
+    tick_to_rest(session)
     assert bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
@@ -371,10 +360,10 @@ def test_the_timeline_is_followed(live, follow):
 
 def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
     obj = add_box()
-    session = settle(follow(obj))
+    session = tick_to_rest(follow(obj))
     for is_on in (True, False):
         live.live_properties().with_modifiers = is_on
-        settle(session)
+        tick_to_rest(session)
         assert (len(follower_of(obj).data.vertices) > 8) == is_on
         assert len(bpy.data.objects) == 2
     confirm(live, session)
@@ -384,24 +373,19 @@ def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
 def test_a_map_does_not_keep_it_awake_in_modes_that_cannot_be_read(follow):
     obj = add_monkey()
     obj.vertex_groups.new(name="Map").add(range(100), 0.5, "REPLACE")
-    session = settle(follow(obj, map_group="Map"))
-    for mode in ("EDIT", "SCULPT", "OBJECT"):
-        bpy.ops.object.mode_set(mode=mode)
-        settle(session)
-        for _ in range(3):
-            bpy.context.view_layer.update()
-            assert session._timer is None, f"woken in {mode}"
+    session = tick_to_rest(follow(obj, map_group="Map"))
+    check_asleep_in_all_modes(session)
 
 
 def test_painting_the_map_is_followed(live, follow):
     obj = add_monkey()
     group = obj.vertex_groups.new(name="Map")
     group.add(range(500), 1.0, "REPLACE")
-    session = settle(follow(obj, map_group="Map"))
+    session = tick_to_rest(follow(obj, map_group="Map"))
     shown = bits(follower_of(obj))
     group.add(range(300), 0.2, "REPLACE")
     obj.data.update()
-    settle(session)
+    tick_to_rest(session)
     assert bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))

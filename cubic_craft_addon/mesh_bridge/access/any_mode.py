@@ -13,9 +13,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ....solver.errors import CubicCraftError
 from .arrays import corner_vertices, read_position
 from .checks import mesh_of
+from .copies import passing_copy
 
 _OWN_COPY = ("EDIT", "SCULPT")
 
@@ -41,14 +41,8 @@ def in_no_mode(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     mesh, copy = mesh_of(obj).copy(), obj.copy()
     assert mesh is not None and copy is not None
     copy.data = mesh
-    name = copy.name
-    try:
+    with passing_copy(copy, obj):
         yield copy
-    except CubicCraftError as error:
-        raise CubicCraftError(str(error).replace(name, obj.name)) from error
-    finally:
-        bpy.data.objects.remove(copy)
-        bpy.data.meshes.remove(mesh)
 
 
 def glance(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray | None]:

@@ -8,8 +8,9 @@ import bpy
 import numpy as np
 
 from ..access.checks import mesh_of
+from ..access.copies import remove_copy
 from .new_object import link_beside, select_instead
-from .plain_copy import plain_copy, remove_copy
+from .plain_copy import plain_copy
 
 _ANGLE = 1e-3  # radians; small triangles of a facet are off by the rounding of their corners
 

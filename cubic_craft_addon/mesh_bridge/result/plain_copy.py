@@ -6,6 +6,7 @@ import numpy as np
 
 from ..access.arrays import mark_moved, write_position
 from ..access.checks import mesh_of
+from ..access.copies import remove_copy
 from .restore import discard_original
 
 
@@ -35,13 +36,6 @@ def plain_copy(obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Object
         remove_copy(new)
         raise
     return new
-
-
-def remove_copy(new: bpy.types.Object) -> None:
-    """Remove an object made by `plain_copy`, and its mesh."""
-    mesh = mesh_of(new)
-    bpy.data.objects.remove(new)
-    bpy.data.meshes.remove(mesh)
 
 
 def _strip(new: bpy.types.Object, mesh: bpy.types.Mesh) -> None:

@@ -15,6 +15,7 @@ from ....solver.errors import CubicCraftError
 from ..access.arrays import mark_moved, write_position
 from ..access.attributes import our_attributes, remove_attribute
 from ..access.checks import mesh_of
+from ..access.copies import passing_copy, remove_copy
 from ..access.note import NOTE, read_note
 from .new_object import link_beside, select_instead
 from .results import write_mesh
@@ -64,21 +65,8 @@ def as_seen(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     CubicCraftError
         As `make_seen`; what is raised while it is read names the object itself.
     """
-    new = make_seen(obj)
-    name = new.name
-    try:
+    with passing_copy(make_seen(obj), obj) as new:
         yield new
-    except CubicCraftError as error:
-        raise CubicCraftError(str(error).replace(name, obj.name)) from error
-    finally:
-        remove_seen(new)
-
-
-def remove_seen(new: bpy.types.Object) -> None:
-    """Remove an object made by `make_seen`."""
-    mesh = mesh_of(new)
-    bpy.data.objects.remove(new)
-    bpy.data.meshes.remove(mesh)
 
 
 def write_seen(
@@ -113,7 +101,7 @@ def write_seen(
         prepare(new)
         select_instead(source, new)
     except BaseException:
-        remove_seen(new)
+        remove_copy(new)
         raise
     return new
 
