@@ -200,7 +200,7 @@ form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
 
 docs-images: ## Pictures of docs/, from the last window tests
-	cp build/gui/trixie/test_film/live.gif docs/images/
+	cp build/gui/trixie/test_film/live.gif build/gui/sid/test_film_follow/follow.gif docs/images/
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png

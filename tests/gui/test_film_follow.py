@@ -39,17 +39,19 @@ def set_the_stage():
         bpy.ops.brush.asset_activate(
             asset_library_type="ESSENTIALS", relative_asset_identifier=BRUSH
         )
+    view.show_region_asset_shelf = False
+    view.region_3d.view_distance *= 0.62
     yield from scene.wait_idle()
 
 
 def pull(begin, move):
     """Grab the original, and see the cubic version go along."""
     matrix = bpy.data.objects[scene.NAME].matrix_world
-    x, y = scene.screen_point(matrix @ Vector(begin))
+    x, y = map(round, scene.screen_point(matrix @ Vector(begin)))
     yield from gui.move_mouse((x, y))
     gui.events().press("LEFTMOUSE")
     for step in range(1, STEPS + 1):
-        yield from gui.move_mouse((x + move[0] * step / STEPS, y + move[1] * step / STEPS))
+        yield from gui.move_mouse((x + move[0] * step // STEPS, y + move[1] * step // STEPS))
         yield from film()
     gui.events().release("LEFTMOUSE")
     yield
