@@ -3,8 +3,8 @@
 
 For a coarse monkey and each mesh in /share it drags the slider for ten seconds. It writes what each
 tick took, how long each change took to be seen, and how many iterations were done, to
-/share/ticks.json. To /share/strokes.json: how long it took in ticks until a new object has followed what was
-moved on its original. Blender's own drawing is not part of the ticks.
+/share/ticks.json; and how long it took in ticks until a new object has followed what was moved on
+its original, to /share/strokes.json. Blender's own drawing is not part of the ticks.
 """
 
 import importlib
