@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel bench bench-quick bench-live docs-images clean has-py313
+	build package repository lock wheel test-wheel bench bench-quick bench-live films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -205,8 +205,11 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
 
+films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
+	TESTS="film_*" tests/gui/run.sh $(ZIP)
+	cp build/gui/trixie/film_live/live.gif build/gui/sid/film_follow/follow.gif docs/images/
+
 docs-images: ## Pictures of docs/, from the last window tests
-	cp build/gui/trixie/test_film/live.gif docs/images/
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png
