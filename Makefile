@@ -11,16 +11,16 @@ PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory.
-PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder $(THOROUGH)
 ZIP := dist/cubic_craft.zip
 BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name "*.py" -o -name "*.png")
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-all setup-gui render docs test test-solver test-blender test-oldest test-py313 \
+.PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel bench bench-quick bench-live docs-images clean has-py313
+	build package repository lock wheel test-wheel bench bench-quick bench-live films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -41,7 +41,10 @@ render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=op
 		--output build/render.png $(ARGS)
 	@echo "Look at build/render.png"
 
-test: test-solver test-blender ## All tests that need no window
+test: test-solver test-blender ## Tests that need no window; of many equal cases a few
+
+test-thorough: ## All cases of them; an hour
+	$(MAKE) test THOROUGH=--thorough
 
 test-solver: setup ## The solver, what decides in Live, packages, and the documentation, without Blender
 	$(PY) $(PYTEST) tests/hostile tests/solver tests/live tests/packages tests/docs
@@ -56,12 +59,15 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) CUBIC_CRAFT_ZIP=$(ZIP) \
 		$(PY) $(PYTEST) tests/blender/hostile
 
-# Of the scripts, those that use Blender's data, importers and exporters; batch, benchmark and
-# figures only start these. Faults of Python functions, leaks, and signals, are the same in both.
-test-oldest: $(VENV)-oldest/.done $(ZIP) ## The same in the oldest bpy that we support
-	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --ignore tests/blender/test_faults.py \
-		--ignore tests/blender/test_leaks.py --ignore tests/scripts/test_headless_interrupted.py \
-		tests/blender tests/scripts/test_headless_*.py
+# What Blender itself does for us: data, modes, undo, interface, importers and exporters. What is
+# computed from it, and faults of Python functions, are the same in both.
+test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, in the oldest bpy that we support
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --ignore tests/blender/hostile \
+		$(patsubst %,--ignore tests/blender/test_%.py,assembly docs_examples edited faults floor \
+		form_from_selection form_settings handle_own_pose handle_reach handles leaks live_inputs live_poses \
+		live_transforms normal_capture orientation other_blenders process refusals regions rigged_limbs \
+		scenes symmetry up_to_date) tests/blender \
+		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest
@@ -90,7 +96,7 @@ has-py313:
 test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/reliability.md; hours
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_FAULTS=1 CUBIC_CRAFT_ROUNDS=1000 CUBIC_CRAFT_OBJECTS=1000 \
 		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_BATCH=200 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
-		$(PY) $(PYTEST) tests/blender/test_faults.py tests/blender/mesh_bridge/test_bridge_faults.py tests/blender/test_leaks.py \
+		$(PY) $(PYTEST) --thorough tests/blender/test_faults.py tests/blender/mesh_bridge/test_bridge_faults.py tests/blender/test_leaks.py \
 		tests/blender/test_scenes.py tests/blender/test_other_blenders.py \
 		tests/scripts/test_headless_interrupted.py tests/scripts/test_batch_workers.py
 
@@ -202,8 +208,11 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
 
+films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
+	TESTS="film_*" tests/gui/run.sh $(ZIP)
+	cp build/gui/trixie/film_live/live.gif build/gui/sid/film_follow/follow.gif docs/images/
+
 docs-images: ## Pictures of docs/, from the last window tests
-	cp build/gui/trixie/test_film/live.gif docs/images/
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
 	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png

@@ -12,11 +12,13 @@ from .ui import (
     angles_overlay,
     edited,
     handles_panel,
+    header,
     menus,
     overlay,
     panel,
     preferences,
     regions_panel,
+    worn,
 )
 
 _modules = (
@@ -39,7 +41,9 @@ _modules = (
     presets,
     panel,
     menus,
+    header,
     edited,
+    worn,
     group_renames,
     object_cache,
 )

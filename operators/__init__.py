@@ -29,6 +29,7 @@ from .reset import CUBIC_CRAFT_OT_reset
 from .restore import CUBIC_CRAFT_OT_restore
 from .restore_first import CUBIC_CRAFT_OT_restore_first
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
+from .select_worn import CUBIC_CRAFT_OT_select_worn
 from .send_to import CUBIC_CRAFT_OT_send_to
 from .show_source import CUBIC_CRAFT_OT_show_source
 
@@ -47,6 +48,7 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_show_source,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_select_crossing,
+        CUBIC_CRAFT_OT_select_worn,
         CUBIC_CRAFT_OT_auto_orient,
         CUBIC_CRAFT_OT_form_from_selection,
         CUBIC_CRAFT_OT_live,

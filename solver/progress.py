@@ -7,8 +7,9 @@ import math
 class Progress:
     """Estimate the progress of a run from 0 to 1; the estimate never decreases.
 
-    The displacement per iteration falls almost exponentially, so its logarithm, between the start
-    and the tolerance, is a better estimate than the number of iterations, whose end is not known.
+    The displacement per iteration falls almost exponentially, so its logarithm, between the largest
+    since the second iteration and the tolerance, is a better estimate than the number of
+    iterations, whose end is not known. The first one moves much farther and says nothing.
 
     Parameters
     ----------
@@ -37,14 +38,17 @@ class Progress:
         self._max_iterations = max_iterations
         self._tolerance = tolerance
         self._fraction = 0.0
+        self._largest = 0.0
 
     def update(self, stylization):
         """Record one iteration of a Stylization and return the fraction done."""
         fraction = stylization.iteration / self._max_iterations
         if stylization.iteration > 1 and stylization.distance > 0.0:
             relative = stylization.displacement / stylization.distance
-            if 0.0 < relative < 1.0 and 0.0 < self._tolerance < 1.0:
-                by_size = math.log(relative) / math.log(self._tolerance)
+            self._largest = max(self._largest, relative)
+            if 0.0 < self._tolerance < self._largest and relative > 0.0:
+                by_size = math.log(relative / self._largest)
+                by_size /= math.log(self._tolerance / self._largest)
                 fraction = max(fraction, min(by_size, 0.99))
         self._fraction = max(self._fraction, min(fraction, 1.0))
         return self._fraction

@@ -259,6 +259,11 @@ class Run:
         return self._coarse is not None
 
     @property
+    def is_keeping_apart(self) -> bool:
+        """Whether the iterations have ended, and what crosses is looked for and drawn apart."""
+        return self._round > 0
+
+    @property
     def iterations(self) -> int:
         """Number of iterations done, including those on coarser meshes."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations

@@ -50,14 +50,16 @@ def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
     """
     count = len(mesh_bridge.mesh_of(obj).vertices)
     result = np.full(count, -1)
+    groups = [handle.group for handle in handles if handle.vertices is None]
+    weights = mesh_bridge.weights_of_groups(obj, groups) if groups else {}
     for number, handle in reversed(list(enumerate(handles))):  # so that the first one counts
-        result[_holds(obj, handle, count)] = number
+        result[_holds(obj, handle, weights, count)] = number
     return result
 
 
-def _holds(obj, handle, count):
+def _holds(obj, handle, weights, count):
     if handle.vertices is None:
-        return mesh_bridge.group_weights(obj, handle.group) >= handle.threshold
+        return weights[handle.group] >= handle.threshold
     vertices = np.asarray(handle.vertices, dtype=np.int64)
     if vertices.size and not (vertices.min() >= 0 and vertices.max() < count):
         raise CubicCraftError(

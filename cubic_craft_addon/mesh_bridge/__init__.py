@@ -15,7 +15,7 @@ from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.triangulation import faces_of_triangles, triangles
-from .access.vertex_groups import group_weights, vertex_group
+from .access.vertex_groups import group_weights, vertex_group, weights_of_groups
 from .memory.cubic_key import find_cubic_key
 from .memory.first_original import has_first
 from .memory.last_run import LastRun, last_run
@@ -100,6 +100,7 @@ __all__ = (
     "starts_here",
     "triangles",
     "vertex_group",
+    "weights_of_groups",
     "why_no_mesh",
     "write_mesh",
     "write_new_object",

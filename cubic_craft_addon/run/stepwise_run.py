@@ -143,7 +143,7 @@ class StepwiseRun:
         try:
             self._run = pipeline.start(self.prepared)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
-            self._countdown = Countdown()
+            self._countdown = Countdown(keeps_apart=settings.keep_apart)
         except solver.CubicCraftError as error:
             self.problems = [*self.problems, str(error)]
 
@@ -215,8 +215,11 @@ class StepwiseRun:
             progress = self._progress.update(self._run.stylization) if self._is_behind else 0.0
             return ("Following the original", "Following"), progress
         if self._solutions is None:
-            fraction = self._progress.update(self._run.stylization)
-            return self._countdown.texts(fraction, time.perf_counter()), fraction
+            return self._countdown.tell(
+                self._progress.update(self._run.stylization),
+                time.perf_counter(),
+                is_keeping_apart=self._run.is_keeping_apart,
+            )
         solution = next(iter(self._solutions.values()))
         return ("Converged" if solution.result.converged else "Not converged",), 1.0
 

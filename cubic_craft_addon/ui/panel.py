@@ -19,13 +19,16 @@ from ..settings.region import object_regions
 from . import (
     angles_overlay,
     animation_panel,
+    buttons,
     edited,
     form_panel,
+    header,
     job_progress,
     overlay,
     seen,
     send_panel,
     status_panel,
+    worn,
 )
 from . import handles_panel as handles_panel
 from . import presets_panel as presets_panel
@@ -45,6 +48,12 @@ class CUBIC_PT_main(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = DEFAULT_TAB
 
+    @classmethod
+    def poll(cls, context):
+        """Let the header follow the sidebar: Blender asks whenever that is drawn."""
+        header.look_at(context, cls.bl_category)
+        return True
+
     def draw(self, context):
         """Draw all sections for the active object, or the mesh that it poses."""
         layout = self.layout
@@ -59,11 +68,11 @@ class CUBIC_PT_main(bpy.types.Panel):
             layout.label(text=obj.name, icon="MESH_DATA")
         _draw_cubify(context, layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
-            header, body = layout.panel(identifier, default_closed=is_closed)
+            title_row, body = layout.panel(identifier, default_closed=is_closed)
             if identifier in _SWITCHES:
-                _SWITCHES[identifier](header, obj)
-            header.label(text=title)
-            header.enabled = job.current() is None
+                _SWITCHES[identifier](title_row, obj)
+            title_row.label(text=title)
+            title_row.enabled = job.current() is None
             if body is not None:
                 body.enabled = job.current() is None
                 draw(body, obj)
@@ -81,22 +90,7 @@ def _draw_cubify(context, layout, obj):
     hint = seen.hint_to_draw(obj)
     row = layout.row()
     row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
-    job_progress.operator(
-        row,
-        "cubic_craft.cubify",
-        text="Update" if changes else "Cubify",
-        icon="FILE_REFRESH" if changes else "MESH_CUBE",
-    )
-    row = row.row(align=True)
-    job_progress.operator(
-        row,
-        "cubic_craft.live",
-        icon="CHECKMARK" if session else "PLAY",
-        text="Confirm" if session else "Live",
-        depress=session is not None,
-    )
-    if session:
-        row.operator("cubic_craft.live_cancel", text="", icon="X")
+    buttons.draw(row, is_outdated=bool(changes))
     row = layout.row(align=True)
     job_progress.operator(row, "cubic_craft.restore", text="Restore", icon="LOOP_BACK")
     if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
@@ -108,6 +102,7 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
+    worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)
 
@@ -154,8 +149,8 @@ def _draw_shape(layout, obj):
     layout.prop(properties, "together")
     draw_symmetry(layout, obj, properties)
     layout.prop(properties, "floor")
-    header, body = layout.panel(_ADVANCED, default_closed=True)
-    header.label(text="Advanced")
+    title_row, body = layout.panel(_ADVANCED, default_closed=True)
+    title_row.label(text="Advanced")
     if body is not None:
         form_panel.draw_capture(body, properties)
         body.prop(properties, "refine")

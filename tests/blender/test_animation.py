@@ -55,6 +55,7 @@ def advance(work, frame):
     raise AssertionError("it has ended before")
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "USD", "SHAPE_KEYS"])
 def test_every_frame_is_cubic_and_played_back(extension, bending, tmp_path, file_format):
     if file_format == "CACHE":
@@ -83,6 +84,7 @@ def test_every_frame_is_cubic_and_played_back(extension, bending, tmp_path, file
     assert not [path for path in tmp_path.iterdir() if path.suffix not in SUFFIXES]
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("file_format", ["CACHE", "ALEMBIC", "USD", "SHAPE_KEYS"])
 @pytest.mark.parametrize("stretching", [(200, 100), (30, 70)])
 def test_what_is_stretched_in_time_plays_as_its_source(
@@ -437,6 +439,7 @@ def test_it_is_there_after_the_file_was_saved_and_opened(extension, bending, reo
     np.testing.assert_array_equal(film(cubic), before)
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("name", ["read_point_cache", "_play_cache", "_play_file", "_play_keys"])
 @pytest.mark.parametrize("is_again", [False, True])
 def test_what_fails_in_the_end_changes_nothing(

@@ -88,6 +88,7 @@ def test_it_is_found_out_once(edited, extension, monkeypatch):
     assert len(calls) == 1
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("start", ["HERE", "ORIGINAL", "EDITS"])
 @pytest.mark.parametrize("change", ["edited", "transformed"])
 def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):

@@ -56,6 +56,7 @@ def body_of(part):
     return lambda obj: form_of(settings_of(obj))
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("name", NAMES)
 def test_the_surface_turns_to_the_sides_and_comes_back(body_of, name):
     form = add_solid("cone", location=(9, 0, 0))
@@ -220,6 +221,7 @@ def test_objects_that_are_solved_together_may_have_different_forms():
     assert bits(other) != octahedron
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("scale", [1.0, -1.0])
 @pytest.mark.parametrize("form", ["OCTAHEDRON", "TETRAHEDRON", "PYRAMID", "PRISM"])
 def test_auto_orient_finds_how_the_form_is_turned(part, body_of, form, scale):

@@ -67,6 +67,7 @@ def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
     check_gone(live)
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "VERTEX_PAINT", "TEXTURE_PAINT"])
 @pytest.mark.parametrize("is_at_rest", [False, True])
 def test_another_mode_confirms_it_and_is_there_afterwards(live, begin, mode, is_at_rest):

@@ -43,6 +43,7 @@ def moved(V, matrix):
     return V @ matrix[:3, :3].T + matrix[:3, 3]
 
 
+@pytest.mark.thorough(4)
 @WAYS
 @pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
 @pytest.mark.parametrize("was_cubic", [False, True])
@@ -102,6 +103,7 @@ def test_shape_keys_go_along(begin, live):
     assert offset == pytest.approx(np.broadcast_to(offset[0], offset.shape), abs=1e-5)
 
 
+@pytest.mark.thorough(3)
 @WAYS
 @pytest.mark.parametrize("is_live", [True, False])
 @pytest.mark.parametrize("was_cubic", [False, True])

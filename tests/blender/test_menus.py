@@ -1,32 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's search and Quick Favorites find what is in menus; all is in Object > CubicCraft."""
+"""Blender's search and Quick Favorites find what is in menus; all is in Object > Cubic Craft."""
 
 import importlib
 
 import bpy
 import pytest
+from recorder import Recorder
 from scene import add_monkey, cubify
 
 NAME = "VIEW3D_MT_object_cubic_craft"
-
-
-class Recorder:
-    """A layout that notes what is drawn."""
-
-    def __init__(self):
-        self.drawn = []
-
-    def operator(self, identifier, **_):
-        self.drawn.append(identifier)
-
-    def menu(self, name, **_):
-        self.drawn.append(name)
-
-    def prop(self, _data, name, **_):
-        self.drawn.append(name)
-
-    def separator(self):
-        pass
 
 
 @pytest.fixture

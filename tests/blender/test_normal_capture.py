@@ -67,6 +67,7 @@ def test_a_cubified_ball_says_how_it_faced_before(capture_of):
     assert share_facing(other, AXES) > was + 0.3
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("turn", [(0.4, 0.2, 0.7), (0, 0, 0)])
 @pytest.mark.parametrize("scale", [(1, 1, 1), (-1, 1, 1), (2, 2, 2)])
 @pytest.mark.parametrize("is_cubified", [False, True])

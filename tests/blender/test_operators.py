@@ -354,6 +354,7 @@ def test_the_redo_panel_shows_what_holds_together():
 OF_THE_PROXY = {"keep_pose": False, "detail": 0.125, "keep_apart": False}
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("name", OF_THE_PROXY)
 @pytest.mark.parametrize("way", ["operator", "object", "Live"])
 def test_each_option_of_the_proxy_reaches_the_solver(

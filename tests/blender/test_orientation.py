@@ -40,6 +40,7 @@ def test_the_angles_are_relative_to_the_world_unless_told_otherwise():
 RIGHT = math.pi / 2
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("together", ["PARTS", "SELECTION"])
 @pytest.mark.parametrize(
     ("turn", "scale"),

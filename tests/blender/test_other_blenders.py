@@ -30,6 +30,7 @@ def visit(python, what, file, *archive):
     return done.stdout.split("done in ")[1].strip()
 
 
+@pytest.mark.thorough
 def test_without_the_extension_and_back(tmp_path, archive):
     file = tmp_path / "file.blend"
     visit(sys.executable, "make", file, archive)

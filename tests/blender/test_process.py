@@ -93,6 +93,7 @@ def clicked(obj):
     return points
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("name", WAYS)
 def test_the_process_goes_from_other_settings_to_those_of_the_object(
     extension, bending, model, tmp_path, name

@@ -22,6 +22,7 @@ def the(name="Suzanne"):
     return bpy.data.objects[name]
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_undo_and_redo_through_a_whole_session(result):
     """Each state comes back whole, forth and back, whatever was done in between."""

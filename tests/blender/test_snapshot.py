@@ -64,6 +64,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.thorough(10)
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
 def test_every_change_is_seen(change):
     obj = add_rich_monkey(keys=True)

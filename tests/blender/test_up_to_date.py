@@ -53,6 +53,7 @@ OTHER = {
 }
 
 
+@pytest.mark.thorough(5)
 @pytest.mark.parametrize("name", OTHER)
 def test_each_setting_that_matters_is_named_until_it_is_as_it_was(changes, name):
     obj, *_ = add_posable()

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Cubify Animation by a click: watched, stopped by Esc, continued, played back, and undone."""
 # Window: 1000x1400
 

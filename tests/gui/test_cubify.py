@@ -158,6 +158,27 @@ def update_without_moving_the_mouse(original):
     )
 
 
+def update_in_the_header():
+    """While the panel is scrolled, its buttons are in the header, but not for another tab."""
+    before = positions()
+    headers = importlib.import_module(f"{ADDON}.ui.header")._drawn
+    cubic_craft().cubeness = 0.6
+    sidebar = gui.region("UI")
+    yield from gui.move_mouse((sidebar.x + sidebar.width // 2, sidebar.y + sidebar.height // 2))
+    yield from gui.turn_wheel("WHEELDOWNMOUSE", 8)
+    yield from gui.wait_until(lambda: any(headers.values()), what="the buttons in the header")
+    button = yield from gui.find_button("cubic_craft.cubify", "TOOL_HEADER")
+    yield from gui.screenshot("in_the_header.png")
+    yield from gui.click(button)
+    yield from gui.wait_until(
+        lambda: not is_bitwise(positions(), before) and not gui.running_operators(),
+        what="the update",
+    )
+    yield from gui.open_sidebar("Item")
+    yield from gui.wait_until(lambda: not any(headers.values()), what="the header without them")
+    yield from gui.open_sidebar("Cubic Craft")
+
+
 def test():
     add_monkey()
     original = positions()
@@ -197,6 +218,9 @@ def test():
         lambda: is_bitwise(positions(), original), what="the original shape, bit for bit"
     )
     yield from gui.screenshot("restored.png")
+    yield from update_in_the_header()
+    yield from gui.click((yield from gui.find_button("cubic_craft.restore")))
+    yield from gui.wait_until(lambda: is_bitwise(positions(), original), what="the original")
     yield from update_without_moving_the_mouse(original)
 
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Live when the solver fails in the middle of it, and when another add-on takes the engine away."""
 
 import contextlib

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Files saved, loaded and begun while Live runs, and the extension switched off and on."""
 
 import os

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Pose an ear while Live runs: the shape follows the empty, Ctrl-Z brings both back."""
 
 import bpy

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """All ways to confirm and to cancel Live by hand, and what looks like one but is not."""
 
 import bpy

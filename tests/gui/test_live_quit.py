@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """Blender is quit while Live computes: it must quit in the regular way."""
 
 import guidrive as gui

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: trixie
 """The viewport stays usable while Live runs, and Live at rest does nothing at all."""
 
 import time

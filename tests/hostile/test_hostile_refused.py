@@ -73,7 +73,7 @@ SPOILT = {
 """what a name stands for: a function that spoils the arguments of `stylize`"""
 
 
-@examples(40)
+@examples(20)
 @given(mesh=broken_meshes(), data=st.data())
 def test_what_cannot_be_used_is_refused(mesh, data):
     spoil = data.draw(st.sampled_from(sorted(SPOILT)), label="spoilt")

@@ -69,6 +69,7 @@ def test_the_table_has_a_row_for_each_file(done):
     assert lines[-1] == "headless_render.py: 3 of 6 files failed"
 
 
+@pytest.mark.thorough
 def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
     for name in ("one.obj", "two.obj"):
         (tmp_path / name).write_text(CUBE)

@@ -52,6 +52,7 @@ def test_a_batch_on_a_cluster(folder, cluster):
         assert files_in(folder / "out") == NAMES
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_files_of_a_batch_that_is_stopped_are_given_up(folder, cluster, number):

@@ -57,6 +57,7 @@ def test_only_what_has_changed_is_done_again(folder):
     assert run(folder) == {"a.obj": "kept", "b.obj": "kept", "c.obj": "done"}
 
 
+@pytest.mark.thorough
 def test_other_options_or_force_do_all_again(folder):
     assert run(folder) == dict.fromkeys(NAMES, "done")
     assert run(folder, "--cubeness", "0.3") == dict.fromkeys(NAMES, "done")
@@ -64,6 +65,7 @@ def test_other_options_or_force_do_all_again(folder):
     assert run(folder, "--cubeness", "0.3", "--force") == dict.fromkeys(NAMES, "done")
 
 
+@pytest.mark.thorough(1)
 @on_posix
 @pytest.mark.parametrize("number", [*CALM, signal.SIGKILL])
 def test_stopped_in_the_middle(folder, number):
@@ -99,6 +101,7 @@ def test_all_workers_end_with_the_batch(folder):
     assert files_in(folder / "out") == []
 
 
+@pytest.mark.thorough(1)
 @on_posix
 @pytest.mark.parametrize(
     ("number", "word"), [(signal.SIGSEGV, "crashed"), (signal.SIGKILL, "ended from outside")]

@@ -80,6 +80,7 @@ def watch(process, cluster, out):
     return killed, written
 
 
+@pytest.mark.thorough
 def test_lost_workers_cost_no_file(folder):
     begin = time.monotonic()
     with cluster_of(WORKERS, folder) as (address, cluster):

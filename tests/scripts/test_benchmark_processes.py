@@ -89,6 +89,7 @@ def test_phases_of_a_run(tmp_path):
     assert result["peak"] > result["above"]
 
 
+@pytest.mark.thorough
 def test_what_of_an_iteration_runs_on_one_core(tmp_path):
     path = keep("blob", tmp_path / "blob.npz", *shapes.blob(2)).path
     found = cores.on_one_and_all(path, 0.4)
@@ -108,5 +109,6 @@ def test_a_made_shape_is_closed_and_faces_outward(mesh):
     assert np.einsum("fi,fi->", V[F[:, 0]], np.cross(V[F[:, 1]], V[F[:, 2]])) > 0.0
 
 
+@pytest.mark.thorough
 def test_each_program_has_a_first_result():
     assert startup(runs=0) == {"monkey": [], "bpy": [], "solver": []}, "else it raises"

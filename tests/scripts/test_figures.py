@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from headless import PATIENCE, read_files
 
+pytestmark = pytest.mark.thorough  # all are rendered for it
+
 ROOT = Path(__file__).resolve().parents[2]
 WIDTH = 120
 HEIGHTS = {

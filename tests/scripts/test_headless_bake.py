@@ -111,6 +111,7 @@ def test_ended_in_the_middle_it_continues_bit_for_bit(rigged, tmp_path):
     assert sorted(tmp_path.iterdir()) == [parts, whole]
 
 
+@pytest.mark.thorough
 def test_two_runs_at_once_give_the_frames_of_one(rigged, tmp_path):
     options = ("--object", "Ball", "--frames", "1", "20", *ROUGH, "--bake")
     whole, shared = tmp_path / "whole.pc2", tmp_path / "shared.pc2"
@@ -143,6 +144,7 @@ def test_more_parts_than_frames(rigged, tmp_path):
     assert read_pc2(tmp_path / "out.pc2").shape == (2, 162, 3)
 
 
+@pytest.mark.thorough
 def test_a_batch_bakes_each_file_once(rigged, tmp_path):
     (tmp_path / "in").mkdir()
     for name in ("one", "two"):

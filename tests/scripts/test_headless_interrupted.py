@@ -65,12 +65,14 @@ def stop(process, number):
     assert errors.splitlines()[-1] == f"headless_render.py: {CALM[number]}"
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("number", SIGNALS)
 def test_stopped_while_a_mesh_is_written(tmp_path, number):
     check_stopped(tmp_path, number, "result.obj", (str(SCRIPT),))
 
 
 # Each kind of file and each signal once: what removes the temporary file knows of neither.
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize(
     ("suffix", "number"),
     zip(["obj", "ply", "blend", "usdc", "abc"], itertools.cycle(SIGNALS), strict=False),
@@ -94,6 +96,7 @@ def check_stopped(tmp_path, number, name, script):
     assert sorted(tmp_path.iterdir()) == [target], "what the killed run has left is not cleaned up"
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("number", SIGNALS)
 def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     picture = tmp_path / "picture.png"
@@ -109,6 +112,7 @@ def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     assert not temporaries(tmp_path)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("number", SIGNALS)
 def test_stopped_while_a_picture_is_written(tmp_path, number):
     picture = tmp_path / "picture.png"
@@ -122,6 +126,7 @@ def test_stopped_while_a_picture_is_written(tmp_path, number):
     assert sorted(tmp_path.iterdir()) == [picture]
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("number", CALM)
 def test_stopped_while_it_solves(tmp_path, number):
     endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--save-mesh", "a.obj")

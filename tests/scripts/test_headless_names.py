@@ -40,6 +40,7 @@ IN_FILES = {
 }
 
 
+@pytest.mark.thorough(5)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("suffix", ["obj", "blend"])
 def test_every_file_may_have_any_name(tmp_path, name, suffix):

@@ -110,6 +110,7 @@ def test_a_task_for_which_there_is_no_file_fails(meshes, blender):
     assert code != 0 and "--only 4: there are 3 files" in words
 
 
+@pytest.mark.thorough
 def test_each_range_of_frames_is_a_task_and_their_file_is_that_of_one_run(blender, tmp_path):
     scene = make_rigged(tmp_path / "rigged.blend")
     frames = ("--frames", "1", "24")

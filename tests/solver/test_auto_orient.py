@@ -66,7 +66,7 @@ def test_the_result_is_the_smallest_of_its_24_turns():
     np.testing.assert_allclose(nearest_to_identity(others[7].as_matrix()), Q, atol=1e-12)
 
 
-@pytest.mark.thorough
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("name", ["blob", "skewed_blob", "sheet", "two_blobs"])
 def test_no_orientation_of_a_dense_search_is_better(name):
     areas, normals = triangle_areas_and_normals(*shapes.ALL[name]())
@@ -89,7 +89,7 @@ def test_without_normals_nothing_is_turned():
     np.testing.assert_array_equal(auto_orient(CUBE, np.zeros(6)), np.eye(3))
 
 
-@pytest.mark.thorough
+@pytest.mark.thorough(5)
 @each_form
 @pytest.mark.parametrize("seed", range(2))
 def test_a_turned_form_is_found(name, seed):
@@ -103,7 +103,7 @@ def test_a_turned_form_is_found(name, seed):
     assert cost_of(form, Q, normals @ turn.T, areas) == pytest.approx(least, rel=1e-3)
 
 
-@pytest.mark.thorough
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize(
     "make",
     [
@@ -126,6 +126,7 @@ def test_a_form_that_stands_as_it_is_stays_exactly(name):
     np.testing.assert_allclose(auto_orient(normals, areas, form), np.eye(3), atol=1e-9)
 
 
+@pytest.mark.thorough(2)
 @each_form
 def test_of_equivalent_rotations_the_smallest_is_returned(name):
     form = POLYTOPES[name]()
@@ -135,7 +136,7 @@ def test_of_equivalent_rotations_the_smallest_is_returned(name):
     assert Rotation.from_matrix(Q).magnitude() == pytest.approx(others.magnitude().min())
 
 
-@pytest.mark.thorough
+@pytest.mark.thorough(2)
 @each_form
 def test_no_orientation_of_a_form_in_a_dense_search_is_better(name):
     form = POLYTOPES[name]()

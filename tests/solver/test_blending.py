@@ -108,6 +108,7 @@ def test_bodies_between_have_as_many_faces_as_euler_says():
         assert len(body.vertices) - len(body.edges) + len(body.normals) == 2
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_local_step_is_exact_between_forms(pair):
     rest = rest_mesh(*shapes.blob(2))

@@ -25,6 +25,7 @@ def large(monkeypatch):
     return count_as_large
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize(("levels", "pins"), [(4, 0), (5, 800)])
 def test_it_ends_no_higher_and_is_sooner_near_the_end(levels, pins, large, device):
     V, F = shapes.blob(levels)
@@ -63,6 +64,7 @@ def gaps_of_first_iterations(V, F, tolerance, large, device):
     return gaps
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("is_ordered", [False, True])
 def test_the_first_iteration_is_near_the_end(is_ordered, large, device, monkeypatch):
     if is_ordered:  # the vertices of a coarser mesh have then another order than it was made in

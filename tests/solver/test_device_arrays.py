@@ -67,6 +67,7 @@ def stylization(name="blob", pins=0, **options):
     return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, **options)
 
 
+@pytest.mark.thorough(8)
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("pins", [0, 12])
 @pytest.mark.parametrize("name", shapes.ALL)
@@ -231,6 +232,7 @@ def test_single_precision_has_no_arrays_of_double_precision(on_a_device):
 THEN = by_device(DEVICE, ["step", "finish", "rotations", "positions"], ["step"])
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize(
     ("how", "thens"),
     [("ti.reset()", THEN), *(("ti.reset(); ti.init(arch=arch)", [then]) for then in THEN)],

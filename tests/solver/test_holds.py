@@ -60,6 +60,7 @@ def test_a_group_goes_where_it_is_asked_to_and_becomes_cubic(proxy, device):
     assert np.abs(result.positions[group] - rigid).max() > 0.02
 
 
+@pytest.mark.thorough(2)
 @PROXIES
 @pytest.mark.parametrize("pins", [False, True])
 def test_the_energy_of_the_plain_iteration_falls(proxy, pins):

@@ -49,6 +49,7 @@ def test_rotations_are_rotations(name, device):
         np.testing.assert_allclose(np.linalg.det(step.R), 1.0, atol=tolerance)
 
 
+@pytest.mark.thorough(1)
 def test_rotations_minimise_the_local_energy(device):
     """Compare with a direct search over SO(3) from many starts."""
     rest = rest_mesh(*shapes.blob(1))

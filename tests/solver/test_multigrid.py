@@ -51,6 +51,7 @@ def test_cycles_converge_to_the_solution(name, coarsest, monkeypatch):
     assert errors[-1] < (0.5 if name == "broken" else 1e-3) * errors[0]
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("pins", [0, 15])
 def test_it_ends_where_the_factorisation_does(pins, monkeypatch, device):
     V, F = shapes.blob()

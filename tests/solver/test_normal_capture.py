@@ -128,6 +128,7 @@ def random_problem(many, lam, mu, form_of_name, seed):
     return problem.with_covariances(S), S
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("form", [None, dodecahedron])
 @pytest.mark.parametrize(("lam", "mu"), [(0.0, 1.0), (0.5, 0.7), (0.3, 4.0)])
 def test_no_start_leads_to_less_than_the_search_from_many(lam, mu, form):
@@ -160,6 +161,7 @@ def test_a_ball_as_it_was_changes_nothing(device):
     assert result.energy.total == pytest.approx(0.0, abs=by_device(device, 1e-12, 1e-6))
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("lam", [0.0, 0.3])
 @pytest.mark.parametrize("form", [None, dodecahedron])
 def test_every_device_gives_the_shape_of_numpy(device, lam, form):

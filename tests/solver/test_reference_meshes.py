@@ -52,7 +52,7 @@ def test_default_settings_end_where_the_authors_program_does(name, cubeness):
     assert result.energy.total < 1.001 * AUTHORS[name, cubeness]
 
 
-@pytest.mark.thorough
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize(("name", "cubeness"), HARD)
 def test_hard_meshes_converge_with_falling_energy(name, cubeness):
     energies = []

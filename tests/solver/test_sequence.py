@@ -83,6 +83,7 @@ def test_at_cubeness_zero_each_frame_is_the_input(proxy, device):
         np.testing.assert_allclose(result.positions, frame, atol=2e-5)
 
 
+@pytest.mark.thorough
 def test_a_sheet_that_falls_over_a_ball_does_not_stay_flat():
     frames, F = draping(30)
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))

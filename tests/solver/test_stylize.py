@@ -26,6 +26,7 @@ def test_cubeness_0_leaves_the_mesh_where_it_is(name, device):
     assert np.abs(result.positions - V).max() < by_device(device, 1e-9, 1e-5) * shapes.extent(V)
 
 
+@pytest.mark.thorough(12)
 @pytest.mark.parametrize("name", shapes.ALL)
 @pytest.mark.parametrize("cubeness", [0.0, 0.2, 1.0])
 def test_the_energy_of_the_plain_iteration_never_rises(name, cubeness, device):

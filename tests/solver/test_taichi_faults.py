@@ -34,6 +34,7 @@ BROKEN = {
 IMPORTED = {"empty", "never starts"}
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("how", BROKEN)
 def test_a_broken_engine_means_numpy_for_good(tmp_path, how):
     if BROKEN[how] is not None:
@@ -148,6 +149,7 @@ def check_folders(folders, expected):
     assert output.split() == list(map(str, folders))
 
 
+@pytest.mark.thorough
 @needs_engine
 def test_a_corrupt_cache_does_not_matter(cached, tmp_path):
     filled, expected = cached
@@ -161,6 +163,7 @@ def test_a_corrupt_cache_does_not_matter(cached, tmp_path):
     check_folders(sorted(tmp_path.iterdir()), expected)
 
 
+@pytest.mark.thorough
 @needs_engine
 def test_a_cache_folder_that_cannot_be_used_does_not_matter(cached, tmp_path):
     file = tmp_path / "file"
@@ -190,6 +193,7 @@ def test_a_full_disk_does_not_matter(cached, tmp_path):
         subprocess.run(["umount", tmp_path], check=True)
 
 
+@pytest.mark.thorough(1)
 @needs_engine
 @pytest.mark.parametrize(
     "options",

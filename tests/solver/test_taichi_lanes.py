@@ -32,6 +32,7 @@ def local_steps(V, F, lam, Q, captured=None):
     return rest, both
 
 
+@pytest.mark.thorough(5)
 @needs_taichi
 @pytest.mark.parametrize("has_captured", [False, True], ids=["free", "captured"])
 @pytest.mark.parametrize("is_weighted", [False, True], ids=["one cubeness", "a map"])
@@ -59,6 +60,7 @@ def test_lanes_change_nothing(has_captured, is_weighted, count):
     assert uncertified, "each vertex had an easy problem"
 
 
+@pytest.mark.thorough
 @needs_taichi
 def test_lanes_are_vectors(tmp_path):
     """LLVM makes vector instructions of the loops, or without a word it does not."""

@@ -81,6 +81,7 @@ def test_energies_are_those_of_numpy(name):
         np.testing.assert_allclose(*map(astuple, energies), rtol=1e-6, atol=1e-12)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("precision", ["f64", "f32"])
 def test_runs_end_where_those_of_numpy_do(precision):
     V, F = shapes.two_blobs()

@@ -19,6 +19,9 @@ def test_weights(bridge, cube):
     weights = bridge.group_weights(cube, "Map")
     assert weights.dtype == np.float64
     assert weights.tolist() == [0.75, 0, 0.25, 0, 0, 0.25, 0, 0]
+    both = bridge.weights_of_groups(cube, ("Other", "Map"))
+    assert both["Map"].tolist() == weights.tolist()
+    assert both["Other"].tolist() == [0.75, 0, 0.75, 0.5, 0, 0.5, 0, 0]
 
 
 def test_empty_group(bridge, cube):

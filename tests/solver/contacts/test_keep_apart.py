@@ -52,6 +52,7 @@ CROWDED = {
 }
 
 
+@pytest.mark.thorough(5)
 @pytest.mark.parametrize("cubeness", [0.4, 1.0])
 @pytest.mark.parametrize("name", CROWDED)
 def test_no_surface_crosses_another(name, cubeness):
@@ -63,6 +64,7 @@ def test_no_surface_crosses_another(name, cubeness):
     np.testing.assert_array_equal(result.crossing_vertices, np.unique(F[found]))
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("name", ["fingers", "a spring", "lips"])
 def test_they_would_cross_without_it(name):
     make, size, options = CROWDED[name]
@@ -284,6 +286,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.thorough(6)
 @pytest.mark.parametrize("options", [{}, {"together": False, "refine": False, **BARE}])
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_meshes_have_a_result(name, options):

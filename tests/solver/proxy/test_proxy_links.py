@@ -187,6 +187,7 @@ def test_links_are_carried_to_a_coarser_mesh():
     assert isinstance(coarse, Links)
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
 def test_the_energy_falls_with_links_too_and_a_second_run_has_the_same_bits(make, device):
     V, F = make()

@@ -22,6 +22,7 @@ def angle_to_axes(V, F):
     return np.average(np.arccos(np.clip(largest, 0, 1)), weights=area)
 
 
+@pytest.mark.thorough(6)
 @pytest.mark.parametrize("turn", [0, 21, 63])
 @pytest.mark.parametrize("size", [(1, 1, 1), (6, 1, 0.5), (2, 1, 0.02)])
 def test_a_box_does_not_move_whatever_its_triangulation(size, turn, device):
@@ -90,6 +91,7 @@ def test_solidity_keeps_volume():
     assert volumes[0] < volumes[1] < volumes[2] < 1.05 * at_rest
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions()])
 @pytest.mark.parametrize("cubeness", [0.2, 1.0])
 def test_a_kept_rotation_is_kept_and_the_energy_falls(cubeness, proxy, device):

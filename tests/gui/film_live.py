@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: trixie
-"""The film at the top of the README: a character in Live, as an artist sees it.
-
-Its frames are screenshots; ImageMagick, which takes those, makes an animated picture of them.
-"""
+"""The film at the top of the README: a character in Live, as an artist sees it."""
 
 import itertools
-import os
 import pathlib
-import subprocess
 import sys
 
 import bpy
 import guidrive as gui
 import live_scene as scene
 import open_sections
+from filming import become_cubic, cut, film
 from mathutils import Euler, Quaternion
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "art"))  # before what is in it
@@ -23,9 +19,6 @@ import art_character
 from art_objects import select
 
 NAME = "Character"
-FOLDER = pathlib.Path(os.environ["GUIDRIVE_SHARE"])
-DELAY, LAST = 9, 120  # hundredths of a second of a frame, and of the last one
-SHOWN, WIDTH, COLORS = "822x634+0+0", 800, 96  # the viewport and the panel, in pixels
 STEPS = 12  # of the slider each way, and of the turn
 
 
@@ -44,22 +37,6 @@ def set_the_stage():
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Add it")
     yield from gui.wait_redraw()
-
-
-_frames = []
-
-
-def film(times=1):
-    path = yield from gui.screenshot(f"frames/{len(_frames):03d}.png")
-    _frames.extend([path] * times)
-
-
-def become_cubic():
-    """Filmed until there is nothing left to compute."""
-    while not scene.is_idle():
-        yield from film()
-        for _ in range(2):
-            yield
 
 
 def drag(slider, *places):
@@ -83,26 +60,6 @@ def turn():
         yield from film()
 
 
-def cut():
-    """Make the animated picture, and return its size in bytes."""
-    path = FOLDER / "live.gif"
-    frames = ["-delay", str(DELAY), *_frames[:-1], "-delay", str(LAST), _frames[-1]]
-    small = [
-        "-crop",
-        SHOWN,
-        "+repage",
-        "-resize",
-        f"{WIDTH}x",
-        "+dither",
-        "-colors",
-        str(COLORS),
-        "-layers",
-        "Optimize",
-    ]
-    subprocess.run(["convert", "-loop", "0", *frames, *small, str(path)], check=True)
-    return path.stat().st_size
-
-
 def test():
     open_sections.as_shipped()
     yield from gui.open_sidebar("Cubic Craft")
@@ -120,9 +77,7 @@ def test():
     yield from scene.end_by("RET")
     assert scene.positions(NAME) == strong != original
     yield from film()
-    size = cut()
-    gui.log(f"{len(_frames)} frames, {size:,} bytes")
-    assert 100_000 < size < 6_000_000
+    cut("live.gif")
 
 
 gui.run(test)

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of many cases of the same kind are run: a few of each, unless all are asked for."""
+
+import itertools
+
+import pytest
+
+
+def pytest_addoption(parser):
+    """Add the option that asks for all of them."""
+    parser.addoption("--thorough", action="store_true", help="also run what is marked as thorough")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config, items):
+    """Leave out what is marked as thorough; a test that is named by itself has all its cases."""
+    if config.getoption("thorough") or any("::" in each for each in config.args):
+        return
+    kept, left_out = [], []
+    for _, group in itertools.groupby(items, lambda item: item.nodeid.partition("[")[0]):
+        cases = list(group)
+        marker = cases[0].get_closest_marker("thorough")
+        few = spread(len(cases), *marker.args) if marker else set(range(len(cases)))
+        for number, case in enumerate(cases):
+            (kept if number in few else left_out).append(case)
+    if left_out:
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = kept
+
+
+def spread(count, few=0):
+    """Return the numbers of a few of so many cases: the first, the last and some between them."""
+    few = min(few, count)
+    return {round(i * (count - 1) / max(few - 1, 1)) for i in range(few)}
