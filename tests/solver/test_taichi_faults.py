@@ -237,14 +237,16 @@ def test_the_options_of_others_do_not_matter(options):
 @needs_engine
 @needs("pyamg")
 def test_no_kernel_reads_beyond_its_arrays():
-    """Which another add-on's program may be set to check."""
+    """Which another add-on's program may be set to check. Nor is there anything to warn of."""
     passes(
         """
+        import warnings
         from solver import global_step, multigrid
         from solver.backends.engine import import_engine
         global_step.FACTORIZED_VERTICES, multigrid._COARSEST = 0, 20
         ti = import_engine()
         ti.init(arch=ti.cpu, log_level=ti.ERROR, debug=True, offline_cache=False)
+        warnings.simplefilter("error")
         stylize(V, F, device="cpu", max_iterations=3)
         """
     )
