@@ -49,8 +49,8 @@ class Stylization:
         Positions of the pinned vertices in the units of the input; by default their rest positions.
         The rows of all other vertices are ignored.
     device : {"auto", "cpu", "gpu", "numpy"}
-        On a GPU, the arrays stay there. If Taichi is reset during the run, every method that needs
-        them raises a CubicCraftError.
+        On a GPU, the arrays stay there. If the engine is reset during the run, every method that
+        needs them raises a CubicCraftError.
     precision : {"f64", "f32"}, optional
         Of the local step in Taichi; by default the highest that the device supports.
     admm : AdmmOptions, optional

@@ -13,7 +13,7 @@ from .package import ROOT_PACKAGE
 def use_extension_folder() -> None:
     """Make the engine cache its kernels in the folder that Blender gives the extension."""
     try:
-        folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True)
+        folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="kernels", create=True)
     except (ValueError, OSError):
         # Not installed as an extension, or the folder cannot be created: use the usual one.
         return
