@@ -74,8 +74,9 @@ $(VENV)-oldest/.done: requirements/*.txt
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
-# What is compared many times over in the mathematics is no other in another Python, and slow.
-test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2
+# What is compared many times over in the mathematics is no other in another Python, and slow. With
+# Quadrants in place of Taichi: Taichi runs in all other environments, and on this Python in a window.
+test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2 and Quadrants
 	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" --ignore tests/solver/contacts \
 		--ignore tests/solver/proxy $(patsubst %,--ignore tests/solver/test_%.py,acceleration auto_orient \
 		forms holds moved normal_capture polytope rotation_fit sequence) tests/solver
@@ -84,7 +85,9 @@ $(VENV)-py313/.done: requirements/*.txt
 	@test -n "$(PYTHON313)" || \
 		{ echo "no Python 3.13 found; set it: make PYTHON313=path"; exit 1; }
 	$(PYTHON313) -m venv $(VENV)-py313
-	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2"
+	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2" \
+		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
+	$(VENV)-py313/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
 
 has-py313:
@@ -122,7 +125,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
 
 test-package-gui: package ## Packages and repository in real Blender windows
-	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages $(ZIP)
+	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(PYTHON) -m venv $(VENV)-bare-$*
@@ -170,7 +173,7 @@ test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, i
 	$(call test_library,oldest,$(PYTHON),oldest,,--ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
 
-lock: setup ## Choose the wheels of the packages anew: requirements/wheels.lock
+lock: setup ## Choose the wheels of the packages anew: requirements/wheels*.lock
 	$(PY) scripts/package lock
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cubic stylization without Blender: NumPy, SciPy and, if it is installed, Taichi.
+"""Cubic stylization without Blender: NumPy, SciPy and, if installed, Taichi or Quadrants.
 
 The names below are imported on first use, so that Blender can show the panel of the extension
 without loading SciPy, and even if SciPy is missing.
@@ -12,7 +12,7 @@ from .errors import CubicCraftError
 
 if TYPE_CHECKING:
     from .auto_orientation import auto_orient
-    from .backends import DEVICES, problem_with_taichi, set_cache_folder
+    from .backends import DEVICES, engine_name, problem_with_engine, set_cache_folder
     from .edge_distances import edge_distances, nearest_distances
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
@@ -59,6 +59,7 @@ __all__ = [
     "auto_orient",
     "commuting",
     "edge_distances",
+    "engine_name",
     "flatten_facets",
     "frame_of",
     "joined_limbs",
@@ -69,7 +70,7 @@ __all__ = [
     "partners",
     "placed_limbs",
     "pose_frames",
-    "problem_with_taichi",
+    "problem_with_engine",
     "rest_mesh",
     "run",
     "set_cache_folder",
@@ -103,6 +104,7 @@ _MODULES = {
     "auto_orient": "auto_orientation",
     "commuting": "symmetry",
     "edge_distances": "edge_distances",
+    "engine_name": "backends",
     "flatten_facets": "flatten",
     "frame_of": "steadiness",
     "joined_limbs": "limbs",
@@ -113,7 +115,7 @@ _MODULES = {
     "partners": "symmetry",
     "pose_frames": "limb_frames",
     "placed_limbs": "limbs",
-    "problem_with_taichi": "backends",
+    "problem_with_engine": "backends",
     "rest_mesh": "rest",
     "run": "runner",
     "set_cache_folder": "backends",

@@ -2,8 +2,13 @@
 """Which of many cases of the same kind are run: a few of each, unless all are asked for."""
 
 import itertools
+import sys
+from pathlib import Path
 
 import pytest
+
+# pytest has put it first; `scripts` in it would hide files of the `scripts` in the root.
+sys.path.remove(str(Path(__file__).parent))
 
 
 def pytest_addoption(parser):

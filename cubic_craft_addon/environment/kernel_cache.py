@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compiled kernels live in the extension's own user folder, not in Taichi's default one."""
+"""Compiled kernels live in the extension's own user folder, not in that of all programs."""
 
 from functools import cache
 
@@ -11,10 +11,10 @@ from .package import ROOT_PACKAGE
 
 @cache
 def use_extension_folder() -> None:
-    """Make Taichi cache its kernels in the folder that Blender gives the extension."""
+    """Make the engine cache its kernels in the folder that Blender gives the extension."""
     try:
         folder = bpy.utils.extension_path_user(ROOT_PACKAGE, path="taichi", create=True)
     except (ValueError, OSError):
-        # Not installed as an extension, or the folder cannot be created: use Taichi's default.
+        # Not installed as an extension, or the folder cannot be created: use the usual one.
         return
     solver.set_cache_folder(folder)

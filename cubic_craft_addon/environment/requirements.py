@@ -15,7 +15,7 @@ _broken = ""
 
 
 def check_requirements() -> None:
-    """Check that SciPy works, before it is used; without Taichi the solver runs in NumPy.
+    """Check that SciPy works, before it is used; without an engine NumPy solves.
 
     Raises
     ------

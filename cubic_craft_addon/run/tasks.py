@@ -14,7 +14,7 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from .. import hidden_source, mesh_bridge
-from ..environment.taichi_notes import look_at_taichi
+from ..environment.engine_notes import look_at_engine
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
 from ..mesh_bridge import LastRun
@@ -225,7 +225,7 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     hair = [hair_left_behind(task.obj, task.settings.result) for task in tasks]
     written, problems = 0, []
     if tasks:
-        look_at_taichi()
+        look_at_engine()
     try:
         for task, run in zip(tasks, runs, strict=True):
             write_task(overrides, task, run)

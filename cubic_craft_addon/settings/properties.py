@@ -70,10 +70,10 @@ _ROTATIONS = (
     ("FREE", "Yes", "A part may turn by some degrees, to fit the cube a little better", 2),
 )
 _DEVICES = (
-    ("AUTO", "Auto", "Taichi on the processor if it is installed, otherwise NumPy"),
-    ("CPU", "CPU", "Taichi on the processor"),
-    ("GPU", "GPU", "Taichi on the graphics card"),
-    ("NUMPY", "NumPy", "Without Taichi: slower, but works everywhere"),
+    ("AUTO", "Auto", "Taichi or Quadrants on the processor if it is installed, otherwise NumPy"),
+    ("CPU", "CPU", "Taichi or Quadrants on the processor"),
+    ("GPU", "GPU", "Taichi or Quadrants on the graphics card"),
+    ("NUMPY", "NumPy", "Without either: slower, but works everywhere"),
 )
 
 

@@ -5,9 +5,9 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
+from ..environment.engine_notes import engine_note
 from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_known_requirements
-from ..environment.taichi_notes import taichi_note
 from ..handles.owner import panel_object
 from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
@@ -189,8 +189,8 @@ def _draw_solver(layout, obj):
     mesh = session.mesh_of(obj) if session else None
     if mesh is not None and mesh.numbers:
         layout.label(text=mesh.numbers)
-    if taichi_note():
-        for line in wrapped(taichi_note(), room_for_text(bpy.context)):
+    if engine_note():
+        for line in wrapped(engine_note(), room_for_text(bpy.context)):
             layout.label(text=line)
 
 

@@ -9,11 +9,12 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 
 import psutil
 
-PACKAGES = ("numpy", "scipy", "taichi", "cholespy", "pymeshlab", "bpy")
+PACKAGES = ("numpy", "scipy", "taichi", "quadrants", "cholespy", "pymeshlab", "bpy")
 _STATUS, _RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
@@ -22,7 +23,8 @@ def machine_line():
     cpuinfo = Path("/proc/cpuinfo")
     model = re.search(r"model name\s*: (.*)", cpuinfo.read_text() if cpuinfo.exists() else "")
     processor = f"{model[1]} ({platform.machine()})" if model else platform.machine()
-    versions = ", ".join(f"{name} {metadata.version(name)}" for name in PACKAGES)
+    there = [name for name in PACKAGES if find_spec(name)]
+    versions = ", ".join(f"{name} {metadata.version(name)}" for name in there)
     return (
         f"{processor}, {psutil.cpu_count()} cores, {platform.system()},"
         f" Python {platform.python_version()}; {versions}."

@@ -84,7 +84,7 @@ The defaults have an energy of their own, with links. Gaps of either energy, bet
 lowest that any of the runs or a long one has seen, as in the paper and with the defaults."""
 _MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
 _NUMPY = """\
-The artist's defaults beside those without Taichi, as in a Blender whose Python it has no wheel for;
+The artist's defaults beside those without Taichi, as in a Blender that has none and no Quadrants;
 not as in the paper. Each to its own stop."""
 _CORES = """\
 An iteration as in the paper, in processes that may use one core and all of them. "Not parallel" is

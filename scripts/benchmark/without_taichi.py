@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The defaults with NumPy alone, as where Taichi has no wheel, beside those with Taichi."""
+"""The defaults with NumPy alone, as where no engine is installed, beside those with Taichi."""
 
 from .defaults import SETTINGS
 from .meshes import read

@@ -37,12 +37,12 @@ class Extension:
         self.region = _room("cubic_craft_addon.settings.region")
         self.settings = _room("cubic_craft_addon.settings.values")
         self.solver = _room("solver")
-        self._warnings = _room("cubic_craft_addon.environment.taichi_notes")
+        self._warnings = _room("cubic_craft_addon.environment.engine_notes")
         self.version = read_version(root)
 
     def notices(self) -> list[str]:
         """Return what there is to say about this machine after a run, one line each."""
-        return self._warnings.new_taichi_warnings()
+        return self._warnings.new_engine_warnings()
 
 
 @contextlib.contextmanager

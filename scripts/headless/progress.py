@@ -34,7 +34,7 @@ class Task:
 
 
 class ProgressBar:
-    """Shows steps; with rich (which comes with Taichi) and a terminal as moving bars.
+    """Shows steps; with rich (which comes with Taichi and Quadrants) and a terminal as moving bars.
 
     A silent one says only what must be read. What remains is estimated from some seconds of the
     past.

@@ -22,7 +22,7 @@ SETTINGS = (
     *("space", "solidity", "keep_pose", "detail", "keep_apart", "together", "refine", "rotation"),
     *("symmetry", "floor", "hold_rest", "with_modifiers"),
 )
-OPTIONAL_PACKAGES = ("taichi", "scipy", "cholespy", "pyamg")
+OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
 def write_report(

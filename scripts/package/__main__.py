@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from package.check import check  # noqa: E402
-from package.targets import PLATFORMS, Package  # noqa: E402
+from package.targets import PLATFORMS, packages_for  # noqa: E402
 
 DIST = ROOT / "dist"
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "cubic_craft" / "wheels"
@@ -21,7 +21,7 @@ def arguments():
     """Return the parsed command line."""
     parser = argparse.ArgumentParser(prog="package", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    build = commands.add_parser("build", help="build the zips, one or two for each platform")
+    build = commands.add_parser("build", help="build the zips, one or more for each platform")
     build.add_argument("plain", type=Path, help="the extension without wheels")
     build.add_argument("--platforms", nargs="+", choices=PLATFORMS, default=list(PLATFORMS))
     build.add_argument("--output", type=Path, default=DIST / "packages")
@@ -39,9 +39,9 @@ def main():
     """Do what the command line says."""
     options = arguments()
     if options.command == "lock":
-        from package.lock import write_lock
+        from package.lock import write_locks
 
-        write_lock()
+        write_locks()
     elif options.command == "check":
         check_all(options.zips)
     elif options.command == "repository":
@@ -58,9 +58,8 @@ def build_all(options):
     for name in options.platforms:
         for stale in options.output.glob(f"cubic_craft-*-{name.replace('-', '_')}*"):
             stale.unlink()
-        built += build_platform(
-            Package(PLATFORMS[name]), options.plain, options.output, options.cache
-        )
+        for package in packages_for(PLATFORMS[name]):
+            built += build_platform(package, options.plain, options.output, options.cache)
     for path in built:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")
 

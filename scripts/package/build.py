@@ -13,6 +13,7 @@ from build_extension import build
 from .bom import bill_of_materials
 from .check import BILL, check
 from .fetch import fetch
+from .locked import REQUIREMENTS
 from .targets import SIZE_LIMIT_BYTES
 from .third_party import write_third_party
 from .wheel import Wheel
@@ -66,7 +67,9 @@ def _size(package, cache):
 
 def _wheel_paths(package, cache):
     """Return the path of each file once, also of those that are for several Pythons."""
-    paths = [path for python in package.pythons for path in fetch(package.platform, python, cache)]
+    lock = REQUIREMENTS / package.lock
+    found = [fetch(package.platform, python, cache, lock) for python in package.pythons]
+    paths = [path for wheels in found for path in wheels]
     return list({path.name: path for path in paths}.values())
 
 

@@ -6,9 +6,9 @@ import tomllib
 import zipfile
 from pathlib import Path, PurePosixPath
 
-from .locked import needed_by_solver, read_lock
+from .locked import REQUIREMENTS, needed_by_solver, read_lock
 from .targets import NUMPY_OF_BLENDER, SIZE_LIMIT_BYTES, all_packages
-from .wheel import Wheel, requirement_name
+from .wheel import Wheel, holding, requirement_name
 
 BILL = "sbom.cdx.json"  # the bill of materials
 FROM_BLENDER = "numpy"  # extensions share it with Blender, so none may bring one
@@ -24,7 +24,7 @@ def check(path, package=None, lock=None, needed=None, limit=SIZE_LIMIT_BYTES):
     package : Package, optional
         Its promise; by default that of its name.
     lock : dict, optional
-        Version and hashes by name; by default the lock of the project.
+        Version and hashes by name; by default the lock of its wheels.
     needed : list of Requirement, optional
         What the extension imports; by default the requirements of the solver.
     limit : int
@@ -37,7 +37,7 @@ def check(path, package=None, lock=None, needed=None, limit=SIZE_LIMIT_BYTES):
     """
     path = Path(path)
     package = package or _promise_of(path)
-    lock = read_lock() if lock is None else lock
+    lock = read_lock(REQUIREMENTS / package.lock) if lock is None else lock
     needed = needed_by_solver() if needed is None else needed
     with zipfile.ZipFile(path) as archive:
         manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
@@ -124,8 +124,7 @@ def _python_problems(wheels, platform, python, needed, used):
     """Follow all dependencies for one Python; adds the file names of what it needs to `used`."""
     problems = []
     here = f"{platform.name}, Python {python}"
-    markers = platform.markers(python)
-    waiting = [(r, "the solver") for r in needed if not r.marker or r.marker.evaluate(markers)]
+    waiting = [(r, "the solver") for r in holding(needed, platform, python)]
     seen = set()
     while waiting:
         requirement, wanted_by = waiting.pop()

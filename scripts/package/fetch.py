@@ -2,12 +2,12 @@
 """Get the locked wheels: from the cache, or else by pip, which checks the hashes."""
 
 from . import pip
-from .locked import LOCK, read_lock
+from .locked import read_lock
 from .wheel import Wheel
 
 
-def fetch(platform, python, cache, lock=LOCK):
-    """Return the path of each locked wheel for this platform and Python.
+def fetch(platform, python, cache, lock):
+    """Return the path of each wheel of a lock (Path) for this platform and Python.
 
     What is in the cache is used only with the locked hash, so a file cut short is fetched again.
 

@@ -10,12 +10,11 @@ from .wheel import requirement_name
 
 REQUIREMENTS = Path(__file__).resolve().parents[2] / "requirements"
 SOLVER = REQUIREMENTS / "solver.txt"
-LOCK = REQUIREMENTS / "wheels.lock"
 
 _HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
 
 
-def read_lock(path=LOCK):
+def read_lock(path):
     """Return for each name its version and the set of its hashes."""
     locked = {}
     for line in _lines(path):
@@ -25,9 +24,9 @@ def read_lock(path=LOCK):
     return locked
 
 
-def needed_by_solver(path=SOLVER):
+def needed_by_solver():
     """Return the requirements of the solver itself."""
-    return [Requirement(line) for line in _lines(path)]
+    return [Requirement(line) for line in _lines(SOLVER)]
 
 
 def _lines(path):

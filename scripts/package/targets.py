@@ -6,10 +6,16 @@ from dataclasses import dataclass
 from packaging import tags
 
 PYTHONS = ("3.11", "3.13")  # of Blender 4.2 to 5.0, and from 5.1 on
+NEWEST_PYTHONS = ("3.14",)  # of distributions; with Quadrants, as Taichi has no wheels for it
 NEW_PYTHON_BLENDER = "5.1.0"  # the first with the second of them, where Blender brings Python
 
 # A wheel must work with each. Python 3.11: Blender 4.2, 4.4 to 5.0. Python 3.13: Debian 13, 5.1.
-NUMPY_OF_BLENDER = {"3.11": ("1.24.3", "1.26.4"), "3.13": ("2.2.4", "2.3.4")}
+# Python 3.14: the oldest that Quadrants takes, and Debian's.
+NUMPY_OF_BLENDER = {
+    "3.11": ("1.24.3", "1.26.4"),
+    "3.13": ("2.2.4", "2.3.4"),
+    "3.14": ("2.3.4", "2.4.6"),
+}
 
 SIZE_LIMIT_BYTES = 200_000_000  # what the extensions platform takes at most
 
@@ -20,6 +26,7 @@ class Platform:
 
     `wheel_tags` are the last parts of the names of wheels that run there. `brings_python` is False
     where a distribution's Blender may use another Python than Blender's own of that version.
+    `pythons` are those of its packages, one package for each group, unless it has to be split.
     """
 
     name: str
@@ -28,6 +35,7 @@ class Platform:
     system: str
     machine: str
     brings_python: bool = True
+    pythons: tuple[tuple[str, ...], ...] = (PYTHONS,)
 
     def markers(self, python):
         """Return what the markers of dependencies are evaluated with."""
@@ -52,7 +60,11 @@ class Platform:
 
 
 # Blender itself needs glibc 2.28; SciPy has no wheel for an Apple processor before macOS 12.
-_MANYLINUX = tuple(f"manylinux_2_{minor}_x86_64" for minor in range(28, 16, -1))
+def _manylinux(machine):
+    newer = (f"manylinux_2_{minor}_{machine}" for minor in range(28, 16, -1))
+    return *newer, f"manylinux2014_{machine}"
+
+
 PLATFORMS = {
     platform.name: platform
     for platform in (
@@ -66,11 +78,21 @@ PLATFORMS = {
         ),
         Platform(
             "linux-x64",
-            (*_MANYLINUX, "manylinux2014_x86_64"),
+            _manylinux("x86_64"),
             "linux",
             "Linux",
             "x86_64",
             brings_python=False,
+            pythons=(PYTHONS, NEWEST_PYTHONS),
+        ),
+        Platform(
+            "linux-arm64",
+            _manylinux("aarch64"),
+            "linux",
+            "Linux",
+            "aarch64",
+            brings_python=False,
+            pythons=(NEWEST_PYTHONS,),
         ),
     )
 }
@@ -108,12 +130,28 @@ class Package:
             return {"blender_version_max": NEW_PYTHON_BLENDER}  # the first that it is not for
         return {"blender_version_min": NEW_PYTHON_BLENDER}
 
+    @property
+    def lock(self):
+        """Return the name of the file that locks its wheels.
+
+        Each package for the newest Python has its own: on Arm, some of what it needs has no wheel.
+        """
+        if self.pythons == NEWEST_PYTHONS:
+            return f"wheels_{self.platform.name}_python{self.pythons[0]}.lock"
+        return "wheels.lock"
+
     def split(self):
         """Return one package for each Python in place of this one."""
         return [Package(self.platform, (python,)) for python in self.pythons]
 
 
+def packages_for(platform):
+    """Return the packages of a platform, before any of them is split."""
+    return [Package(platform, pythons) for pythons in platform.pythons]
+
+
 def all_packages():
     """Return all packages that there can be."""
-    whole = [Package(platform) for platform in PLATFORMS.values()]
-    return whole + [part for package in whole for part in package.split()]
+    whole = [package for platform in PLATFORMS.values() for package in packages_for(platform)]
+    parts = [part for package in whole if len(package.pythons) > 1 for part in package.split()]
+    return whole + parts

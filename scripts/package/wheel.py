@@ -74,9 +74,14 @@ class Wheel:
 
     def requirements(self, platform, python):
         """Return the requirements that hold there, without those of extras."""
-        markers = platform.markers(python)
         found = map(Requirement, self.metadata.get_all("Requires-Dist", []))
-        return [r for r in found if r.marker is None or r.marker.evaluate(markers)]
+        return holding(found, platform, python)
+
+
+def holding(requirements, platform, python):
+    """Return those of the requirements that hold there."""
+    markers = platform.markers(python)
+    return [r for r in requirements if r.marker is None or r.marker.evaluate(markers)]
 
 
 def requirement_name(requirement):

@@ -60,11 +60,11 @@ def arrays_for(device):
 
 def is_on_its_own_memory(device):
     """Return whether a device has to be sent what it is to read."""
-    return device != "taichi-cpu"
+    return not device.endswith("-cpu")
 
 
 def a_few_zeros(array):
-    """Return a row of zeros in place of an array of NumPy or Taichi, and two if it is of integers.
+    """Return a row of zeros in place of an array, of NumPy or not, and two if it is of integers.
 
     So where it says where rows begin and end, there is one row, and nothing in it.
     """

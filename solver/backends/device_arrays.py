@@ -1,50 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays on a device, which live as long as the Taichi program that made them."""
+"""Arrays on a device, which live as long as the program of the engine that made them."""
 
 import weakref
 
 import numpy as np
 
 from ..errors import CubicCraftError
-from . import taichi_runtime
+from .engine import import_engine
+from .engine_choice import engine, started_program
 from .engine_lock import alone, check_not_forked, is_forked
+from .quick_compilation import quick_compilation
 
 
 class DeviceArrays:
-    """As `HostArrays`, with arrays of Taichi. They are freed when this object is.
+    """As `HostArrays`, with arrays of the engine. They are freed when this object is.
 
-    All but `keep` raise a CubicCraftError once Taichi has been reset: then what lay on the device
-    is gone, and even to read it would crash the process. `keep` raises one where it is full.
+    All but `keep` raise a CubicCraftError once the engine has been reset: then what lay on the
+    device is gone, and even to read it would crash the process. `keep` raises one where it is full.
     """
 
     is_resident = True
 
     def __init__(self):
-        self._program = _present_program()
+        self._program = started_program()
         self._arrays = []
         free = weakref.finalize(self, _free, self._arrays, self._program)
-        free.atexit = False  # Taichi ends its program itself
+        free.atexit = False  # the engine ends its program itself
 
     def check(self):
         """Make sure that the arrays still exist."""
         check_not_forked()
-        if _present_program() is not self._program:
+        if started_program() is not self._program:
             raise CubicCraftError(
                 "what lay on the GPU is lost, because another add-on or another device has reset"
-                " Taichi meanwhile; run it again, or choose the device cpu"
+                f" {engine().name} meanwhile; run it again, or choose the device cpu"
             )
 
     @alone
     def keep(self, values, of_numbers=False):
         """Return an array with these values; see `HostArrays`."""
-        if not len(values):  # of which Taichi makes none, and which no kernel reads
+        if not len(values):  # of which the engine makes none, and which no kernel reads
             values = np.zeros((1, *values.shape[1:]), values.dtype)
-        with taichi_runtime.quick_compilation():
+        with quick_compilation():
             try:
                 array = _empty_like(values, of_numbers)
                 self._arrays.append(array)
                 array.from_numpy(values)
-            except RuntimeError as error:  # of which Taichi makes no kinds
+            except RuntimeError as error:  # of which the engine makes no kinds
                 raise CubicCraftError(
                     f"the GPU takes no more arrays ({str(error).strip().partition(chr(10))[0]});"
                     " choose the device cpu, or take a smaller mesh"
@@ -71,14 +73,14 @@ class DeviceArrays:
 
 
 def numpy_form(array):
-    """Return the shape and the type that an array of Taichi has in NumPy."""
-    ti = taichi_runtime.import_taichi()
+    """Return the shape and the type that an array of the engine has in NumPy."""
+    ti = import_engine()
     return (*array.shape, *array.element_shape), ti.lang.util.to_numpy_type(array.dtype)
 
 
 def _empty_like(values, of_numbers):
-    ti = taichi_runtime.import_taichi()
-    dtype = ti.lang.util.to_taichi_type(values.dtype)
+    ti = import_engine()
+    dtype = getattr(ti, f"{values.dtype.kind}{8 * values.dtype.itemsize}")  # such as ti.f64
     element = () if of_numbers else values.shape[1:]
     shape = values.shape[: values.ndim - len(element)]
     if len(element) == 2:
@@ -88,10 +90,6 @@ def _empty_like(values, of_numbers):
     return ti.ndarray(dtype, shape=shape)
 
 
-def _present_program():
-    return taichi_runtime.import_taichi().lang.impl.get_runtime().prog
-
-
 @alone
 def _free(arrays, program):
     """Free arrays of a program that may have ended.
@@ -99,7 +97,7 @@ def _free(arrays, program):
     Taichi 1.7 frees arrays of numbers only, and those even where the program is another one by now,
     which may have something else at the same address. So each is freed here, and then forgotten.
     """
-    if not is_forked() and _present_program() is program:
+    if not is_forked() and started_program() is program:
         program.synchronize()  # what waits for a kernel would not be freed
         for array in arrays:
             program.delete_ndarray(array.arr)

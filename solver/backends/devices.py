@@ -4,15 +4,17 @@
 from functools import partial
 
 from ..errors import CubicCraftError
+from .engine import import_engine
+from .engine_choice import engine
 from .engine_lock import ForkedError, alone
 from .numpy_local_step import NumpyLocalStep
+from .quick_compilation import quick_compilation
 from .taichi_local_step import TaichiLocalStep
-from .taichi_runtime import import_taichi, quick_compilation
 
 DEVICES = ("auto", "cpu", "gpu", "numpy")
 
 _TRIES = 3
-"""runs in a row in which an installed Taichi may fail: what hinders it, such as a disk, may pass"""
+"""runs in a row in which an installed engine may fail: what hinders it, such as a disk, may pass"""
 
 
 def local_step_class(device="auto", precision=None):
@@ -21,15 +23,15 @@ def local_step_class(device="auto", precision=None):
     Parameters
     ----------
     device : {"auto", "cpu", "gpu", "numpy"}
-        "cpu" and "gpu" are Taichi's; "auto" is "cpu" where Taichi works, else "numpy": see
-        `problem_with_taichi`.
+        "cpu" and "gpu" are those of Taichi or Quadrants; "auto" is "cpu" where that works, else
+        "numpy": see `problem_with_engine`.
     precision : {"f64", "f32"}, optional
-        Of Taichi's kernels; by default the best that the device has. NumPy is always f64.
+        Of their kernels; by default the best that the device has. NumPy is always f64.
 
     Raises
     ------
     CubicCraftError
-        An unknown device. The function raises it if Taichi is asked for and does not work.
+        An unknown device. The function raises it if the engine is asked for and does not work.
     """
     if device not in DEVICES:
         raise CubicCraftError(f'the device "{device}" is none of {", ".join(DEVICES)}')
@@ -38,7 +40,7 @@ def local_step_class(device="auto", precision=None):
     return partial(_taichi_local_step, device, precision)
 
 
-def problem_with_taichi():
+def problem_with_engine():
     """Return why the device "auto" means "numpy" at present, "" while it does not."""
     return _problem
 
@@ -52,7 +54,7 @@ def _taichi_local_step(device, precision, *arguments):
     global _problem, _tries_left
     is_imported = False
     try:
-        import_taichi()
+        import_engine()
         is_imported = True
         with quick_compilation():
             wanted = "gpu" if device == "gpu" else "cpu"
@@ -66,7 +68,7 @@ def _taichi_local_step(device, precision, *arguments):
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
         if device != "auto":
             raise CubicCraftError(
-                f'the device "{device}" needs Taichi, which cannot be used ({reason});'
+                f'the device "{device}" needs {engine().name}, which cannot be used ({reason});'
                 " choose the device auto or numpy"
             ) from error
         _problem, _tries_left = reason, _tries_left - 1 if is_imported else 0

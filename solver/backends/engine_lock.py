@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One user of Taichi at a time: a process has its program, its modules and its threads only once.
+"""One user of the engine at a time: a process has its program, modules and threads only once.
 
-Taichi may be used from any thread, but it is not made for two at once, and what we replace for the
-time of its import or of a compilation is replaced for all threads. So whatever touches it holds
-`LOCK`. A fork waits until nobody does. The child has Taichi's program, but none of its threads, and
+It may be used from any thread, but it is not made for two at once, and what we replace for the time
+of its import or of a compilation is replaced for all threads. So whatever touches it holds `LOCK`.
+A fork waits until nobody does. The child has the engine's program, but none of its threads, and
 would wait for them for ever: see `check_not_forked`.
 """
 
 import ctypes
 import functools
 import os
-import sys
 import threading
 
 from ..errors import CubicCraftError
+from .engine_choice import engine, started_program
 
 LOCK = threading.RLock()
 
@@ -21,7 +21,7 @@ _is_forked = False
 
 
 class ForkedError(CubicCraftError):
-    """The process was forked from one in which Taichi had started."""
+    """The process was forked from one in which the engine had started."""
 
 
 def alone(function):
@@ -36,12 +36,12 @@ def alone(function):
 
 
 def is_forked():
-    """Return whether this process has a Taichi without threads, which must not be touched."""
+    """Return whether this process has an engine without threads, which must not be touched."""
     return _is_forked
 
 
 def check_not_forked():
-    """Check that Taichi's threads are there.
+    """Check that the engine's threads are there.
 
     Raises
     ------
@@ -50,22 +50,14 @@ def check_not_forked():
     """
     if _is_forked:
         raise ForkedError(
-            "Taichi cannot be used in a process that was forked after it had started; choose the"
-            ' device auto or numpy, or the start method "spawn"'
+            f"{engine().name} cannot be used in a process that was forked after it had started;"
+            ' choose the device auto or numpy, or the start method "spawn"'
         )
-
-
-def _program():
-    """Return Taichi's program, ours or that of others, or None if it has not started."""
-    try:
-        return sys.modules["taichi"].lang.impl.get_runtime().prog
-    except (KeyError, AttributeError):  # not imported, not wholly, or broken
-        return None
 
 
 def _begin_in_child():
     global _is_forked
-    program = _program()
+    program = started_program()
     if program is not None:
         _is_forked = True
         # One reference for ever: at the end of the process, the program would wait for its threads.

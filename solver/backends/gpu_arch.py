@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Find a GPU for Taichi without risking the process."""
+"""Find a GPU for the engine without risking the process."""
 
 import os
 import subprocess
@@ -7,13 +7,14 @@ import sys
 from functools import cache
 
 from ..errors import CubicCraftError
+from .engine_choice import engine
 
-_PROBE = "import taichi as ti; ti.init(arch=ti.vulkan, enable_fallback=False)"
+_PROBE = "import {} as ti; ti.init(arch=ti.vulkan, enable_fallback=False)"
 _PROBE_SECONDS = 60
 
 
 def gpu_arch(ti):
-    """Return Taichi's arch of the best GPU: CUDA, Metal or Vulkan.
+    """Return the engine's arch of the best GPU: CUDA, Metal or Vulkan.
 
     Raises
     ------
@@ -27,13 +28,13 @@ def gpu_arch(ti):
     if _vulkan_starts():
         return ti.vulkan
     raise CubicCraftError(
-        "no GPU that Taichi can use was found; choose the device auto, cpu or numpy"
+        f"no GPU that {engine().name} can use was found; choose the device auto, cpu or numpy"
     )
 
 
 @cache
 def _vulkan_starts():
-    """Return whether Taichi starts on Vulkan, by trying it in another process.
+    """Return whether the engine starts on Vulkan, by trying it in another process.
 
     Where the driver is missing or broken, even asking whether Vulkan is there crashes the process,
     and in Blender the artist's work with it.
@@ -45,7 +46,7 @@ def _vulkan_starts():
     }
     try:
         probe = subprocess.run(
-            [sys.executable, "-c", _PROBE],
+            [sys.executable, "-c", _PROBE.format(engine().package)],
             env=environment,
             capture_output=True,
             timeout=_PROBE_SECONDS,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The types of what the kernels are given. Import this only after `import_taichi`."""
+"""The types of what the kernels are given. To import this imports the engine."""
 
-import taichi as ti
+from .engine import ti
 
 
 def kernel_types(real):

@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local problem of one vertex by an active set, in Taichi; `active_set.py` says how.
 
-Import this only after `taichi_runtime.import_taichi`. These functions are compiled into the kernels
+To import this imports the engine. These functions are compiled into the kernels
 that call them. `kind` is the `Kind` of numbers that they compute with; the masks of the NumPy form
 are numbers here, zero or one, to multiply by.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
-
-from dataclasses import dataclass
-from typing import Any
-
-import taichi as ti
 
 from ..algebra import (
     adjugate,
@@ -37,29 +32,28 @@ from ..styles.active_set import (
     NEAREST_TARGET,
     SINGLE,
     SMALLEST_TURN,
-    Tolerances,
     curvature_on_tangent,
 )
+from .engine import ti
 from .kernel_types import kernel_types, state_types
 
 
-@dataclass(frozen=True)
 class Kind:
-    """Numbers of one precision."""
+    """Numbers of one precision. Not a dataclass, of which Quadrants takes the fields apart.
 
-    real: Any
-    """ti.f64 or ti.f32"""
-    vec3: Any
-    vec4: Any
-    mat3: Any
-    tolerances: Tolerances
+    Attributes
+    ----------
+    real : ti.f64 or ti.f32
+    vec3, vec4, mat3
+        Types of vectors and matrices of these numbers.
+    tolerances : Tolerances
+    """
 
-
-def kind_of(real):
-    """Return the Kind of ti.f64 or ti.f32."""
-    vec3, mat3, *_ = kernel_types(real)
-    vec4, _ = state_types(real, 4)
-    return Kind(real, vec3, vec4, mat3, DOUBLE if real == ti.f64 else SINGLE)
+    def __init__(self, real):
+        self.real = real
+        self.vec3, self.mat3, *_ = kernel_types(real)
+        self.vec4, _ = state_types(real, 4)
+        self.tolerances = DOUBLE if real == ti.f64 else SINGLE
 
 
 @ti.func

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a local step reads of a vertex's neighbours, in Taichi: its covariance.
 
-Import this only after `taichi_runtime.import_taichi`. These functions are compiled into the kernels
+To import this imports the engine. These functions are compiled into the kernels
 that call them. The loop over neighbours could end early, for an index that never comes: else LLVM
 makes a vector loop of it, which gains nothing with six neighbours and takes as long to load as all
 the rest.
@@ -10,9 +10,8 @@ the rest.
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-import taichi as ti
-
 from ..algebra import dot, outer, times
+from .engine import ti
 
 
 @ti.func

@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from . import taichi_runtime
-
 
 class TaichiCycle:
     """One V-cycle on vectors with four coordinates, of which the last is not used.
@@ -30,11 +28,13 @@ class TaichiCycle:
     """
 
     def __init__(self, multigrid, arrays):
+        from .engine import ti
+
         levels = multigrid.levels
         inverse = np.linalg.inv(multigrid.coarsest.toarray()).astype(np.float32)
         sizes = [level.A.shape[0] for level in levels] + [len(inverse)]
-        self._starts = (0, *accumulate(sizes))
-        here, below = self._starts[:-2], self._starts[1:-1]  # where the rows of each level begin
+        starts = (0, *accumulate(sizes))
+        here, below = starts[:-2], starts[1:-1]  # where the rows of each level begin
         of_finest = np.zeros(sizes[0] if levels else 0, np.int64)  # nothing is restricted to it
         matrices = (
             *_stacked([level.A for level in levels], here),
@@ -42,7 +42,7 @@ class TaichiCycle:
             *_stacked([level.restrict for level in levels], here, of_finest),
         )
         self.B, self.X, residual = (
-            arrays.keep(np.zeros((self._starts[-1], 4), np.float32)) for _ in range(3)
+            arrays.keep(np.zeros((starts[-1], 4), np.float32)) for _ in range(3)
         )
         self._kernel = _kernel(len(levels))
         self._arguments = (
@@ -51,17 +51,19 @@ class TaichiCycle:
             self.B,
             self.X,
             residual,
-            (*(float(level.of_b) for level in levels), 0.0),
-            (*(float(level.of_ab) for level in levels), 0.0),
+            # A kernel takes tuples as well, but Quadrants warns of what it cannot refer to weakly.
+            ti.Vector([*(float(level.of_b) for level in levels), 0.0]),
+            ti.Vector([*(float(level.of_ab) for level in levels), 0.0]),
         )
+        self._all_rows, self._no_rows = ti.Vector(starts), ti.Vector([0] * len(starts))
 
     def calls(self):
         """Return a call (kernel, arguments) of each kernel that is used, of no rows."""
-        return [(self._kernel, (*self._arguments, (0,) * len(self._starts)))]
+        return [(self._kernel, (*self._arguments, self._no_rows))]
 
     def run(self):
         """Do the cycle."""
-        self._kernel(*self._arguments, self._starts)
+        self._kernel(*self._arguments, self._all_rows)
 
 
 def _stacked(matrices, columns, before=()):
@@ -87,7 +89,6 @@ def _stacked(matrices, columns, before=()):
 
 @cache
 def _kernel(level_count) -> Any:
-    taichi_runtime.import_taichi()
     from .taichi_cycle_kernels import make_cycle
 
     return make_cycle(level_count)

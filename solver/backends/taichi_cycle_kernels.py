@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The V-cycle of `multigrid.py` as a Taichi kernel, in 32 bit: one thread per row.
 
-Import this only after `taichi_runtime.import_taichi`. Vectors have a fourth, unused coordinate:
+To import this imports the engine. Vectors have a fourth, unused coordinate:
 four of them are read at once, which takes half the time of three. Sums run in a fixed order.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-import taichi as ti
+from .engine import ti
 
 
 def make_cycle(level_count):

@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local problem of one vertex on the faces of a polytope, in Taichi, as `Polytopes` in NumPy.
 
-Import this only after `taichi_runtime.import_taichi`. These functions are compiled into the kernels
+To import this imports the engine. These functions are compiled into the kernels
 that call them. The tables of all faces are given as `FaceTables` in the order of its fields.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-import taichi as ti
-
 from ..algebra import axial, cross, dot, outer, product, times, trace, transposed_times, turn
 from ..styles.active_set import MAX_STEPS
 from ..styles.polytopes import NEAREST_FACET
+from .engine import ti
 from .face_tables import NUMBERS
 from .taichi_active_set import newton_step, turn_about_axis
 

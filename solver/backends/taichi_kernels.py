@@ -3,7 +3,7 @@
 
 A processor has that of `taichi_lanes.py` for the cube, of a few vertices at once.
 
-Import this only after `taichi_runtime.import_taichi`. All arrays are kernel arguments, because a
+To import this imports the engine. All arrays are kernel arguments, because a
 foreign ``ti.init`` destroys fields; sums run in a fixed order and nothing is added atomically, so
 that results are the same bit for bit.
 
@@ -19,11 +19,10 @@ loop over neighbours could end early, as that of `taichi_covariances.py`.
 from types import SimpleNamespace
 from typing import Any
 
-import taichi as ti
-
 from ..algebra import nearer_to_orthogonal, times
+from .engine import ti
 from .kernel_types import kernel_types, state_types
-from .taichi_active_set import kind_of, rotation_near
+from .taichi_active_set import Kind, rotation_near
 from .taichi_covariances import covariance, drawn, with_capture
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes
@@ -46,7 +45,7 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     _, vectors4 = state_types(real, 4)
     _, states = state_types(real, width)
-    kind = kind_of(real)
+    kind = Kind(real)
     is_cube = width == 3
 
     @ti.kernel

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local step for the cube on a processor, a few vertices at once by vector instructions.
 
-Import this only after `taichi_runtime.import_taichi`. Taichi writes no vector instructions, but
+To import this imports the engine. Taichi writes no vector instructions, but
 LLVM does for a loop of fixed length whose turns only touch arrays of their own: here the loops over
 the lanes, a vertex in each, between the loops that read from the mesh and write to it. There LLVM
 computes both ways of each branch, so that it pays for few and short ones; all lanes step until the
@@ -11,10 +11,9 @@ last one has its rotation.
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-import taichi as ti
-
 from ..algebra import nearer_to_orthogonal, product, transposed
 from ..styles.active_set import MAX_STEPS
+from .engine import ti
 from .kernel_types import kernel_types, state_types
 from .taichi_active_set import fit_and_cost, in_frame, step
 from .taichi_covariances import covariance, drawn, with_capture

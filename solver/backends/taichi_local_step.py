@@ -61,7 +61,7 @@ class TaichiLocalStep:
     arrays : HostArrays or DeviceArrays
         Where the arrays of the run lie. On a GPU they stay there.
     compile_seconds : float
-        Time spent compiling the kernels or loading them from Taichi's cache; 0 after the first use.
+        Time spent compiling the kernels or loading them from the cache; 0 after the first use.
     """
 
     @alone
@@ -87,6 +87,8 @@ class TaichiLocalStep:
             raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
+        # The newer LLVM of Quadrants makes vectors of a third of them only: there one vertex after
+        # the other is as quick, and compiled in a third of the time.
         has_lanes = runtime.device == "taichi-cpu" and form.width == CUBE.width
         self._kernels = _kernels(precision, form.width, captured is not None, has_lanes)
         self.precision, self.real = precision, real
@@ -243,7 +245,7 @@ class TaichiLocalStep:
         return self._rhs.astype(np.float64, copy=False)
 
     def start_device(self):
-        """Make sure that kernels can run: another add-on may have reset Taichi.
+        """Make sure that kernels can run: another add-on may have reset the engine.
 
         Raises
         ------
@@ -270,7 +272,7 @@ class TaichiLocalStep:
 
 @cache
 def _kernels(precision, width, is_captured, has_lanes):
+    from .engine import ti
     from .taichi_kernels import make_kernels
 
-    ti = taichi_runtime.import_taichi()
     return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, is_captured, has_lanes)

@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 
 from ..motion import largest
-from . import taichi_runtime
 from .engine_lock import alone
 from .taichi_cycle import TaichiCycle
 from .warmup import warm_up
@@ -175,7 +174,7 @@ class TaichiMotion:
 @cache
 def motion_kernels(precision):
     """Return the kernels for "f64" or "f32"."""
-    ti = taichi_runtime.import_taichi()
+    from .engine import ti
     from .taichi_motion_kernels import make_motion_kernels
 
     return make_motion_kernels(ti.f64 if precision == "f64" else ti.f32)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an iteration on a large mesh does beside the local step and the V-cycle, as Taichi kernels.
 
-Import this only after `taichi_runtime.import_taichi`. Sums and maxima are those of the chunks of
+To import this imports the engine. Sums and maxima are those of the chunks of
 `Topology` and then of its groups, each in a fixed order; the few of the groups go to NumPy.
 """
 
@@ -10,8 +10,7 @@ Import this only after `taichi_runtime.import_taichi`. Sums and maxima are those
 
 from types import SimpleNamespace
 
-import taichi as ti
-
+from .engine import ti
 from .kernel_types import kernel_types
 
 

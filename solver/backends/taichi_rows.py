@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rows of a local step whose arrays lie on a device; only these rows are sent. See `HostRows`.
 
-Import this only after `taichi_runtime.import_taichi`.
+To import this imports the engine.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
@@ -11,10 +11,10 @@ from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
-import taichi as ti
 
+from .engine import ti
 from .kernel_types import kernel_types, state_types
-from .taichi_active_set import kind_of
+from .taichi_active_set import Kind
 from .taichi_covariances import covariance
 
 
@@ -57,7 +57,7 @@ class DeviceRows:
 @cache
 def _kernels(precision, width):
     real = ti.f64 if precision == "f64" else ti.f32
-    kind = kind_of(real)
+    kind = Kind(real)
     vec3, _, scalars, integers, vectors, matrices = kernel_types(real)
     _, states = state_types(real, width)
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compile Taichi kernels, or load them from its cache, before the clock of a run starts."""
+"""Compile kernels, or load them from the cache, before the clock of a run starts."""
 
 import time
 
 from .arrays import a_few_zeros
-from .taichi_runtime import quick_compilation
+from .quick_compilation import quick_compilation
 
 _warm = set()
 

@@ -1,9 +1,8 @@
 #!/bin/bash
 # Packages that bring their wheels, in Debian's Blenders: installed from an extension repository and
-# updated (4.3), and refused by a Python that is too new for them (5.2).
-#   packages.sh [--if-possible] PACKAGES PLAIN.zip [OUTPUT [SUITE...]]
+# updated (4.3), installed from disk, and refused by another Python than theirs (5.2).
+#   packages.sh [--if-possible] PACKAGES [OUTPUT [SUITE...]]
 #     PACKAGES   folder of the packages (make package)
-#     PLAIN.zip  the extension without wheels (make build)
 #     OUTPUT     folder for screenshots and logs (default: build/packages in the project)
 #     SUITE      trixie, sid (default: both)
 # PYTHON is one with bpy (default: that of the project's .venv). Needs root on Debian, as run.sh does.
@@ -14,12 +13,11 @@ set -uo pipefail
 HERE=$(dirname "$(realpath "$0")")
 PROJECT=$(realpath "$HERE/../..")
 . "$HERE/../options.sh"
-[ $# -ge 2 ] || { usage >&2; exit 2; }
+[ $# -ge 1 ] || { usage >&2; exit 2; }
 needs_root_on_debian "window tests of the packages"
 PACKAGES=$(realpath -e "$1") || exit 2
-PLAIN=$(realpath -e "$2") || exit 2
-OUTPUT=${3:-$PROJECT/build/packages}
-shift $(($# < 3 ? $# : 3))
+OUTPUT=${2:-$PROJECT/build/packages}
+shift $(($# < 2 ? $# : 2))
 read -ra SUITES <<<"${*:-trixie sid}"
 PYTHON=$(realpath -s "${PYTHON:-$PROJECT/.venv/bin/python}")
 
@@ -31,15 +29,19 @@ prepare_trixie() {
         "$PYTHON" "$PROJECT/scripts/package" repository "$newer"/*.zip --output "$1/newer" || return 1
     rm -rf "$newer"
     OPTIONS=(-v "FIRST_VERSION=${versions% *}" -v "NEWER_VERSION=${versions#* }")
-    OPTIONS+=(-v "PACKAGE=/share/first/$(basename "$PACKAGE")")
+    OPTIONS+=(-v "PACKAGE=/share/first/$(basename "$OLDER")" -v EXPECT_DEVICE=taichi-cpu)
 }
 
 prepare_sid() {
-    cp "$PACKAGE" "$PLAIN" "$1"
-    OPTIONS=(-v "PACKAGE=/share/$(basename "$PACKAGE")" -v "PLAIN=/share/$(basename "$PLAIN")")
+    cp "$OLDER" "$NEWEST" "$1"
+    local name version
+    name=$(basename "$NEWEST")
+    version=${name#cubic_craft-}
+    OPTIONS=(-v "FIRST_VERSION=${version%%-*}" -v "OTHER=/share/$(basename "$OLDER")")
+    OPTIONS+=(-v "PACKAGE=/share/$name" -v EXPECT_DEVICE=quadrants-cpu)
 }
 
-# -o: the repository is on localhost; -p: with the SciPy of the set-up, but without it in trixie.
+# -o: the repository is on localhost.
 run_suite() {
     local suite=$1 folder=$2
     "$HERE/kit/setup_blender_gui.sh" -s "$suite" && "prepare_$suite" "$folder" || return 1
@@ -47,11 +49,13 @@ run_suite() {
     case $suite in
         trixie) "${run[@]}" -o "$HERE/packages/test_repository.py" &&
             "${run[@]}" "$HERE/packages/test_from_disk.py" ;;
-        sid) "${run[@]}" -p "$HERE/packages/test_refused.py" ;;
+        sid) "${run[@]}" "$HERE/packages/test_refused.py" &&
+            "${run[@]}" "$HERE/packages/test_from_disk.py" ;;
     esac
 }
 
-PACKAGE=$(ls "$PACKAGES"/*linux_x64*.zip | tail -n 1)  # of the newer Python, if there is one for each
+NEWEST=$(ls "$PACKAGES"/*linux_x64-python3.14.zip)
+OLDER=$(ls "$PACKAGES"/*linux_x64*.zip | grep -vF "$NEWEST" | tail -n 1)  # of 3.13, or of 3.11 as well
 RESULT=0
 for suite in "${SUITES[@]}"; do
     folder=$OUTPUT/$suite

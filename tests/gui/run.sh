@@ -38,11 +38,11 @@ obstacle() {
     fi
 }
 
-# The backend that must have run: Taichi has no wheel for the Python of sid.
+# The backend that must have run: Taichi has no wheel for the Python of sid, Quadrants has.
 expected_device() {
     case $1 in
         trixie) echo taichi-cpu ;;
-        sid) echo numpy ;;
+        sid) echo quadrants-cpu ;;
     esac
 }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pose the ear of the monkey by hand: add a handle, let it follow an empty, drag that, Cubify.
 
-EXPECT_DEVICE in the environment ("taichi-cpu", "numpy") names the backend that must have run.
+EXPECT_DEVICE in the environment, such as "taichi-cpu", names the backend that must have run.
 """
 
 import os

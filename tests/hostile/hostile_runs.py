@@ -16,8 +16,8 @@ ROUNDING = 1e-9
 """of the energy at rest: what sums of 64 bit numbers may differ by, with cotangents up to 1e3"""
 NOTHING = 1e-10
 """an energy in the unit box that is nothing but rounding, of up to 10,000 vertices of a proxy"""
-HAS_TAICHI = importlib.util.find_spec("taichi") is not None
-DEVICES = (*4 * ["cpu"], "numpy") if HAS_TAICHI else ("numpy",)  # NumPy is slower
+HAS_ENGINE = any(map(importlib.util.find_spec, ("taichi", "quadrants")))
+DEVICES = (*4 * ["cpu"], "numpy") if HAS_ENGINE else ("numpy",)  # NumPy is slower
 
 
 @st.composite

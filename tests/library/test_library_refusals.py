@@ -122,7 +122,8 @@ def test_files(name, tmp_path):
 def test_a_gpu_that_is_not_there_is_named(folder, monkeypatch):
     for variable in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):  # older loaders know the latter
         monkeypatch.setenv(variable, str(folder / "no_driver.json"))
-    monkeypatch.setenv("TI_ENABLE_CUDA", "0")
+    for engine in ("TI", "QD"):
+        monkeypatch.setenv(f"{engine}_ENABLE_CUDA", "0")
     line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder)
     assert "gpu" in line.lower()
 

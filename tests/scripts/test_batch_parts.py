@@ -165,7 +165,9 @@ WRITES = """
 import json, os, pathlib, sys
 pathlib.Path("a.png").write_bytes(b"picture")
 made = {"for": sys.argv[-1].removeprefix("--worker="), "sizes": {"a.png": 7}}
-about = {"threads": os.environ["OMP_NUM_THREADS"], "seconds": {"total": 1.5}, "made": made}
+limits = ("OMP_NUM_THREADS", "TI_CPU_MAX_NUM_THREADS", "QD_CPU_MAX_NUM_THREADS")
+threads = "/".join({os.environ[name] for name in limits})
+about = {"threads": threads, "seconds": {"total": 1.5}, "made": made}
 pathlib.Path("record.json").write_text(json.dumps(about))
 print("a warning", file=sys.stderr)
 """

@@ -152,7 +152,7 @@ def test_obj_of_a_placed_object_is_in_world_space(results):
 def test_report(results):
     folder, _ = results
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
-    assert {"cubic_craft", "blender", "python", "taichi"} <= report["versions"].keys()
+    assert {"cubic_craft", "blender", "python", "taichi", "quadrants"} <= report["versions"].keys()
     assert report["device"] == "numpy"
     assert report["seconds"].keys() == {"load", "write", "render", "total"}
     (entry,) = report["objects"]

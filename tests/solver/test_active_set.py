@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 import shapes
-from taichi_marks import needs_taichi
+from engine_marks import needs_engine
 from tight_admm import TIGHT
 
 from solver.backends import local_step_class
@@ -111,7 +111,7 @@ def test_the_admm_goes_on_only_where_it_has_not_lowered_the_energy(monkeypatch):
     assert (objective(problem, again) - objective(problem, exact)).max() < 1e-4
 
 
-@needs_taichi
+@needs_engine
 @pytest.mark.parametrize("precision", ["f64", "f32"])
 @pytest.mark.parametrize("lam", [0.0, 1e-9, 0.4, 5.0, 1e6])
 def test_degenerate_shapes_keep_a_rotation_no_worse_than_the_last(lam, precision):
@@ -131,7 +131,7 @@ def test_degenerate_shapes_keep_a_rotation_no_worse_than_the_last(lam, precision
         assert ((objective(problem, R) - before) / scale).max() <= tolerance
 
 
-@needs_taichi
+@needs_engine
 def test_what_the_kernel_leaves_is_solved_as_in_numpy():
     rest = rest_mesh(*shapes.blob(2))
     lam = np.full(len(rest.V), 0.4)

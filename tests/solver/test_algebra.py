@@ -7,7 +7,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 
 from solver import algebra
-from solver.backends.taichi_runtime import import_taichi, start
+from solver.backends.engine import import_engine
+from solver.backends.taichi_runtime import start
 from solver.rotation_fit import MIN_CURVATURE, curvature, is_definite
 from solver.styles.active_set import curvature_on_tangent
 
@@ -28,7 +29,7 @@ def on_columns(function, entries):
 
 
 def in_a_kernel(function, entries, device):
-    ti = import_taichi()
+    ti = import_engine()
     start(device)
     real = ti.f64 if device == "cpu" else ti.f32
     result = on_columns(function, entries)

@@ -1,32 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The iteration whose arrays stay on a device: on a GPU, or with Taichi on the CPU in its place.
+"""The iteration whose arrays stay on a device: on a GPU, or with the CPU in its place.
 
 The kernels are those of large meshes on the CPU, and so is what they are compared with.
 """
 
 import sys
+from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import shapes
 from devices import DEVICES, by_device
+from engine_marks import PACKAGE, needs_engine
 from optional_marks import needs
-from taichi_marks import needs_taichi
 from test_taichi_runtime import passes
 
 from solver import CubicCraftError, Run, Setup, Stylization, rest_mesh, stylize
 from solver.backends import arrays
+from solver.backends.engine import import_engine
 
-pytestmark = [needs("pyamg"), needs_taichi]
+pytestmark = [needs("pyamg"), needs_engine]
 
 DEVICE = "gpu" if "gpu" in DEVICES else "cpu"
 ON_A_DEVICE = f"""
         from solver.backends import arrays
-        from solver.backends.taichi_runtime import import_taichi, start
+        from solver.backends.engine import import_engine
+        from solver.backends.engine_choice import engine_name, started_program
+        from solver.backends.taichi_runtime import start
         if {DEVICE!r} == "cpu":
             arrays.is_on_its_own_memory = lambda device: True
-        ti = import_taichi()
+        ti = import_engine()
 """
 PRECISIONS = by_device(DEVICE, ["f64", "f32"], ["f32"])  # Vulkan and Metal have no other
 here = SimpleNamespace(device="cpu")
@@ -103,14 +107,20 @@ def test_it_ends_where_the_factorisation_does(coarsest, monkeypatch, on_a_device
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
 
 
-def test_an_iteration_runs_six_kernels_and_exchanges_less_than_a_kilobyte(monkeypatch, on_a_device):
-    from taichi.lang.kernel_impl import Kernel
+def _kernel_class():
+    """Return the class of kernels."""
+    import_engine()
+    name = {"taichi": "taichi.lang.kernel_impl", "quadrants": "quadrants.lang.kernel"}[PACKAGE]
+    return import_module(name).Kernel
 
+
+def test_an_iteration_runs_six_kernels_and_exchanges_less_than_a_kilobyte(monkeypatch, on_a_device):
     on_a_device()
     V, F = shapes.sphere(5)
     state = Stylization(Setup(rest_mesh(V, F)), 0.5, device=here.device)
     state.step()
     launched, exchanged = [], []
+    Kernel = _kernel_class()
     launch = Kernel.__call__
 
     def spy(self, *arguments):
@@ -239,14 +249,14 @@ def test_a_reset_is_told_and_the_next_run_works(how, thens):
             state.step()
             arch = ti.lang.impl.current_cfg().arch
             {how}
-            program = ti.lang.impl.get_runtime().prog
+            program = started_program()
             foreign = [ti.ndarray(ti.i32, shape=8) for _ in range(300 if program else 0)]
             try:
                 value = getattr(state, then)
                 if callable(value):
                     value()
             except CubicCraftError as error:
-                assert "reset Taichi" in str(error)
+                assert f"reset {{engine_name()}}" in str(error)
             else:
                 raise AssertionError(f"{{then}}: not told")
             del state

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import shapes
 from devices import by_device
+from engine_marks import needs_engine
 from named_forms import POLYTOPES
 from scipy.spatial.transform import Rotation
-from taichi_marks import needs_taichi
 from tight_admm import TIGHT
 
 from solver import Setup, Stylization, rest_mesh, run, stylize
@@ -136,7 +136,7 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
 
 
 @pytest.mark.thorough(4)
-@needs_taichi
+@needs_engine
 @pytest.mark.parametrize(
     "name", sorted(set(POLYTOPES) - {"box", "slab", "pillar", "cylinder", "cone"})
 )
@@ -168,7 +168,7 @@ def test_the_exact_form_droops_like_the_ball(name):
     assert energies[1] < 0.75 * energies[0]
 
 
-@needs_taichi
+@needs_engine
 def test_the_cube_as_a_polytope_is_the_cube():
     V, F = shapes.blob(3)
     one = stylize(V, F, 0.6)
@@ -177,7 +177,7 @@ def test_the_cube_as_a_polytope_is_the_cube():
     np.testing.assert_allclose(one.positions, other.positions, atol=1e-6)
 
 
-@pytest.mark.parametrize("device", ["numpy", pytest.param("cpu", marks=needs_taichi)])
+@pytest.mark.parametrize("device", ["numpy", pytest.param("cpu", marks=needs_engine)])
 def test_each_vertex_may_have_a_form_of_its_own(device):
     """Two balls in one mesh become what each becomes alone."""
     V, F = shapes.sphere(3)

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 import shapes
 from devices import by_device
+from engine_marks import needs_engine
 from plain_energy import plain_energy
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
-from taichi_marks import needs_taichi
 
 from solver.backends import local_step_class
 from solver.rest import rest_mesh
@@ -83,7 +83,7 @@ def test_rotations_minimise_the_local_energy(device):
         assert objective(i, step.R[i]) <= best + 1e-5
 
 
-@needs_taichi
+@needs_engine
 @pytest.mark.parametrize("name", ["blob", "skewed_blob", "sheet", "two_blobs"])
 @pytest.mark.parametrize(("precision", "tolerance"), [("f64", 1e-8), ("f32", 1e-4)])
 def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, tolerance):

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 from devices import by_device
+from engine_marks import needs_engine
 from scipy.spatial.transform import Rotation
-from taichi_marks import needs_taichi
 from tight_admm import TIGHT
 
 from solver import (
@@ -178,7 +178,7 @@ def test_every_device_gives_the_shape_of_numpy(device, lam, form):
     np.testing.assert_allclose(one.positions, other.positions, atol=by_device(device, 1e-5, 0.02))
 
 
-@needs_taichi
+@needs_engine
 def test_a_large_mesh_has_it_on_coarser_levels_too(monkeypatch):
     """Multigrid, coarser meshes and sums by kernels, on a mesh that would not need them."""
     V, F = shapes.sphere(5)
@@ -228,7 +228,7 @@ def test_beyond_a_mirror_it_is_mirrored():
     assert np.abs(other @ flip - one).max() < 1e-3 * np.ptp(V)
 
 
-@needs_taichi
+@needs_engine
 def test_a_ball_becomes_like_the_ball_that_was_captured():
     V, F = shapes.sphere(4)
     cubic = stylize(V, F, 2.0, max_iterations=2000).positions

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from taichi_marks import needs_taichi
+from engine_marks import needs_engine
 
 from solver import stylize
 
 FOLDER = Path(os.environ.get("CUBIC_CRAFT_MESHES", Path(__file__).parents[3] / "shared" / "meshes"))
 pytestmark = [
-    needs_taichi,
+    needs_engine,
     pytest.mark.skipif(not FOLDER.is_dir(), reason="the reference meshes are not here"),
 ]
 

@@ -4,11 +4,11 @@
 import numpy as np
 import pytest
 import shapes
-from taichi_marks import needs_taichi
+from engine_marks import needs_engine
 
 from solver import stylize
 
-pytestmark = needs_taichi
+pytestmark = needs_engine
 
 
 def single(V, F, cubeness, **options):

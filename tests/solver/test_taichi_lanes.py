@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapes
-from taichi_marks import needs_taichi
+from engine_marks import needs_taichi
 
 from solver.rest import rest_mesh
 from solver.styles.admm import AdmmOptions
@@ -20,8 +20,7 @@ ROOT = Path(__file__).parents[2]
 
 def local_steps(V, F, lam, Q, captured=None):
     """Return the local step with lanes, and the same without."""
-    import taichi as ti
-
+    from solver.backends.engine import ti
     from solver.backends.face_tables import face_tables
     from solver.backends.taichi_kernels import make_kernels
     from solver.backends.taichi_local_step import TaichiLocalStep

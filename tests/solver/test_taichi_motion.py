@@ -6,14 +6,14 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 import shapes
+from engine_marks import needs_engine
 from optional_marks import needs
-from taichi_marks import needs_taichi
 
 from solver import Setup, Stylization, rest_mesh, stylize
 from solver.motion import Motion
 from solver.styles.admm import admm_rotations
 
-pytestmark = [needs("pyamg"), needs_taichi]
+pytestmark = [needs("pyamg"), needs_engine]
 
 
 @pytest.fixture(autouse=True)

@@ -6,13 +6,13 @@
 # Run it again at will: it skips what is done, and starts over what was interrupted.
 # Environment:
 #   BLENDER_GUI_ROOT    folder for all it makes (default: ${XDG_CACHE_HOME:-~/.cache}/blender-gui)
-#   BLENDER_GUI_WHEELS  packages to put on /opt/pysite (default: "taichi==1.7.4 scipy cholespy";
-#                       "": none); what has no wheel for the suite's Python is reported and left out
+#   BLENDER_GUI_WHEELS  packages to put on /opt/pysite (default: "taichi==1.7.4 scipy cholespy", on
+#                       sid Quadrants in place of Taichi; "": none); what has no wheel for the suite's
+#                       Python is reported and left out
 #   BLENDER_GUI_MIRROR  Debian mirror (default: the one in this machine's apt configuration)
 set -euo pipefail
 
 ROOT=${BLENDER_GUI_ROOT:-${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/blender-gui}
-WHEELS=${BLENDER_GUI_WHEELS-taichi==1.7.4 scipy cholespy}
 PACKAGES=(blender xvfb libgl1 libgl1-mesa-dri libglx-mesa0 libegl1 libegl-mesa0 xdotool imagemagick
     python3-pip python3-numpy python3-requests)
 CHROOT_PATH=/usr/sbin:/usr/bin:/sbin:/bin
@@ -38,10 +38,14 @@ while getopts s:h option; do
 done
 [ $# -lt $OPTIND ] || { usage >&2; exit 2; }
 case $SUITE in
-    trixie) ;;
-    sid) PACKAGES+=(python3-cattr) ;;  # Blender 5 needs it; Debian's package lacks the dependency
+    trixie) ENGINE=taichi==1.7.4 ;;
+    sid)
+        ENGINE=quadrants==1.4.0
+        PACKAGES+=(python3-cattr)  # Blender 5 needs it; Debian's package lacks the dependency
+        ;;
     *) echo "unknown suite $SUITE (trixie or sid)" >&2; exit 2 ;;
 esac
+WHEELS=${BLENDER_GUI_WHEELS-$ENGINE scipy cholespy}
 [ "$(id -u)" = 0 ] || die "needs root"
 
 mkdir -p "$ROOT/chroot" "$ROOT/log" "$ROOT/wheels" "$ROOT/shaders/$SUITE"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a user does with extensions in Blender's preferences, shown beside the viewport."""
 
+import os
 import sys
 import tomllib
 from pathlib import Path
@@ -8,6 +9,8 @@ from pathlib import Path
 import bpy
 import guidrive as gui
 
+ENGINE = os.environ.get("EXPECT_DEVICE", "").removesuffix("-cpu")
+"""the package that has to compute: taichi or quadrants"""
 WHERE = {"region_type": "WINDOW", "area_type": "PREFERENCES"}
 
 
@@ -66,7 +69,7 @@ def wait_installed(repository, version):
         ),
         what=f"version {version}",
     )
-    assert {"taichi", "scipy", "cholespy", "pyamg"} <= unpacked_wheels(), unpacked_wheels()
+    assert {ENGINE, "scipy", "cholespy", "pyamg"} <= unpacked_wheels(), unpacked_wheels()
     assert "numpy" not in unpacked_wheels()
     yield from redraw()
 
@@ -91,7 +94,7 @@ def remove(repository):
         done = bpy.ops.extensions.package_uninstall(**entry(repository))
     assert done == {"FINISHED"} and not manifest(repository)
     assert f"bl_ext.{repository}.cubic_craft" not in bpy.context.preferences.addons
-    assert not {"taichi", "scipy"} & unpacked_wheels(), unpacked_wheels()
+    assert not {ENGINE, "scipy"} & unpacked_wheels(), unpacked_wheels()
     assert not hasattr(bpy.types.Object, "cubic_craft")
     yield from redraw()
 

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The import of the engine, the only one, without harm to Blender.
+
+A file of kernels begins with ``from .engine import ti``. This imports the engine, which takes most
+of a second, so such a file is imported when its kernels are needed.
+"""
+
+import contextlib
+import os
+import sys
+from functools import cache
+from typing import Any
+
+from .engine_choice import TAICHI, engine
+from .engine_lock import alone
+from .quick_compilation import quick_module_search
+
+_RTLD_DEEPBIND = 8  # on Linux; the value means something else on macOS
+
+
+@alone
+@cache
+def import_engine() -> Any:
+    """Import and return Taichi or Quadrants; an ImportError is raised where there is neither.
+
+    Both load their core with RTLD_DEEPBIND. In a program that replaces malloc, such as the Linux
+    builds of Blender, it then allocates with one allocator and frees with the other, and crashes.
+    So the flag is filtered out for the time of the import.
+    """
+    with environment(engine().greeting, "False"), _without_deepbind(), quick_module_search():
+        if engine() is TAICHI:
+            import taichi as imported
+        else:
+            import quadrants as imported  # pyright: ignore[reportMissingImports]
+    return imported
+
+
+def __getattr__(name):
+    if name != "ti":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return import_engine()
+
+
+@contextlib.contextmanager
+def environment(name, value):
+    """Set an environment variable for a time."""
+    before = os.environ.get(name)
+    os.environ[name] = value
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[name]
+        else:
+            os.environ[name] = before
+
+
+@contextlib.contextmanager
+def _without_deepbind():
+    """Filter RTLD_DEEPBIND out of the flags with which libraries are loaded, on Linux."""
+    if sys.platform != "linux":
+        yield
+        return
+    original = sys.setdlopenflags
+    sys.setdlopenflags = lambda flags: original(flags & ~_RTLD_DEEPBIND)
+    try:
+        yield
+    finally:
+        sys.setdlopenflags = original
