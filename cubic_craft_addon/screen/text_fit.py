@@ -10,6 +10,7 @@ _FONT = 0  # that of the interface
 _UNIT = 20  # pixels at scale 1: the height of a button, the width of an icon
 _TABS = 1.0  # units, at the right edge
 _MARGINS = 2.8  # units, left and right of a line of text together, with its padding
+_NARROW = 8.0  # units for text: less than half of it holds no name of a setting
 
 
 def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
@@ -31,6 +32,17 @@ def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
     width = view.region_to_view(context.region.width, 0)[0] - view.region_to_view(0, 0)[0]
     unit = _UNIT * context.preferences.system.ui_scale
     return width - (_TABS + _MARGINS + taken) * unit
+
+
+def is_narrow(context: bpy.types.Context) -> bool:
+    """Return whether names and values of settings side by side would be cut off.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Of a panel that is being drawn.
+    """
+    return room_for_text(context) < _NARROW * _UNIT * context.preferences.system.ui_scale
 
 
 def width_of(text: str) -> float:

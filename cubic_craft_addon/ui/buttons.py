@@ -7,20 +7,22 @@ from .. import live
 from . import job_progress
 
 
-def draw(layout: Any, *, is_outdated: bool) -> None:
+def draw(layout: Any, *, is_outdated: bool, has_icons: bool = True) -> None:
     """Draw them side by side; `is_outdated` says whether the settings have changed since."""
     session = live.current()
+    cubify_icon = "FILE_REFRESH" if is_outdated else "MESH_CUBE"
+    live_icon = "CHECKMARK" if session else "PLAY"
     job_progress.operator(
         layout,
         "cubic_craft.cubify",
         text="Update" if is_outdated else "Cubify",
-        icon="FILE_REFRESH" if is_outdated else "MESH_CUBE",
+        icon=cubify_icon if has_icons else "NONE",
     )
     row = layout.row(align=True)
     job_progress.operator(
         row,
         "cubic_craft.live",
-        icon="CHECKMARK" if session else "PLAY",
+        icon=live_icon if has_icons else "NONE",
         text="Confirm" if session else "Live",
         depress=session is not None,
     )

@@ -13,7 +13,7 @@ from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
 from ..object_properties import object_properties
 from ..run.up_to_date import changes_since
-from ..screen.text_fit import room_for_text, wrapped
+from ..screen.text_fit import is_narrow, room_for_text, wrapped
 from ..settings.forms import OF_OBJECT
 from ..settings.region import object_regions
 from . import (
@@ -57,7 +57,7 @@ class CUBIC_PT_main(bpy.types.Panel):
     def draw(self, context):
         """Draw all sections for the active object, or the mesh that it poses."""
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split = not is_narrow(context)
         layout.use_property_decorate = False
         session = live.current()
         obj = panel_object(context) or (session and session.first_object(context))
@@ -90,12 +90,14 @@ def _draw_cubify(context, layout, obj):
     hint = seen.hint_to_draw(obj)
     row = layout.row()
     row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
-    buttons.draw(row, is_outdated=bool(changes))
+    has_icons = not is_narrow(context)
+    restore_icon, apply_icon = ("LOOP_BACK", "CHECKMARK") if has_icons else ("NONE", "NONE")
+    buttons.draw(row, is_outdated=bool(changes), has_icons=has_icons)
     row = layout.row(align=True)
-    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon="LOOP_BACK")
+    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon=restore_icon)
     if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
         row.operator("cubic_craft.restore_first", icon="REW")
-    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon="CHECKMARK")
+    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon=apply_icon)
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:
         _draw_problem(context, layout, problem)

@@ -54,4 +54,4 @@ def test_keep_apart_has_its_share_and_no_end_that_is_told():
 def test_runs_that_are_over_at_once_have_words_too():
     countdown = Countdown(keeps_apart=True)
     (text, _), fraction = countdown.tell(0.99, 5.0, is_keeping_apart=True)
-    assert text == "49 %, keeping surfaces apart" and 0.0 < fraction < 1.0
+    assert text == "50 %, keeping surfaces apart" and 0.0 < fraction < 1.0
