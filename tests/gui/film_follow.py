@@ -39,7 +39,6 @@ def set_the_stage():
         bpy.ops.brush.asset_activate(
             asset_library_type="ESSENTIALS", relative_asset_identifier=BRUSH
         )
-    view.show_region_asset_shelf = False
     view.region_3d.view_distance *= 0.62
     yield from scene.wait_idle()
 
