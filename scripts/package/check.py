@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path, PurePosixPath
 
 from .locked import REQUIREMENTS, needed_by_solver, read_lock
+from .rules import rule_problems
 from .targets import NUMPY_OF_BLENDER, SIZE_LIMIT_BYTES, all_packages
 from .wheel import Wheel, holding, requirement_name
 
@@ -48,7 +49,8 @@ def check(path, package=None, lock=None, needed=None, limit=SIZE_LIMIT_BYTES):
             for name in names
             if name.endswith(".whl")
         ]
-    problems = _manifest_problems(manifest, package, names)
+        problems = rule_problems(archive, manifest)
+    problems += _manifest_problems(manifest, package, names)
     problems += _credit_problems(wheels, names, bill)
     problems += [p for wheel in wheels for p in _wheel_problems(wheel, package, lock)]
     used = set()

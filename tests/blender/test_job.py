@@ -72,7 +72,8 @@ def test_slices_give_the_bits_of_the_script(package, start):
     assert texts[0] == '1 of 2: Preparing "One"'
     assert any(text.startswith("2 of 2: ") and " %" in text for text in texts)
     factors = [step.factor for step in said]
-    assert factors == sorted(factors) and factors[0] == 0.0 and 0.9 < factors[-1] <= 1.0
+    assert factors == sorted(factors) and factors[0] == 0.0
+    assert 0.75 <= factors[-1] <= 1.0, "how long Keep Apart will take is not known before"
     summary, problems = watched.write()
     assert summary.startswith("Cubified 2 meshes in")
     assert not problems

@@ -55,8 +55,10 @@ def sha256(content):
     return hashlib.sha256(content).hexdigest()
 
 
-def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), bill=None, **fields):
-    """Write a package with these wheels; the manifest and the bill may list others."""
+def package(
+    path, wheels, listed=None, platforms=("linux-x64",), without=(), bill=None, files=(), **fields
+):
+    """Write a package with these wheels and files; the manifest and the bill may list others."""
     listed = wheels if listed is None else listed
     manifest = {
         "id": "cubic_craft",
@@ -69,6 +71,7 @@ def package(path, wheels, listed=None, platforms=("linux-x64",), without=(), bil
     billed = wheels if bill is None else bill
     parts = [{"hashes": [{"content": sha256(content)}]} for content in billed.values()]
     texts = {"THIRD_PARTY.md": "", "sbom.cdx.json": json.dumps({"components": parts})}
+    texts |= dict(files)
     texts |= {f"licences/{name.split('-')[0]}/LICENSE": "" for name in wheels}
     texts["blender_manifest.toml"] = "".join(
         f"{name} = {json.dumps(value)}\n" for name, value in manifest.items()
