@@ -26,6 +26,7 @@ from ..handles.pose import live_target, object_handles
 from ..object_properties import object_properties
 from ..screen import glimpse
 from ..screen.found_later import FoundLater
+from .places import middle_of
 
 _RADIUS, _WIDTH = 8.0, 2.0  # pixels at scale 1: those of the dots in Live
 _SEGMENTS = 24
@@ -59,9 +60,9 @@ def middles_of(obj: bpy.types.Object) -> dict[int, np.ndarray]:
         points = mesh_bridge.read_positions(mesh_bridge.mesh_of(obj))
     found = {}
     for number, handle in enumerate(object_properties(obj).handles):
-        held = points[holder == number].astype(np.float64)
-        if live_target(handle) is None and len(held):
-            found[number] = (held.min(axis=0) + held.max(axis=0)) / 2
+        middle = middle_of(points[holder == number])
+        if live_target(handle) is None and middle is not None:
+            found[number] = middle
     return found
 
 

@@ -81,6 +81,12 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
     return Place(number, pose, centre[:3], world)
 
 
+def middle_of(points: np.ndarray) -> np.ndarray | None:
+    """Return the middle (3,) of the box around points (n,3), None if there are none."""
+    points = points.astype(np.float64)
+    return (points.min(axis=0) + points.max(axis=0)) / 2 if len(points) else None
+
+
 class Middles:
     """The centers of the handles on the original shape, computed once per shape and handles."""
 
@@ -94,9 +100,8 @@ class Middles:
             self._shape, self._handle_of = member.shape, member.handle_of
             self._middles = {}
         if number not in self._middles:
-            held = member.shape.original[member.handle_of == number].astype(np.float64)
-            middle = (held.min(axis=0) + held.max(axis=0)) / 2 if len(held) else None
-            self._middles[number] = middle
+            held = member.shape.original[member.handle_of == number]
+            self._middles[number] = middle_of(held)
         return self._middles[number]
 
 

@@ -6,7 +6,7 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 import open_sections
-from filming import become_cubic, cut, film
+from filming import become_cubic, cut, drag, film
 from mathutils import Vector
 
 FOLLOWER = f"{scene.NAME} Cubic"
@@ -47,13 +47,8 @@ def pull(begin, move):
     """Grab the original, and see the cubic version go along."""
     matrix = bpy.data.objects[scene.NAME].matrix_world
     x, y = map(round, scene.screen_point(matrix @ Vector(begin)))
-    yield from gui.move_mouse((x, y))
-    gui.events().press("LEFTMOUSE")
-    for step in range(1, STEPS + 1):
-        yield from gui.move_mouse((x + move[0] * step // STEPS, y + move[1] * step // STEPS))
-        yield from film()
-    gui.events().release("LEFTMOUSE")
-    yield
+    steps = range(STEPS + 1)
+    yield from drag([(x + move[0] * i // STEPS, y + move[1] * i // STEPS) for i in steps])
     yield from become_cubic()
     yield from film(6)
 

@@ -10,7 +10,7 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 import open_sections
-from filming import become_cubic, cut, film
+from filming import become_cubic, cut, drag, film
 from mathutils import Euler, Quaternion
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "art"))  # before what is in it
@@ -39,16 +39,12 @@ def set_the_stage():
     yield from gui.wait_redraw()
 
 
-def drag(slider, *places):
-    """Drag it along fractions of its width."""
-    yield from gui.move_mouse(slider.at(places[0]))
-    gui.events().press("LEFTMOUSE")
-    for begin, end in itertools.pairwise(places):
-        for step in range(1, STEPS + 1):
-            yield from gui.move_mouse(slider.at(begin + (end - begin) * step / STEPS))
-            yield from film()
-    gui.events().release("LEFTMOUSE")
-    yield
+def places_along(slider, *stops):
+    """Return points on a slider, in steps from stop to stop, which are fractions of its width."""
+    places = [stops[0]]
+    for begin, end in itertools.pairwise(stops):
+        places += [begin + (end - begin) * step / STEPS for step in range(1, STEPS + 1)]
+    return [slider.at(place) for place in places]
 
 
 def turn():
@@ -70,7 +66,7 @@ def test():
     yield from gui.wait_until(scene.will_have_changed(NAME), what="a change")
     yield from become_cubic()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
-    yield from drag(slider, 0.8, 0.15, 0.98)
+    yield from drag(places_along(slider, 0.8, 0.15, 0.98))
     yield from become_cubic()
     yield from turn()
     strong = scene.positions(NAME)

@@ -20,6 +20,18 @@ def film(times=1):
     _frames.extend([path] * times)
 
 
+def drag(points):
+    """Press at the first of some points, move over the others, filmed, and release."""
+    first, *others = points
+    yield from gui.move_mouse(first)
+    gui.events().press("LEFTMOUSE")
+    for point in others:
+        yield from gui.move_mouse(point)
+        yield from film()
+    gui.events().release("LEFTMOUSE")
+    yield
+
+
 def become_cubic():
     """Filmed until there is nothing left to compute."""
     while not scene.is_idle():
