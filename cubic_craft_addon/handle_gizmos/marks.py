@@ -105,12 +105,9 @@ def _draw():
 
 @persistent
 def _on_update(_scene, depsgraph):
-    if middles.is_empty:
-        return
-    for update in depsgraph.updates:
-        data = update.id.original
-        if isinstance(data, bpy.types.Object) and update.is_updated_geometry:
-            middles.has_changed(data.session_uid)  # also if only one of its modifiers has changed
+    if not middles.is_empty:
+        for uid in handlers.changed_shapes(depsgraph):
+            middles.has_changed(uid)
 
 
 @persistent

@@ -97,12 +97,12 @@ def _share_near(wearer, other, reach):
     if not np.linalg.det(own[:3, :3]):
         return 0.0
     into_wearer = wearer.matrix_world.inverted() @ other.matrix_world
+    into_world = wearer.matrix_world.to_3x3()
     numbers = np.linspace(0, len(vertices) - 1, min(_SAMPLES, len(vertices))).astype(int)
     count = 0
     for number in numbers.tolist():
         place = into_wearer @ vertices[number].co
         is_found, nearest, _, _ = wearer.closest_point_on_mesh(place)
         if is_found:
-            way = wearer.matrix_world.to_3x3() @ (nearest - place)
-            count += way.length <= reach
+            count += (into_world @ (nearest - place)).length <= reach
     return count / len(numbers)

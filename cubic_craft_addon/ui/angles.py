@@ -48,12 +48,9 @@ def angles_now(obj: bpy.types.Object) -> Angles:
 
 @persistent
 def _on_update(_scene, depsgraph):
-    if not _known:
-        return
-    for update in depsgraph.updates:
-        data = update.id.original
-        if isinstance(data, bpy.types.Object) and update.is_updated_geometry:
-            _known.pop(data.session_uid, None)  # also if only one of its modifiers has changed
+    if _known:
+        for uid in handlers.changed_shapes(depsgraph):
+            _known.pop(uid, None)
 
 
 @persistent
