@@ -86,23 +86,19 @@ def copyright_lines(text):
 
 def write_third_party(folder, wheels):
     """Write THIRD_PARTY.md and the texts into the folder of the extension; return the credits."""
-    credits, lines = {}, [_HEAD]
-    for wheel in sorted(wheels, key=lambda wheel: wheel.file_name):
-        entry = credits.setdefault(wheel.name, credit(wheel))
-        for name, text in credit(wheel).texts.items():
-            target = folder / "licences" / wheel.name / name
-            if target.exists() and target.read_text() != text:  # the wheels bundle other libraries
-                first = min(tag.interpreter for tag in wheel.tags)
-                target = target.with_stem(f"{target.stem}-{first}")
+    credits = [credit(wheel) for wheel in sorted(wheels, key=lambda wheel: wheel.file_name)]
+    lines = [_HEAD]
+    for entry in credits:
+        for name, text in entry.texts.items():
+            target = folder / "licences" / entry.name / name
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text)
-    for entry in credits.values():
         lines += [f"\n## {entry.name} {entry.version}\n", f"- Licence: {entry.licence}"]
         lines += [f"- Copyright {line}" for line in entry.copyrights]
         lines += [f"- {entry.homepage}"] if entry.homepage else []
         lines += [f"- Inside it: {line}" for line in entry.inside]
     (folder / "THIRD_PARTY.md").write_text("\n".join(lines) + "\n")
-    return list(credits.values())
+    return credits
 
 
 def _licence(wheel, text):

@@ -11,7 +11,7 @@ from packaging.requirements import Requirement
 from scripts.package.targets import PLATFORMS, Package
 
 LINUX = PLATFORMS["linux-x64"]
-PACKAGE = Package(LINUX)
+PACKAGE = Package(LINUX, "3.13")
 NEEDED = [Requirement("fast"), Requirement("plain>=1.0")]
 
 
@@ -32,10 +32,9 @@ def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MI
 
 
 def good_wheels():
-    """Return the wheels of a package for Linux with both Pythons, by name."""
+    """Return the wheels of a package for Linux and Python 3.13, by name."""
     return dict(
         [
-            wheel("fast", "cp311-cp311-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
             wheel("fast", "cp312-abi3-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
             wheel("plain", "py3-none-any", requires=["deep~=1.0", "extra_only; extra == 'x'"]),
             wheel("deep", "py2.py3-none-any"),
