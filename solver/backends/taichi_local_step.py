@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import CubicCraftError
-from ..motion import Motion
+from ..global_step.motion import Motion
 from ..styles.admm import admm_rotations
 from ..styles.cube import CUBE
 from ..styles.local_problem import LocalProblem
