@@ -33,6 +33,9 @@ def problems(tmp_path):
         ("import sys\nsys.stdout = None", "line 2, changes sys.stdout"),
         ("import numpy as np, os\nos.path.join = f", "line 2, changes os.path.join"),
         ("import inspect\ninspect.getmodule = f", "line 2, changes inspect.getmodule"),
+        ("import sys\na = sys.modules.get('a')\na.print = f", "line 3, changes a.print"),
+        ("import sys\na: Any = sys.modules['a']\ndel a.print", "line 3, changes a.print"),
+        ("import inspect\nsetattr(inspect, name, f)", "line 2, changes inspect"),
     ],
 )
 def test_code_that_a_reviewer_objects_to(problems, code, words):
@@ -52,6 +55,8 @@ def test_code_that_looks_like_it_and_is_not(problems):
 import sys, weakref, bpy
 from . import http
 modules = sys.modules.get("a")
+modules.b()
+setattr(self, name, sys)
 weakref.finalize(a, b).atexit = False
 bpy.context.scene.name = "A"
 self.path.append(sys.path)
@@ -64,12 +69,19 @@ def test_what_nobody_can_review(problems):
     assert problems({name: ""}) == [f"{name} is compiled, so nobody can review it"]
 
 
+def test_a_website_is_not_needed_and_may_be_there(problems):
+    assert problems() == problems(website="https://docs.cubes.org/page") == []
+
+
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
         ({"name": "Cubes for Blender"}, "its name has the word Blender in it"),
         ({"tagline": "The best."}, "or ends like a sentence"),
         ({"tagline": "a" * 65}, "over 64 letters"),
+        ({"website": "http://cubes.org"}, "is no public address"),
+        ({"website": "https://localhost:8000/"}, "is no public address"),
+        ({"website": "https://example.com"}, "is no public address"),
     ],
 )
 def test_texts_of_the_manifest(problems, fields, words):
