@@ -13,6 +13,7 @@ from build_extension import build
 from .bom import bill_of_materials
 from .check import BILL, check
 from .fetch import fetch
+from .inside import check_inside
 from .locked import REQUIREMENTS
 from .third_party import write_third_party
 from .wheel import Wheel
@@ -66,6 +67,8 @@ def _complete(source, package, paths, version):
         shutil.copy(path, source / "wheels" / path.name)
     wheels = [Wheel.of_path(path) for path in paths]
     credits = write_third_party(source, wheels)
+    for path in paths:
+        check_inside(path, credits)
     document = tomlkit.parse((source / MANIFEST).read_text())
     document["version"] = version or document["version"]
     document["copyright"].extend(sorted({c for entry in credits for c in entry.copyrights}))

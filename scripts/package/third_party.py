@@ -50,13 +50,17 @@ def credit(wheel):
     ValueError
         Its licence, its text or its copyright is not known; see ``licences/additions.toml``.
     """
-    added = tomllib.loads((ADDITIONS / "additions.toml").read_text()).get(wheel.name, {})
+    additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())
+    added = additions.get(wheel.name, {})
     texts = dict(wheel.licences)
-    if not texts and (ADDITIONS / f"{wheel.name}.txt").exists():
+    for part, file_name in additions["texts"].items():
+        if any(part in file for file in wheel.files):
+            texts[file_name] = (ADDITIONS / file_name).read_text()
+    if not wheel.licences and (ADDITIONS / f"{wheel.name}.txt").exists():
         texts["LICENSE.txt"] = (ADDITIONS / f"{wheel.name}.txt").read_text()
     if not texts:
         raise ValueError(f"{wheel.file_name} has no licence text")
-    whole = "\n".join(texts.values())
+    whole = "\n".join(wheel.licences.values() or texts.values())
     copyrights = [*added.get("copyright", []), *copyright_lines(whole)]
     if not copyrights:
         raise ValueError(f"{wheel.file_name} does not say whose copyright it is")

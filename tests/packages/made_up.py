@@ -16,13 +16,13 @@ NEEDED = [Requirement("fast"), Requirement("plain>=1.0")]
 
 
 def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MIT",)):
-    """Return the name and the bytes of a wheel."""
+    """Return the name and the bytes of a wheel; `files` are names, or texts by name."""
     lines = ["Metadata-Version: 2.1", f"Name: {name}", f"Version: {version}", *fields]
     lines += [f"Requires-Dist: {text}" for text in requires]
     info = f"{name}-{version}.dist-info"
     content = BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
-        texts = dict.fromkeys(files, "")
+        texts = dict(files) if isinstance(files, dict) else dict.fromkeys(files, "")
         texts[f"{info}/METADATA"] = "\n".join(lines) + "\n\n"
         texts[f"{info}/LICENSE"] = "MIT License\n\nCopyright (c) 2020-2026 The Makers\n"
         for file, text in texts.items():
