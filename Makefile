@@ -212,6 +212,10 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
 
+.PHONY: platform-pictures
+platform-pictures: setup ## Icon and feature picture for the extensions platform, in docs/images
+	$(PY) scripts/platform_pictures $(ARGS)
+
 films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
 	TESTS="film_*" tests/gui/run.sh $(ZIP)
 	cp build/gui/trixie/film_live/live.gif build/gui/sid/film_follow/follow.gif docs/images/

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A package that the extensions platform would send back is not built."""
 
+import struct
+from pathlib import Path
+
 import pytest
 from made_up import NEEDED, PACKAGE, good_wheels, lock_of, package
 
 from scripts.package.check import check
+
+IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
+RGB, RGBA = 2, 6  # kinds of color in a PNG
 
 
 @pytest.fixture
@@ -87,3 +93,17 @@ def test_a_website_is_not_needed_and_may_be_there(problems):
 def test_texts_of_the_manifest(problems, fields, words):
     [problem] = problems(**fields)
     assert words in problem
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "kinds"),
+    [
+        ("platform_icon.png", (256, 256), [RGBA]),
+        ("platform_feature.png", (1920, 1080), [RGB, RGBA]),
+    ],
+)
+def test_pictures_have_the_sizes_that_the_platform_takes(name, size, kinds):
+    head = (IMAGES / name).read_bytes()[:26]
+    assert head.startswith(b"\x89PNG\r\n\x1a\n")
+    assert struct.unpack(">II", head[16:24]) == size
+    assert head[25] in kinds
