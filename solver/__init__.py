@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .frames.steadiness import MOST_JUMPS, Frames, frame_of, least_width
     from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
     from .limbs.frames import pose_frames
+    from .loading import loading_steps
     from .mesh.edge_distances import edge_distances, nearest_distances
     from .mesh.rest_measures import triangle_areas_and_normals
     from .normal_capture import NormalCapture
@@ -65,6 +66,7 @@ __all__ = [
     "joined_limbs",
     "least_width",
     "limbs_of_bones",
+    "loading_steps",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
@@ -110,6 +112,7 @@ _MODULES = {
     "joined_limbs": "limbs",
     "least_width": "frames.steadiness",
     "limbs_of_bones": "limbs",
+    "loading_steps": "loading",
     "nearest_distances": "mesh.edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
