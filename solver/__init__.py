@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .backends import DEVICES, engine_name, problem_with_engine, set_cache_folder
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
-    from .frames.sequence import Sequence, SequenceState
+    from .frames.sequence import FrameSequence, SequenceState
     from .frames.steadiness import MOST_JUMPS, Frames, frame_of, least_width
     from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
     from .limbs.frames import pose_frames
@@ -43,6 +43,7 @@ __all__ = [
     "CubicCraftError",
     "Energy",
     "Flattened",
+    "FrameSequence",
     "Frames",
     "KnownLimbs",
     "Mirror",
@@ -52,7 +53,6 @@ __all__ = [
     "RestMesh",
     "Result",
     "Run",
-    "Sequence",
     "SequenceState",
     "Setup",
     "StopRule",
@@ -85,6 +85,7 @@ _MODULES = {
     "DEVICES": "backends",
     "Energy": "energy",
     "Flattened": "flatten",
+    "FrameSequence": "frames.sequence",
     "Frames": "frames.steadiness",
     "KnownLimbs": "limbs",
     "Mirror": "symmetry",
@@ -98,7 +99,6 @@ _MODULES = {
     "RestMesh": "rest",
     "Result": "runner",
     "Run": "runner",
-    "Sequence": "frames.sequence",
     "SequenceState": "frames.sequence",
     "Setup": "setup",
     "StopRule": "stop_rule",

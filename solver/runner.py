@@ -186,9 +186,9 @@ def run(
     >>> [run(Stylization(setup, x, device="numpy")).converged for x in (0.1, 0.4)]
     [True, True]
     """
-    run = Run(stylization, max_iterations, tolerance)
-    run.complete(on_iteration)
-    return run.result()
+    steps = Run(stylization, max_iterations, tolerance)
+    steps.complete(on_iteration)
+    return steps.result()
 
 
 class Run:

@@ -39,16 +39,16 @@ class SequenceState(NamedTuple):
 
     See Also
     --------
-    Sequence : Returns and takes it.
+    FrameSequence : Returns and takes it.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Sequence, SequenceState, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, SequenceState, Setup, Stylization, rest_mesh
     >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-    >>> first = Sequence(rest)
+    >>> first = FrameSequence(rest)
     >>> _ = first.solve(Stylization(Setup(rest), 0.4, device="numpy"))
-    >>> Sequence(rest, first.state).state.positions.shape
+    >>> FrameSequence(rest, first.state).state.positions.shape
     (3, 3)
     """
 
@@ -62,7 +62,7 @@ class SequenceState(NamedTuple):
     """(n,3,3)"""
 
 
-class Sequence:
+class FrameSequence:
     """Frames that are solved one after the other.
 
     Parameters
@@ -86,11 +86,11 @@ class Sequence:
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Sequence, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
     >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     >>> setup = Setup(rest_mesh(V, F))
-    >>> sequence = Sequence(setup.rest)
+    >>> sequence = FrameSequence(setup.rest)
     >>> first = sequence.solve(Stylization(setup, 0.4, device="numpy"))
     >>> frame = Stylization(setup.posed(V * [1, 1, 1.1]), 0.4, device="numpy")
     >>> sequence.solve(frame).iterations

@@ -69,7 +69,7 @@ def frame_of(inputs, turns, positions):
     inputs, positions : (k,3) numpy arrays
         The input and the result.
     turns : (k,3,3) numpy array
-        See `Sequence.turns`.
+        See `FrameSequence.turns`.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def frame_of(inputs, turns, positions):
 
     See Also
     --------
-    Sequence : Solves the frames.
+    FrameSequence : Solves the frames.
 
     Examples
     --------
