@@ -117,9 +117,9 @@ def test_a_cubified_ball_with_more_vertices_on_top_counts_by_its_vertices(captur
         (lambda: "Nobody", 'no object "Nobody"; pick another normal capture'),
         (lambda: add_empty("Nothing").name, '"Nothing" has no surface'),
         (lambda: add_triangle_less().name, '"Dots" has no surface'),
-        (lambda: add_solid("plane").name, '"Form" is no normal capture: .* do not surround'),
-        (lambda: add_far_ball().name, '"Ball" is no normal capture: .* do not surround its origin'),
-        (lambda: add_triangle().name, '"Three" is no normal capture: .* fewer than four'),
+        (lambda: add_solid("plane").name, '"Form" is not a normal capture: .* do not surround'),
+        (lambda: add_far_ball().name, '"Ball" is not a normal capture: .* not surround its origin'),
+        (lambda: add_triangle().name, '"Three" is not a normal capture: .* fewer than four'),
         (lambda: "Suzanne", '"Suzanne" cannot be its own normal capture'),
     ],
 )
