@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel bench bench-quick bench-live films docs-images clean has-py313
+	build package repository lock wheel test-wheel test-site bench bench-quick bench-live films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -187,8 +187,11 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)
 
-docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; checks its links
-	NO_MKDOCS_2_WARNING=1 $(VENV)-docs/bin/python -m mkdocs build
+docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; SITE_URL=where it will lie
+	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
+
+test-site: setup docs ## The site in Chromium, if there is one; pictures in build/site_pictures
+	$(PY) $(PYTEST) tests/site
 
 $(VENV)-docs/.done: requirements/docs.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
