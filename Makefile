@@ -77,9 +77,10 @@ $(VENV)-oldest/.done: requirements/*.txt
 # What is compared many times over in the mathematics is no other in another Python, and slow. With
 # Quadrants in place of Taichi: Taichi runs in all other environments, and on this Python in a window.
 test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2 and Quadrants
-	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" --ignore tests/solver/contacts \
-		--ignore tests/solver/proxy $(patsubst %,--ignore tests/solver/test_%.py,acceleration auto_orient \
-		forms holds moved normal_capture polytope rotation_fit sequence) tests/solver
+	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" $(patsubst %,--ignore tests/solver/%, \
+		contacts proxy frames orientation global_step/test_holds.py global_step/test_upright_parts.py \
+		styles/test_forms.py styles/test_polytope.py \
+		$(patsubst %,test_%.py,acceleration moved normal_capture rotation_fit)) tests/solver
 
 $(VENV)-py313/.done: requirements/*.txt
 	@test -n "$(PYTHON313)" || \
@@ -103,7 +104,7 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 # Without the comparison of many iterations with more that are plain, which takes as long as the rest.
 test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=own for your own
 	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) -k "(gpu or device_arrays) and not acceleration" \
-		tests/solver/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
+		tests/solver/coarse_to_fine/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
 		CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender/test_gpu.py'
 
 ENVIRONMENTS := $(foreach name,-oldest -docs -wheel -bare-oldest -bare-newest $(if $(PYTHON313),-py313),$(VENV)$(name)/.done)

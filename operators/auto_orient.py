@@ -11,7 +11,7 @@ from ..cubic_craft_addon.run.member import read_shape
 from ..cubic_craft_addon.run.object_frame import angles_of, axes_of_angles, placement_alone
 from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
-from ..solver.unit_box import unit_box
+from ..solver.mesh.unit_box import unit_box
 from ._shared.selection import poll_usable, report_all, selected_meshes
 from ._shared.unexpected_errors import reporting
 

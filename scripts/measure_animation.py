@@ -28,8 +28,8 @@ from solver import (
     rest_mesh,
     run,
 )
-from solver.rest_measures import areas_and_normals
-from solver.steadiness import Jumps, Motion
+from solver.frames.steadiness import Jumps, Motion
+from solver.mesh.rest_measures import areas_and_normals
 
 CUBENESS = 0.4
 COUNT = 60

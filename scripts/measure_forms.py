@@ -18,7 +18,7 @@ from benchmark.shapes import ball
 from figures.forms import HALF_LENGTH, HOUSE
 
 from solver import Setup, Stylization, rest_mesh, stylize
-from solver.rest_measures import triangle_areas_and_normals
+from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles import forms
 from solver.styles.hulls import simple_hull, spiral
 from solver.styles.polytope import from_directions

@@ -11,23 +11,24 @@ from typing import TYPE_CHECKING
 from .errors import CubicCraftError
 
 if TYPE_CHECKING:
-    from .auto_orientation import auto_orient
     from .backends import DEVICES, engine_name, problem_with_engine, set_cache_folder
-    from .edge_distances import edge_distances, nearest_distances
     from .energy import Energy
     from .flatten import Flattened, flatten_facets
-    from .limb_frames import pose_frames
+    from .frames.sequence import Sequence, SequenceState
+    from .frames.steadiness import MOST_JUMPS, Frames, frame_of, least_width
     from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
+    from .limbs.frames import pose_frames
+    from .loading import loading_steps
+    from .mesh.edge_distances import edge_distances, nearest_distances
+    from .mesh.rest_measures import triangle_areas_and_normals
     from .normal_capture import NormalCapture
+    from .orientation.auto_orientation import auto_orient
     from .progress import Progress
     from .proxy.options import PAPER, ProxyOptions
     from .rest import RestMesh, rest_mesh
-    from .rest_measures import triangle_areas_and_normals
     from .rotation_fit import svd_rotations
     from .runner import Result, Run, run, stylize
-    from .sequence import Sequence, SequenceState
     from .setup import Setup
-    from .steadiness import MOST_JUMPS, Frames, frame_of, least_width
     from .stop_rule import StopRule
     from .styles.cube import nearest_to_identity
     from .stylization import Stylization
@@ -65,6 +66,7 @@ __all__ = [
     "joined_limbs",
     "least_width",
     "limbs_of_bones",
+    "loading_steps",
     "nearest_distances",
     "nearest_to_identity",
     "partners",
@@ -83,11 +85,11 @@ _MODULES = {
     "DEVICES": "backends",
     "Energy": "energy",
     "Flattened": "flatten",
-    "Frames": "steadiness",
+    "Frames": "frames.steadiness",
     "KnownLimbs": "limbs",
     "Mirror": "symmetry",
     "MATCHING": "symmetry",
-    "MOST_JUMPS": "steadiness",
+    "MOST_JUMPS": "frames.steadiness",
     "NO_PARTNER": "symmetry",
     "NormalCapture": "normal_capture",
     "PAPER": "proxy.options",
@@ -96,24 +98,25 @@ _MODULES = {
     "RestMesh": "rest",
     "Result": "runner",
     "Run": "runner",
-    "Sequence": "sequence",
-    "SequenceState": "sequence",
+    "Sequence": "frames.sequence",
+    "SequenceState": "frames.sequence",
     "Setup": "setup",
     "StopRule": "stop_rule",
     "Stylization": "stylization",
-    "auto_orient": "auto_orientation",
+    "auto_orient": "orientation.auto_orientation",
     "commuting": "symmetry",
-    "edge_distances": "edge_distances",
+    "edge_distances": "mesh.edge_distances",
     "engine_name": "backends",
     "flatten_facets": "flatten",
-    "frame_of": "steadiness",
+    "frame_of": "frames.steadiness",
     "joined_limbs": "limbs",
-    "least_width": "steadiness",
+    "least_width": "frames.steadiness",
     "limbs_of_bones": "limbs",
-    "nearest_distances": "edge_distances",
+    "loading_steps": "loading",
+    "nearest_distances": "mesh.edge_distances",
     "nearest_to_identity": "styles.cube",
     "partners": "symmetry",
-    "pose_frames": "limb_frames",
+    "pose_frames": "limbs.frames",
     "placed_limbs": "limbs",
     "problem_with_engine": "backends",
     "rest_mesh": "rest",
@@ -121,7 +124,7 @@ _MODULES = {
     "set_cache_folder": "backends",
     "stylize": "runner",
     "svd_rotations": "rotation_fit",
-    "triangle_areas_and_normals": "rest_measures",
+    "triangle_areas_and_normals": "mesh.rest_measures",
 }
 
 

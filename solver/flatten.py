@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .components import components
-from .edge_vectors import double_area_vectors, edge_vectors
-from .edges import Edges
 from .errors import CubicCraftError
-from .mesh_checks import check_mesh
-from .nearest_on_planes import MOST, nearest_on_planes
+from .mesh.components import components
+from .mesh.edge_vectors import double_area_vectors, edge_vectors
+from .mesh.edges import Edges
+from .mesh.mesh_checks import check_mesh
+from .mesh.nearest_on_planes import MOST, nearest_on_planes
+from .mesh.unit_box import unit_box
 from .proxy.weld import weld
-from .unit_box import unit_box
 
 FEWEST = 3
 """triangles of a facet; fewer are a detail, not a side"""

@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import details
+from .coarse_to_fine.contraction import contract
 from .contacts.crossings import crossings
-from .contraction import contract
-from .cotangents import cotangents
 from .limbs import Limbs, limbs_of_shape, with_coverings
 from .memory import check_memory
-from .mesh_checks import check_mesh
+from .mesh.cotangents import cotangents
+from .mesh.mesh_checks import check_mesh
+from .mesh.rest_measures import areas_and_normals
+from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
+from .mesh.topology import Topology, topology
+from .mesh.triangles import Triangles
+from .mesh.unit_box import UnitBox
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
 from .proxy.boxes import box_frames
 from .proxy.creases import cubic_shares, smoothness
@@ -23,11 +28,6 @@ from .proxy.nearest import Nearest
 from .proxy.neighbours import neighbour_links
 from .proxy.samples import extents
 from .proxy.thickness import outward_sign, thickness_links
-from .rest_measures import areas_and_normals
-from .spokes_and_rims import SpokesAndRims, spokes_and_rims
-from .topology import Topology, topology
-from .triangles import Triangles
-from .unit_box import UnitBox
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .coarse_start import MAX_ITERATIONS, TOLERANCE, coarse_stylization, preview_on_fine, prolongate
+from .coarse_to_fine.start import (
+    MAX_ITERATIONS,
+    TOLERANCE,
+    coarse_stylization,
+    preview_on_fine,
+    prolongate,
+)
 from .contacts.keep_apart import KeepApart
 from .errors import CubicCraftError
 from .proxy import PAPER, ProxyOptions

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import CubicCraftError
-from .global_step import GlobalStep
-from .holds import HoldFields
+from .global_step.holds import HoldFields
+from .global_step.step import GlobalStep
 from .rest import RestMesh
 from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 

@@ -12,9 +12,9 @@ from .acceleration import Momentum
 from .backends import local_step_class
 from .energy import Energy
 from .errors import CubicCraftError
-from .holds import Holds
+from .global_step.holds import Holds
 from .limbs import KnownLimbs, Limbs, no_limbs, turns
-from .mesh_checks import per_vertex
+from .mesh.mesh_checks import per_vertex
 from .normal_capture import NormalCapture, targets_for
 from .setup import Setup
 from .styles.admm import AdmmOptions

@@ -15,8 +15,8 @@ import bpy
 import numpy as np
 
 from ... import solver
-from ...solver.components import components
-from ...solver.mesh_checks import check_mesh
+from ...solver.mesh.components import components
+from ...solver.mesh.mesh_checks import check_mesh
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..handles.reach import far_from, grown

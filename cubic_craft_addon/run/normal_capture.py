@@ -11,7 +11,7 @@ import numpy as np
 
 from ... import solver
 from ...solver import CubicCraftError
-from ...solver.rest_measures import areas_and_normals
+from ...solver.mesh.rest_measures import areas_and_normals
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
 from ..settings.values import Settings

@@ -6,8 +6,9 @@ import threading
 import time
 from collections import Counter
 
-from solver import global_step, stylization
+from solver import stylization
 from solver.backends.taichi_local_step import TaichiLocalStep
+from solver.global_step import step as global_step
 
 from . import our_solver
 from .machine import peak_memory

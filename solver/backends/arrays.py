@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..multigrid import has_multigrid
+from ..global_step.multigrid import has_multigrid
 
 
 class HostArrays:

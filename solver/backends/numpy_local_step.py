@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..algebra import by_columns, from_columns
-from ..motion import Motion
+from ..global_step.motion import Motion
 from ..rotation_fit import orthonormalize
 from ..styles.active_set import active_set_rotations
 from ..styles.admm import admm_rotations

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from ..motion import largest
+from ..global_step.motion import largest
 from .engine_lock import alone
 from .taichi_cycle import TaichiCycle
 from .warmup import warm_up

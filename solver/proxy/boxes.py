@@ -8,7 +8,7 @@ shape or a staircase, gets its own cube, along its own sides.
 
 import numpy as np
 
-from ..rest_measures import triangle_areas_and_normals
+from ..mesh.rest_measures import triangle_areas_and_normals
 
 TOLERANCE = np.cos(np.radians(1.0))
 """between a side and the axes"""

@@ -8,10 +8,10 @@ ignored, and its area is given to the vertices beside it, which each have the no
 
 import numpy as np
 
-from ..cotangents import cotangents
-from ..edge_vectors import BLOCK
-from ..edges import edges_of
-from ..rest_measures import triangle_areas_and_normals
+from ..mesh.cotangents import cotangents
+from ..mesh.edge_vectors import BLOCK
+from ..mesh.edges import edges_of
+from ..mesh.rest_measures import triangle_areas_and_normals
 
 FULL = np.cos(np.radians(25.0))
 """the normal counts where those of the faces around are within 25 degrees of it, on average..."""

@@ -9,7 +9,7 @@ a flat side holds everything around it, as strongly as if it were full of detail
 import numpy as np
 
 from ..algebra import columns, dot, take
-from ..components import components
+from ..mesh.components import components
 
 STIFFNESS = 0.15
 """weight of the triangles of a flat side"""

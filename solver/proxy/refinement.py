@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from ..edge_vectors import edge_vectors
-from ..edges import edges_of
+from ..mesh.edge_vectors import edge_vectors
+from ..mesh.edges import edges_of
 from .creases import mute_sides
 from .samples import extents
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..components import components
-from ..unit_box import UnitBox, unit_box
-from ..vertex_order import vertex_order
+from ..mesh.components import components
+from ..mesh.unit_box import UnitBox, unit_box
+from ..mesh.vertex_order import vertex_order
 from .input_map import InputMap
 from .refinement import longest_edges, refine
 from .weld import weld

@@ -4,9 +4,9 @@
 import numpy as np
 
 from ..algebra import columns, dot
-from ..components import components
-from ..edges import Edges
-from ..triangles import distinct
+from ..mesh.components import components
+from ..mesh.edges import Edges
+from ..mesh.triangles import distinct
 
 TOLERANCE = 1e-6
 """of the largest extent; closer vertices are at the same place..."""

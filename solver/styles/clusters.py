@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..errors import CubicCraftError
-from ..orientation_search import binned
+from ..orientation.orientation_search import binned
 from .polytope import encloses_origin
 
 NEAR = np.cos(np.radians(12.0))

@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..errors import CubicCraftError
-from ..rest_measures import triangle_areas_and_normals
+from ..mesh.rest_measures import triangle_areas_and_normals
 from .clusters import directions_of
 from .polytope import from_directions, from_points, hull_planes
 

@@ -115,7 +115,7 @@ def test_idle_does_nothing_until_something_happens(live, begin):
 def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
     live, begin, one_phase, extension, monkeypatch
 ):
-    coarse_start = importlib.import_module(f"{extension.__name__}.solver.coarse_start")
+    coarse_start = importlib.import_module(f"{extension.__name__}.solver.coarse_to_fine.start")
     monkeypatch.setattr(coarse_start, "LEAST_VERTICES", 300)
     monkeypatch.setattr(coarse_start, "COARSEST_VERTICES", 100)
     twin, obj = add_monkey("Twin"), add_monkey()

@@ -57,7 +57,7 @@ def test_momentum_grows_until_the_energy_rises():
 @pytest.mark.parametrize("is_large", [False, True])
 def test_the_next_point_lies_beyond_the_new_positions(is_large, monkeypatch):
     pytest.importorskip("pyamg")
-    monkeypatch.setattr("solver.global_step.FACTORIZED_VERTICES", 100 if is_large else 10**9)
+    monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 100 if is_large else 10**9)
     V, F = shapes.blob()
     state = Stylization(Setup(rest_mesh(V, F)), 0.4)
     state.step()

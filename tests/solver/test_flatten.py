@@ -6,7 +6,7 @@ import pytest
 from shapes import blob, extent, rotation, sheet
 
 from solver import CubicCraftError, flatten_facets, stylize
-from solver.nearest_on_planes import nearest_on_planes
+from solver.mesh.nearest_on_planes import nearest_on_planes
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 ANGLE = np.radians(20.0)

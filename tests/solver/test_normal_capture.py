@@ -19,8 +19,8 @@ from solver import (
     stylize,
     triangle_areas_and_normals,
 )
+from solver.mesh.rest_measures import areas_and_normals
 from solver.normal_capture import MOST, targets_for
-from solver.rest_measures import areas_and_normals
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import admm_rotations
 from solver.styles.forms import dodecahedron
@@ -184,8 +184,8 @@ def test_a_large_mesh_has_it_on_coarser_levels_too(monkeypatch):
     V, F = shapes.sphere(5)
     options = {"capture": like_a_cube(), "capture_strength": 3.0, "keep_rotation": True}
     plain = stylize(V, F, 0.0, **options)
-    monkeypatch.setattr("solver.coarse_start.LEAST_VERTICES", 2000)
-    monkeypatch.setattr("solver.global_step.FACTORIZED_VERTICES", 0)
+    monkeypatch.setattr("solver.coarse_to_fine.start.LEAST_VERTICES", 2000)
+    monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 0)
     large = stylize(V, F, 0.0, **options)
     assert large.energy.total == pytest.approx(plain.energy.total, rel=1e-2)
     assert share_along_axes(large.positions, F) > 0.55

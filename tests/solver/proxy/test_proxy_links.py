@@ -10,15 +10,15 @@ import shapes
 from devices import by_device
 
 from solver import ProxyOptions, rest_mesh, stylize
-from solver.components import components
-from solver.cotangents import cotangents
+from solver.mesh.components import components
+from solver.mesh.cotangents import cotangents
+from solver.mesh.rest_measures import areas_and_normals
+from solver.mesh.spokes_and_rims import spokes_and_rims
+from solver.mesh.triangles import Triangles
 from solver.proxy.closest_point import closest_points
 from solver.proxy.links import Links, links_between, links_to_triangles
 from solver.proxy.neighbours import neighbour_links
 from solver.proxy.thickness import outward_sign, thickness_links
-from solver.rest_measures import areas_and_normals
-from solver.spokes_and_rims import spokes_and_rims
-from solver.triangles import Triangles
 
 
 def mixed_links(V):

@@ -9,7 +9,7 @@ import pytest
 import shapes
 
 from solver import PAPER, CubicCraftError, ProxyOptions, rest_mesh, stylize
-from solver.components import components
+from solver.mesh.components import components
 from solver.proxy.refinement import BUDGET, longest_edges, refine
 from solver.proxy.weld import weld
 

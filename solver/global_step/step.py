@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The global step: positions from rotations, by one factorisation per mesh and set of pins."""
+
+from copy import copy
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from ..proxy.samples import extents
+from .centring import Centring
+from .factorization import factorize
+from .multigrid import Multigrid, has_multigrid
+from .no_turning import NoTurning
+from .upright_parts import UprightParts
+
+FACTORIZED_VERTICES = 60_000
+"""Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
+but a third more iterations are needed, so a run ends as soon; of 400 k it is four times faster."""
+_CYCLES = 4
+"""of multigrid, in place of the solution"""
+_POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
+
+
+class GlobalStep:
+    """Solves L U = rhs with some vertices held.
+
+    A component without a pinned vertex is held by one of its own, because L determines it only up
+    to a translation; which one does not matter, since the component is then moved so that its
+    area-weighted centroid stays where it was at rest.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    pinned : (k,) int array
+        Pinned vertices, as indices into ``rest.V``.
+
+    Attributes
+    ----------
+    is_factorized : bool
+        Whether `positions` solves by the factorisation, not by multigrid.
+    is_anchored : (component_count,) bool array
+        Components that do not float: with a pinned vertex, or see `anchored`.
+    solve : callable
+        Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X; what
+        is held stays as it is in X.
+    """
+
+    def __init__(self, rest, pinned):
+        n = len(rest.V)
+        self._rest = rest
+        has_pin = np.zeros(rest.topology.component_count, dtype=bool)
+        has_pin[rest.topology.component[pinned]] = True
+        is_held = np.zeros(n, dtype=bool)
+        is_held[pinned] = True
+        _, first_vertex = np.unique(rest.topology.component, return_index=True)
+        is_held[first_vertex[~has_pin]] = True
+        self._is_held = is_held
+        is_small = rest.topology.largest_component <= FACTORIZED_VERTICES
+        self.is_factorized = is_small or not has_multigrid()
+        if self.is_factorized:
+            self.solve = _solver(self._laplacian, is_held)
+        else:
+            self.solve = self.multigrid.solve
+        self.is_anchored = has_pin
+
+    @property
+    def _laplacian(self):
+        return self._rest.matrices.matrix(self._rest.matrices.laplacian)
+
+    @cached_property
+    def multigrid(self):
+        """The Multigrid, created on first use: if nothing is factorised, or for a GPU."""
+        L, is_held = self._laplacian, self._is_held
+        return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
+
+    def posed(self, rest):
+        """Return the same step for another pose of the mesh, see `RestMesh.posed`."""
+        other = copy(self)
+        other._forget_constraints()
+        other._rest = rest
+        return other
+
+    def anchored(self, components):
+        """Return the same step, in which components (c,) are not kept where they are at rest."""
+        other = copy(self)
+        other._forget_constraints()
+        other.is_anchored = self.is_anchored.copy()
+        other.is_anchored[components] = True
+        return other
+
+    @cached_property
+    def _may_be_kept(self):
+        """(component_count,) bool array, components that float and have a rotation: no points."""
+        rest = self._rest
+        return ~self.is_anchored & (extents(rest.V, rest.topology.component) > _POINT)
+
+    def _forget_constraints(self):
+        for name in (
+            "_may_be_kept",
+            "centring",
+            "no_turning",
+            "no_turning_by_cycles",
+            "upright_parts",
+        ):
+            self.__dict__.pop(name, None)
+
+    @cached_property
+    def centring(self):
+        """The Centring of what floats, created on first use."""
+        return Centring(self._rest, ~self.is_anchored)
+
+    @cached_property
+    def no_turning(self):
+        """The NoTurning, created on first use."""
+        is_whole = self._may_be_kept & ~self.upright_parts.is_kept
+        return NoTurning(self._rest, is_whole, self.solution)
+
+    @cached_property
+    def no_turning_by_cycles(self):
+        """Of all components, by multigrid: `TaichiMotion` has the parts obey after its kernels."""
+        return NoTurning(self._rest, self._may_be_kept, self._by_cycles)
+
+    @cached_property
+    def upright_parts(self):
+        """The UprightParts, created on first use."""
+        return UprightParts(self._rest, self._may_be_kept, self.solution)
+
+    def solution(self, B):
+        """Return the solution X (n,3) of L X = B, or what is near it; 0 where vertices are held."""
+        if not self.is_factorized:
+            return self._by_cycles(B)
+        return self.solve(B, np.zeros_like(B))
+
+    def _by_cycles(self, B):
+        X = np.zeros_like(B)
+        for _ in range(_CYCLES):
+            X = self.multigrid.solve(B, X)
+        return X
+
+    def positions(self, rhs, near, keep_rotation=False):
+        """Return new positions (n,3).
+
+        Parameters
+        ----------
+        rhs : (n,3) array
+            Right-hand side.
+        near : (n,3) array
+            Positions to start from, where the solution is iterative. Pinned vertices stay there.
+        keep_rotation : bool
+            Keep each component without pins from turning as a whole, and its large parts, too.
+        """
+        result = self.solve(rhs, near)
+        if self.is_anchored.all():
+            return result
+        if keep_rotation:
+            self.no_turning.impose(result)
+            self.upright_parts.impose(result)
+        self.centring.impose(result)
+        return result
+
+
+def _solver(L, is_held):
+    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B.
+
+    The rows of X that are held stay as they are.
+    """
+    held = np.flatnonzero(is_held)
+    coupling = L[:, held]
+    coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbour
+    coupling = coupling[coupled]
+    solve = factorize(decoupled(L, is_held))
+
+    def solve_all(B, X):
+        rhs = B.copy()
+        rhs[coupled] -= coupling @ X[held]
+        rhs[held] = X[held]
+        result = solve(rhs)
+        result[held] = X[held]
+        return result
+
+    return solve_all
+
+
+def decoupled(L, is_held):
+    """Return L (n,n) with the rows and columns of what is held (n,) those of the identity."""
+    rows = np.repeat(np.arange(len(is_held)), np.diff(L.indptr))
+    is_diagonal = rows == L.indices
+    is_cleared = is_held[rows] | is_held[L.indices]
+    data = np.where(is_cleared, np.where(is_diagonal, 1.0, 0.0), L.data)
+    result = sp.csr_matrix((data, L.indices.copy(), L.indptr.copy()), shape=L.shape)
+    result.eliminate_zeros()
+    return result

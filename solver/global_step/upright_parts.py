@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Keep each large part of a component from turning, not only the component as a whole.
+
+Links hold parts together where they touch, which is often a joint: the roof of a lamp could tilt
+to bring its slope to the cube, and the post would lean the other way, so that both together had
+not turned. An eye, however, must be able to follow its socket, and a shirt its body. So parts that
+are large beside their component and touch others at a few places keep their rotation, by
+constraints like those of `no_turning.py`; the others follow what they touch.
+
+The torques t_j of all constraints are to vanish, those of the parts and that of the component.
+Among the positions that obey them, those of least energy are U + sum_k mu_k x P_k with
+P_k = L^-1 (w_k x_k); the mu solve
+
+    sum_k (tr(M_jk) 1 - M_jk') mu_k = -t_j(U),    M_jk = sum_i y_ji P_ki',    y_j = w_j x_j
+"""
+
+import numpy as np
+
+from ..algebra import AXIAL
+from ..proxy.samples import extents
+from .no_turning import SMALLEST
+from .tall_products import tall_product, transposed_product, weighted_sum
+
+LARGE = 0.25
+"""extent of a part whose rotation is kept, relative to that of its component"""
+HELD = 0.3
+"""share of the area of a part that is linked to others; with more, these determine its rotation"""
+MOST_PARTS = 16
+"""in a component; of more, the largest"""
+MOST_MEMORY = 2**28
+"""bytes for the constraints of all components together; the largest components come first"""
+
+
+class UprightParts:
+    """The constraints of the components that have more than one large part.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    is_free : (component_count,) bool array
+        Components without a pinned vertex; the others are left alone.
+    solve : callable
+        Maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the constraints are
+        satisfied all the same, at a little more energy.
+
+    Attributes
+    ----------
+    is_kept : (component_count,) bool array
+        Components that have such constraints.
+    """
+
+    def __init__(self, rest, is_free, solve):
+        groups = _large_parts(rest, is_free)
+        self.is_kept = np.zeros(len(is_free), dtype=bool)
+        self.is_kept[list(groups)] = True
+        of_all = slice(None) if len(is_free) == 1 else None  # which copies nothing
+        self._rows = {c: of_all or groups[c][-1] for c in groups}
+        pulls = {c: [] for c in groups}
+        ways = {c: [] for c in groups}
+        # One solve serves all components, which have nothing to do with each other.
+        for k in range(max(map(len, groups.values()), default=0)):
+            pull = np.zeros_like(rest.V)
+            having = [c for c in groups if k < len(groups[c])]
+            for c in having:
+                vertices = groups[c][k]
+                share = rest.standing[vertices] / rest.standing[vertices].sum()
+                V = rest.V[vertices]
+                pull[vertices] = share[:, None] * (V - weighted_sum(share, V))
+            P = solve(pull)
+            for c in having:
+                rows = self._rows[c]
+                pulls[c].append(pull[rows])
+                ways[c].append(P[rows] - _centroid(rest.areas[rows], P[rows]))
+        self._pulls = {c: np.hstack(pulls[c]) for c in groups}
+        self._ways = {c: np.hstack(ways[c]) for c in groups}
+        self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
+
+    def impose(self, U):
+        """Move positions U (n,3), in place, to the nearest in which no such part has turned."""
+        for c, rows in self._rows.items():
+            torques = transposed_product(self._pulls[c], U[rows]).reshape(-1, 9) @ AXIAL
+            mu = (self._inverses[c] @ -torques.ravel()).reshape(-1, 3)
+            U[rows] += tall_product(self._ways[c], (mu @ AXIAL.T).reshape(-1, 3))
+
+
+def _large_parts(rest, is_free):
+    """Return {component: vertices of each of its large parts, and of all of it}."""
+    part, component = rest.topology.part, rest.topology.component
+    size = extents(rest.V, part)
+    of_part = np.zeros(len(size), np.int64)
+    of_part[part] = component
+    is_large = is_free[of_part] & (size >= LARGE * extents(rest.V, component)[of_part])
+    is_large &= rest.linked_share < HELD
+    counts = np.bincount(of_part[is_large], minlength=len(is_free))
+    vertices = np.bincount(component, minlength=len(is_free))
+    groups, memory = {}, 0
+    for c in sorted(np.flatnonzero(counts > 1), key=lambda c: -vertices[c]):
+        memory += 6 * 8 * vertices[c] * (1 + min(counts[c], MOST_PARTS))
+        if memory > MOST_MEMORY:
+            break
+        parts = np.flatnonzero(is_large & (of_part == c))
+        parts = parts[np.argsort(-size[parts], kind="stable")][:MOST_PARTS]
+        groups[c] = [*(np.flatnonzero(part == p) for p in parts), np.flatnonzero(component == c)]
+    return groups
+
+
+def _centroid(areas, P):
+    """Return the centroid (3,), which is to stay where it is."""
+    weight = areas + 1e-300
+    return weighted_sum(weight / weight.sum(), P)
+
+
+def _inverse(pulls, ways):
+    """Return the inverse (3k,3k) of the matrix that maps all mu to torques."""
+    count = pulls.shape[1] // 3
+    M = (pulls.T @ ways).reshape(count, 3, count, 3).swapaxes(1, 2)
+    traces = np.trace(M, axis1=2, axis2=3)[:, :, None, None] * np.eye(3)
+    matrix = (traces - M.swapaxes(2, 3)).swapaxes(1, 2).reshape(3 * count, 3 * count)
+    return np.linalg.pinv(0.5 * (matrix + matrix.T), rcond=SMALLEST, hermitian=True)

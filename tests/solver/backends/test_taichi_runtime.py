@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The engine is imported late, without RTLD_DEEPBIND, and shared with other users of it.
+
+Each test runs in a process of its own, because its program is global, and does much in it,
+because that takes seconds to begin.
+"""
+
+import os
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from engine_marks import CPU, PACKAGE, needs_engine, needs_taichi
+
+from solver import engine_name
+
+HERE = Path(__file__).parents[1]
+ROOT = HERE.parents[1]
+SET_UP = """
+import sys
+sys.path.insert(0, {root!r})
+sys.path.insert(0, {here!r})
+import numpy as np
+import shapes
+from solver import stylize
+CPU = {cpu!r}
+V, F = shapes.blob(2)
+"""
+
+
+def python(code, **environment):
+    code = SET_UP.format(root=str(ROOT), here=str(HERE), cpu=CPU) + textwrap.dedent(code)
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        timeout=300,
+    )
+
+
+def passes(code, **environment):
+    run = python(code, **environment)
+    assert run.returncode == 0, run.stdout + run.stderr
+    return run.stdout
+
+
+def test_numpy_needs_no_engine():
+    passes(
+        """
+        stylize(V, F, device="numpy", max_iterations=2)
+        assert not {"taichi", "quadrants"} & set(sys.modules)
+        """
+    )
+
+
+@needs_engine
+def test_the_first_result_takes_nothing_that_it_does_not_need():
+    """Neither a word on the screen, nor the network, nor time for what is not used."""
+    output = passes(
+        """
+        import inspect, os
+        import scipy.sparse
+        from urllib import request
+        # Its import takes longer than the set-up of a small mesh. SciPy 1.15 imports it itself, so
+        # it is forgotten before.
+        for name in [name for name in sys.modules if name.startswith("scipy.sparse.csgraph")]:
+            del sys.modules[name]
+
+        calls = {"flags": [], "search": [], "version": [], "compiled": []}
+        def spied(name, original, argument=lambda value: value):
+            def spy(*args, **named):
+                calls[name].append(argument(args[0]))
+                return original(*args, **named)
+            return spy
+        def refuse(*args, **kwargs):
+            raise AssertionError("went online")
+
+        request.urlopen = refuse
+        sys.setdlopenflags = set_flags = spied("flags", sys.setdlopenflags)
+        inspect.getmodule = search = spied("search", inspect.getmodule, inspect.isframe)
+        from solver.backends.engine import ti
+        if ti.__name__ == "taichi":
+            from taichi.lang import kernel_impl as compiler
+            name = "_get_tree_and_ctx"
+            from taichi import _version_check
+            _version_check.try_check_version = spied("version", lambda _=None: None)
+        else:
+            from quadrants.lang._func_base import FuncBase as compiler
+            name = "get_tree_and_ctx"
+        of_function = lambda function, *_: function.func.__module__
+        setattr(compiler, name, spied("compiled", getattr(compiler, name), of_function))
+        stylize(V, F, max_iterations=2)
+
+        if sys.platform == "linux":  # whose flag it is
+            assert calls["flags"] and not any(value & 8 for value in calls["flags"]), calls
+        assert sys.setdlopenflags is set_flags and inspect.getmodule is search
+        assert not any(calls["search"]), "all modules were searched for that of a frame"
+        assert not calls["version"] and "TI_SKIP_VERSION_CHECK" not in os.environ
+        # a function for the engine costs as much at every start as a tenth of a whole kernel
+        ours = {"kernels", "covariances", "active_set"}
+        assert set(calls["compiled"]) == {f"solver.backends.taichi_{name}" for name in ours}, calls
+        assert "scipy.sparse.csgraph" not in sys.modules
+        for large in ("taichi_motion_kernels", "taichi_cycle_kernels"):
+            assert f"solver.backends.{large}" not in sys.modules
+        """
+    )
+    assert output == ""
+
+
+@needs_engine
+def test_a_gpu_is_used_or_refused_but_never_crashes():
+    output = passes(
+        """
+        a = stylize(V, F, device="cpu", max_iterations=5)
+        try:
+            b = stylize(V, F, device="gpu", max_iterations=5)
+        except ValueError as error:
+            print(error)
+        else:
+            print(b.device)
+            assert np.abs(a.positions - b.positions).max() < 1e-4
+        c = stylize(V, F, device="cpu", max_iterations=5)
+        np.testing.assert_array_equal(a.positions, c.positions)
+        """
+    )
+    assert output.startswith((f"no GPU that {engine_name()} can use was found", f"{PACKAGE}-"))
+    assert CPU not in output
+
+
+@needs_taichi
+def test_quick_compilation_changes_no_bit_and_leaves_taichi_as_it_was(tmp_path):
+    (tmp_path / "faulty.py").write_text(
+        "import taichi as ti\n@ti.kernel\ndef faulty():\n    x = 1 + unheard_of\n"
+    )
+    passes(
+        f"""
+        import contextlib, inspect
+        from textwrap import TextWrapper
+        getmodule = inspect.getmodule
+        from solver.backends import devices, warmup
+        from solver.backends.engine import import_engine
+        from solver.backends.quick_compilation import quick_compilation
+        from solver.backends.taichi_runtime import start
+        quick = stylize(V, F, device="cpu", max_iterations=5).positions
+        from taichi.lang.ast import ast_transformer_utils
+        assert ast_transformer_utils.TextWrapper is TextWrapper
+        assert inspect.getmodule is getmodule
+        import_engine().reset()  # else the kernels would not be compiled again
+        devices.quick_compilation = warmup.quick_compilation = contextlib.nullcontext
+        slow = stylize(V, F, device="cpu", max_iterations=5).positions
+        np.testing.assert_array_equal(quick, slow)
+
+        # errors in kernels keep their place
+        ti = import_engine()
+        start("cpu")
+        sys.path.insert(0, {str(tmp_path)!r})
+        from faulty import faulty
+        try:
+            with quick_compilation():
+                assert ast_transformer_utils.TextWrapper is not TextWrapper
+                faulty()
+        except ti.TaichiCompilationError as error:
+            assert "line 4" in str(error) and "unheard_of" in str(error), error
+        else:
+            raise AssertionError("compiled")
+        assert ast_transformer_utils.TextWrapper is TextWrapper
+        """
+    )
+
+
+@needs_engine
+def test_threads_may_be_the_first_to_use_it():
+    """Whatever is replaced for a time is put back, and each gets what it would get alone."""
+    output = passes(
+        """
+        import inspect, os
+        from concurrent.futures import ThreadPoolExecutor
+        from solver import problem_with_engine
+        before = sys.stdout, inspect.getmodule, dict(os.environ)
+        def one(scale):
+            return stylize(scale * V * (1, 1, scale), F, max_iterations=3)
+        scales = (1.0, 1.1, 1.2, 1.3)
+        with ThreadPoolExecutor(4) as threads:
+            together = list(threads.map(one, scales))
+        assert (sys.stdout, inspect.getmodule, dict(os.environ)) == before
+        assert problem_with_engine() == ""
+        for scale, result in zip(scales, together):
+            assert result.device == CPU
+            np.testing.assert_array_equal(result.positions, one(scale).positions)
+        """
+    )
+    assert output == ""
+
+
+@needs_engine
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+def test_a_forked_process_has_numpy_instead_of_waiting_for_threads():
+    """Also one whose parent is in the middle of a run, and it ends as any other."""
+    output = passes(
+        """
+        import os, signal, threading, warnings
+        from solver import Setup, Stylization, problem_with_engine, rest_mesh
+        warnings.simplefilter("ignore")  # newer versions of Python warn of forks beside threads
+        def in_child(work):
+            child = os.fork()
+            if child:
+                assert os.waitpid(child, 0)[1] == 0
+                return
+            signal.alarm(60)  # ends it if it waits
+            work()
+            sys.exit(0)
+        def new_run(device):
+            assert stylize(V, F, max_iterations=2).device == device
+        def go_on():
+            for step in (stylization.step, lambda: stylize(V, F, device="cpu")):
+                try:
+                    step()
+                except ValueError as error:
+                    assert "forked" in str(error) and "\\n" not in str(error)
+                else:
+                    raise AssertionError("not refused")
+        def all_of_it():
+            new_run("numpy")
+            assert "forked" in problem_with_engine()
+            go_on()
+
+        in_child(lambda: new_run(CPU))  # it has not started yet
+        stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="cpu")
+        stylization.step()
+        in_child(all_of_it)
+        in_child(lambda: None)
+        stylization.step()
+        new_run(CPU)
+
+        # a fork waits for what another thread does
+        from solver.backends.engine_lock import LOCK
+        inside, leave = threading.Event(), threading.Event()
+        def hold():
+            with LOCK:
+                inside.set()
+                leave.wait(0.2)
+        thread = threading.Thread(target=hold)
+        thread.start()
+        inside.wait()
+        in_child(all_of_it)
+        thread.join()
+        """
+    )
+    assert output == ""
+
+
+def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):
+    (tmp_path / "elsewhere.py").write_text("import sys\nframe = sys._getframe()\n")
+    passes(
+        f"""
+        import inspect
+        from solver.backends.quick_compilation import quick_module_search
+        sys.path.insert(0, {str(tmp_path)!r})
+        import elsewhere
+        nowhere = {{"__name__": "elsewhere", "sys": sys}}
+        exec("frame = sys._getframe()", nowhere)
+        nameless = {{"sys": sys}}
+        exec("frame = sys._getframe()", nameless)
+        frames = [elsewhere.frame, nowhere["frame"], nameless["frame"]]
+        expected = list(map(inspect.getmodule, frames))
+        assert expected[0] is elsewhere
+        with quick_module_search():
+            assert list(map(inspect.getmodule, frames)) == expected
+            assert inspect.getmodule(stylize) is sys.modules["solver.runner"]
+        """
+    )

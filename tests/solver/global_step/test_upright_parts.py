@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Large parts that touch others at a few places do not turn: no post of a lamp leans."""
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+from devices import by_device
+from procrustes import best_rotation
+
+from solver import ProxyOptions, Setup, Stylization, rest_mesh, run
+
+
+def solid(*outline, sides=20):
+    """Return the closed solid of revolution of an outline (radius, height)."""
+    angles = 2 * np.pi * np.arange(sides) / sides
+    around = np.stack([np.cos(angles), np.sin(angles), np.ones(sides)], axis=1)
+    rings = [around * [radius, radius, height] for radius, height in outline]
+    V = np.concatenate([*rings, [[0, 0, outline[0][1]], [0, 0, outline[-1][1]]]])
+    i = np.arange(sides)
+    j, last = (i + 1) % sides, sides * (len(outline) - 1)
+    faces = [np.stack([j, i, 0 * i + len(V) - 2], 1)]
+    for k in range(0, last, sides):
+        faces += [np.stack([k + i, k + j, k + sides + j], 1)]
+        faces += [np.stack([k + i, k + sides + j, k + sides + i], 1)]
+    faces.append(np.stack([last + i, last + j, 0 * i + len(V) - 1], 1))
+    return V, np.concatenate(faces)
+
+
+def lamp():
+    """Return base, post, bulb and roof, which stand on each other."""
+    return proxy_shapes.joined(
+        solid((0.4, 0.0), (0.4, 0.15)),
+        solid((0.08, 0.15), (0.08, 2.35), sides=12),
+        solid((0.1, 2.32), (0.3, 2.45), (0.35, 2.65), (0.3, 2.85), (0.1, 2.98)),
+        solid((0.5, 2.95), (0.1, 3.25)),
+    )
+
+
+def degrees(V, U):
+    """Return by how much U (n,3) is turned from V (n,3)."""
+    Q = best_rotation(V, U, np.ones(len(V)))
+    return np.degrees(np.arccos(np.clip((np.trace(Q) - 1) / 2, -1, 1)))
+
+
+def leaning(mesh, cubeness):
+    """Return how far each part of a mesh turns."""
+    rest = rest_mesh(*mesh, ProxyOptions())
+    result = run(Stylization(Setup(rest), cubeness, keep_rotation=True))
+    part = rest.topology.part[rest.place[1]]
+    return [degrees(mesh[0][part == k], result.positions[part == k]) for k in range(part.max() + 1)]
+
+
+@pytest.mark.parametrize("cubeness", [0.2, 0.4, 1.0])
+def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
+    _, post, _, roof = leaning(lamp(), cubeness)
+    assert post < 2.5 and roof < 4.0
+    if cubeness == 0.2:
+        monkeypatch.setattr("solver.global_step.upright_parts.LARGE", 9.0)
+        assert max(leaning(lamp(), cubeness)) > 5.0, "it shows nothing"
+
+
+def test_the_energy_falls_and_nothing_turns():
+    rest = rest_mesh(*lamp(), ProxyOptions(keep_apart=False))
+    setup = Setup(rest)
+    state = Stylization(setup, 0.4, keep_rotation=True, is_accelerated=False)
+    energies = []
+    run(state, 40, 1e-12, lambda s: energies.append(s.energy.total))
+    assert np.diff(energies).max() <= 1e-12
+    assert setup.global_step.upright_parts.is_kept.all()
+    assert asymmetry(rest, state.positions) < 1e-9
+
+
+def test_nothing_turns_where_a_factorisation_would_be_too_large(device, monkeypatch):
+    monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 1000)
+    rest = rest_mesh(*lamp(), ProxyOptions())
+    turned = []
+    for is_kept in (True, False):
+        state = Stylization(Setup(rest), 0.4, keep_rotation=is_kept, device=device)
+        for _ in range(30):
+            state.step()
+        turned.append(asymmetry(rest, state.positions))
+    assert turned[0] < by_device(device, 1e-9, 1e-5) and turned[1] > 1e-3
+
+
+def asymmetry(rest, U):
+    """Return how much the post, the roof and all have turned at most: the relative torque."""
+    worst = 0.0
+    for vertices in (rest.topology.part == 1, rest.topology.part == 3, slice(None)):
+        weights = rest.standing[vertices]
+        both = (X[vertices] for X in (rest.V, U))
+        before, now = (X - np.average(X, axis=0, weights=weights) for X in both)
+        covariance = (before * weights[:, None]).T @ now
+        worst = max(worst, np.abs(covariance - covariance.T).max() / np.abs(covariance).max())
+    return worst
+
+
+def test_several_do_as_each_would_alone():
+    V, F = lamp()
+    far = V + [4.0, 0.0, 0.0]
+    options = ProxyOptions(keep_pose=False, detail=0.0)  # their sample of thickness is another
+    both = rest_mesh(*proxy_shapes.joined((V, F), (far, F)), options)
+    one = rest_mesh(V, F, options)
+    together, alone = (
+        run(Stylization(Setup(rest), 0.4, keep_rotation=True), 400, 1e-6) for rest in (both, one)
+    )
+    assert Setup(both).global_step.upright_parts.is_kept.tolist() == [True, True]
+    for moved in (together.positions[: len(V)] - V, together.positions[len(V) :] - far):
+        assert np.abs(moved - (alone.positions - V)).max() < 0.04
+
+
+@pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
+def test_an_eye_and_a_shirt_follow_what_they_touch(make):
+    setup = Setup(rest_mesh(*make(), ProxyOptions()))
+    assert not setup.global_step.upright_parts.is_kept.any()
+
+
+def test_a_part_that_is_pinned_frees_the_others():
+    setup = Setup(rest_mesh(*lamp(), ProxyOptions()), pinned=[0])
+    assert not setup.global_step.upright_parts.is_kept.any()
+
+
+def test_another_pose_has_constraints_of_its_own():
+    V, F = lamp()
+    rest = rest_mesh(V, F, ProxyOptions())
+    turned = V @ shapes.rotation(0, 0, 30).T
+    posed = Setup(rest).posed(turned)
+    result = run(Stylization(posed, 0.2, keep_rotation=True))
+    part = rest.topology.part[rest.place[1]] == 1
+    assert degrees(turned[part], result.positions[part]) < 2.5
