@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel test-site bench bench-quick bench-live films docs-images clean has-py313
+	build package repository lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -211,6 +211,10 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 .PHONY: form-pictures
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
+
+example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images
+	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_PICTURES=docs/images \
+		$(PY) $(PYTEST) --thorough tests/blender/test_examples.py
 
 films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
 	TESTS="film_*" tests/gui/run.sh $(ZIP)
