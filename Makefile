@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
+	build package repository release lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -150,6 +150,12 @@ package: setup $(ZIP) ## One zip for each platform that brings its wheels, in di
 
 repository: package ## Those as an extension repository for any web server, in dist/repository
 	$(PY) scripts/package repository dist/packages/*.zip
+
+release: package wheel ## All that is published of a version, with checksums, in dist/release
+	rm -rf dist/release
+	mkdir dist/release
+	cp dist/packages/cubic_craft-* dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz dist/release
+	$(PY) scripts/package checksums dist/release
 
 wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in dist
 	rm -f dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz
