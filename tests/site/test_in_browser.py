@@ -74,6 +74,7 @@ def test_no_page_is_wider_than_a_phone(browse):
     assert {page: width for page, width in widths.items() if width > PHONE_WIDTH} == {}
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("scheme", [LIGHT, DARK], ids=["light", "dark"])
 @pytest.mark.parametrize("page", ["index", "first_sculpture", "guide/live", "how_it_works"])
 def test_pictures(browse, page, scheme):
