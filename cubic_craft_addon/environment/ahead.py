@@ -6,6 +6,7 @@ as all others.
 """
 
 import logging
+from collections.abc import Iterator
 
 import bpy
 
@@ -19,7 +20,7 @@ PAUSE = 0.05
 """seconds between two pieces"""
 
 _log = logging.getLogger(__name__)
-_steps = None
+_steps: Iterator[None] | None = None
 
 
 def load_ahead(device: str) -> None:
@@ -41,7 +42,7 @@ def _next_step():
     try:
         check_known_requirements()
         use_extension_folder()
-        next(_steps)
+        next(_steps or iter(()))
     except StopIteration:
         return None
     except Exception as error:  # nobody has asked for anything yet; the click tells what is wrong

@@ -2,7 +2,7 @@
 """Links of README.md, CHANGELOG.md and docs/ lead to files and headings that are there."""
 
 import pytest
-from documents import PAGES, ROOT, anchors, links
+from documents import NAVIGATION, PAGES, ROOT, anchors, links
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -19,6 +19,6 @@ def test_links_lead_somewhere(page):
 
 
 def test_every_page_is_in_the_navigation():
-    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nvalidation:")[0]
-    for page in (ROOT / "docs").glob("*.md"):
-        assert f": {page.name}\n" in navigation, f"{page.name} is not in mkdocs.yml"
+    for page in (ROOT / "docs").rglob("*.md"):
+        name = page.relative_to(ROOT / "docs").as_posix()
+        assert f": {name}\n" in NAVIGATION, f"{name} is not in mkdocs.yml"
