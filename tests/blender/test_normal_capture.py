@@ -208,7 +208,7 @@ def test_the_ball_may_be_deleted_in_live(live, begin):
     assert 'no object "Cushion"' in session.all_problems[0]
     live.live_properties().capture_object = ""
     confirm(live, session)
-    assert session.summary and obj.cubic_craft.capture_object is None
+    assert session.written.summary and obj.cubic_craft.capture_object is None
 
 
 def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
