@@ -48,7 +48,7 @@ def test_the_frame_object_may_be_deleted(live, begin):
     assert "Frame" in session.all_problems[0]
     live.live_properties().space = "WORLD"
     confirm(live, session)
-    assert session.summary
+    assert session.written.summary
 
 
 def test_painted_weights_restart_it(live, begin):
@@ -155,7 +155,7 @@ def test_a_setting_that_cannot_be_used_waits_for_a_better_one(live, begin):
     tick_to_rest(session)
     assert not session.all_problems
     confirm(live, session)
-    assert session.summary
+    assert session.written.summary
 
 
 def test_auto_orient_turns_the_live_cube(live, begin):

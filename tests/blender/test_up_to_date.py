@@ -237,7 +237,7 @@ def test_live_leaves_a_result_that_is_up_to_date(live, begin, changes):
         session.tick(bpy.context)
         if session.is_ended:
             break
-    assert session.summary and changes(obj) == []
+    assert session.written.summary and changes(obj) == []
     assert obj.cubic_craft.cubeness == pytest.approx(0.55)
 
 
