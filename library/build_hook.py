@@ -15,6 +15,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PACKAGE = "cubic_craft"
+_LIBRARY = (("library", "__main__.py"), ("library", "command_line/**/*.py"))
 _IMPORT = re.compile(r"^(\s*(?:>>> |\.\.\. )?from )solver\b", re.MULTILINE)
 
 
@@ -42,9 +43,9 @@ class WheelHook(BuildHookInterface):
             )
         root = Path(self.root)
         self._staged = Path(tempfile.mkdtemp(prefix="cubic_craft-"))
-        for room, place in (("solver", ""), ("library/command_line", "command_line")):
-            for source in sorted((root / room).rglob("*.py")):
-                target = self._staged / place / source.relative_to(root / room)
+        for room, files in (("solver", "**/*.py"), *_LIBRARY):
+            for source in sorted((root / room).glob(files)):
+                target = self._staged / source.relative_to(root / room)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_text(renamed(source.read_text(encoding="utf-8")), encoding="utf-8")
         shutil.copy(root / "library" / "py.typed", self._staged)
