@@ -24,6 +24,7 @@ from .algebra import (
     trace,
     turn,
 )
+from .aliases import FloatArray
 
 NEWTON_STEPS = 8
 ANGLE_TOLERANCE = 1e-6
@@ -66,7 +67,7 @@ def fit_rotations(M, guess):
     return R
 
 
-def svd_rotations(M):
+def svd_rotations(M: FloatArray) -> FloatArray:
     """Return argmax tr(R M) over SO(3) for each M, by singular value decompositions.
 
     Parameters

@@ -29,12 +29,12 @@ QUADRANTS = Engine("Quadrants", "quadrants", "ENABLE_QUADRANTS_HEADER_PRINT")
 
 
 @cache
-def engine():
+def engine() -> Engine:
     """Return the Engine that is installed, Taichi before Quadrants, or else the one to install."""
     return next(filter(_is_installed, (TAICHI, QUADRANTS)), _engine_with_wheels())
 
 
-def engine_name():
+def engine_name() -> str:
     """Return the name of the engine that computes here, or would if it were installed."""
     return engine().name
 

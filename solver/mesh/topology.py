@@ -7,14 +7,15 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from ..values import Value
 from .components import components
 
 _CHUNK = 256
 _GROUP = 32
 
 
-@dataclass(frozen=True)
-class Topology:
+@dataclass(frozen=True, eq=False, repr=False)
+class Topology(Value):
     """Vertices that share triangles or links, by components.
 
     It is the same for a deformed mesh, and for all frames of an animation.

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..values import Value
 
-@dataclass(frozen=True)
-class InputMap:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InputMap(Value):
     """How `n` solved vertices come from the `N` vertices of the input.
 
     First, some vertices of the input are merged, then midpoints are added, then all are

@@ -22,12 +22,35 @@ F = np.array([[0, 1, 2]])
         (V, F + 1, "only 3"),
         (V, F - 1, "-1 to 1"),
         (V + [0, np.nan, 0], F, "not finite"),
+        (V * 1j, F, "positions must be real numbers, not complex128"),
+        (V.astype(str), F, "positions must be real numbers, not <U"),
+        ("bunny.obj", F, "positions must be real numbers, not text"),
+        ([[0, 0, 0], [1, 0]], F, "whose rows are of one length"),
+        (None, F, "positions must be real numbers, not None"),
+        (V, None, r"must have the shape \(m, 3\)"),
+        (V, [[0, 1, 2], [0, 1]], r"must have the shape \(m, 3\), not \(1, 2\)"),
+        (V, [[0, 1, 2], [0, 1, "2", 0]], "must be integers"),
+        (V, [[[0], [1]], [0, 1, 2]], "rows of vertex numbers"),
+        (V, np.repeat(F, 5, axis=0).T, "a face with 5 corners has the vertex 0 twice"),
         (V + [[0, 0, 0], [0, np.inf, 0], [0, 0, 0]], F, "the first is vertex 1"),
     ],
 )
 def test_refusals(V, F, message):
-    with pytest.raises(CubicCraftError, match=message):
+    with pytest.raises(CubicCraftError, match=message) as caught:
         check_mesh(V, F)
+    assert "\n" not in str(caught.value)
+
+
+def test_polygons_become_triangles():
+    V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 2, 0], [0, 0, 1]])
+    quads = [[0, 1, 2, 3], [3, 0, 1, 5]]
+    assert len(check_mesh(V, quads)[1]) == len(check_mesh(V, np.array(quads))[1]) == 4
+    rows = [[0, 1, 5], [0, 1, 2, 4, 3], [3, 0, 5]]
+    for faces in (rows, tuple(map(np.array, rows)), np.array(rows, dtype=object)):
+        triangles = check_mesh(V, faces)[1]
+        assert triangles.dtype == np.int32
+        assert triangles[:2].tolist() == [rows[0], rows[2]]
+        assert triangles.shape == (5, 3) and set(triangles[2:].ravel()) == {0, 1, 2, 3, 4}
 
 
 def test_lists_and_32_bit_arrays_are_taken():

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangulate polygons, so that the solver can work on them; the file keeps its faces.
+"""Triangulate polygons, so that the solver can work on them; the caller keeps the faces.
 
 Every corner is used, also those on a straight edge, which libraries for triangulation leave out:
 a vertex that no triangle has would not move.
 """
 
-import mapbox_earcut
-import numpy as np
+from typing import Any
 
-__all__ = ("triangulate",)
+import numpy as np
+from numpy.typing import NDArray
+
+from ..aliases import FloatArray
+from ..optional_packages import optional_package
 
 MANY = 100
 """corners: up to so many the best ear is cut off each time, which takes their number squared"""
@@ -18,7 +21,7 @@ BEND = 1e-4
 """how far the middle of a straight edge with corners on it is bent inward, of its length"""
 
 
-def triangulate(V: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     """Split polygons into triangles without new vertices.
 
     Parameters
@@ -43,8 +46,9 @@ def triangulate(V: np.ndarray, faces: np.ndarray) -> np.ndarray:
     if size > 4:
         for polygon in np.flatnonzero(~_is_fan(V, fans)):
             corners = V[faces[polygon]]
-            clip = _clip_ears if size <= MANY else _clip_many_ears
-            fans[polygon] = faces[polygon][clip(corners)]
+            earcut = None if size <= MANY else optional_package("mapbox_earcut")
+            clipped = _clip_many_ears(corners, earcut) if earcut else _clip_ears(corners)
+            fans[polygon] = faces[polygon][clipped]
     return fans.reshape(-1, 3)
 
 
@@ -86,14 +90,14 @@ def _clip_ears(points):
     return np.array([*triangles, left])
 
 
-def _clip_many_ears(points):
+def _clip_many_ears(points, earcut):
     """Return the triangles (s-2,3) of a polygon (s,3) with many corners, in near to linear time.
 
     One that is not simple, of which not all corners are used, gets a fan.
     """
     size = len(points)
     flat = _bent_inward(_in_plane(points))
-    triangles = mapbox_earcut.triangulate_float64(flat, np.array([size], np.uint32))
+    triangles = earcut.triangulate_float64(flat, np.array([size], np.uint32))
     triangles = triangles.reshape(-1, 3).astype(np.int64)
     if len(triangles) != size - 2:
         inner = np.arange(1, size - 1)
