@@ -3,6 +3,7 @@
 
 from . import handle_gizmos, hidden_source, job, live, presets
 from .animation import properties as animation_properties
+from .environment import ahead
 from .handles import properties as handles_properties
 from .run import object_cache
 from .send import properties as send_properties
@@ -46,6 +47,7 @@ _modules = (
     worn,
     group_renames,
     object_cache,
+    ahead,
 )
 
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .limbs import limbs_of_bones as limbs_of_bones
     from .limbs import placed_limbs as placed_limbs
     from .limbs.frames import pose_frames as pose_frames
+    from .loading import loading_steps as loading_steps
     from .mesh.edge_distances import edge_distances as edge_distances
     from .mesh.edge_distances import nearest_distances as nearest_distances
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals

@@ -6,7 +6,7 @@ quotes, and any text as true.
 """
 
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -114,9 +114,10 @@ def instances(values: Any, name: str, kind: type[T]) -> list[T]:
     """Return one or several values of a class of ours as a list."""
     if isinstance(values, kind):
         return [values]
-    if not isinstance(values, Sequence) or isinstance(values, str) or not len(values):
+    several = cast("Sequence[Any]", values)
+    if not isinstance(values, Sequence) or isinstance(values, str) or not len(several):
         raise CubicCraftError(f"{name} must be of the type {kind.__name__}, not {_kind(values)}")
-    return [instance(value, name, kind) for value in values]
+    return [instance(value, name, kind) for value in several]
 
 
 def array_of(values: Any, name: str) -> NDArray[Any]:
@@ -129,13 +130,10 @@ def array_of(values: Any, name: str) -> NDArray[Any]:
 
 def _kind(value: Any) -> str:
     """Return what a value is, in a word."""
-    kind = getattr(value, "dtype", None)
-    if kind is None and isinstance(value, list | tuple):
-        kind = np.asarray(value).dtype
-        if kind.kind == "U":
-            return "text"
-    if kind is not None:
-        return str(kind)
-    if isinstance(value, str | bytes):
+    if value is None:
+        return "None"
+    is_array = isinstance(value, np.ndarray | np.generic | list | tuple)
+    kind = np.asarray(value).dtype if is_array else None
+    if isinstance(value, str | bytes) or (kind is not None and kind.kind in "SU"):
         return "text"
-    return "None" if value is None else type(value).__name__
+    return str(kind) if is_array else type(value).__name__

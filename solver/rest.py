@@ -4,6 +4,7 @@
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -215,7 +216,7 @@ class RestMesh(Value):
         area = np.bincount(part, self.areas)
         return np.bincount(part, self.areas * is_linked) / np.where(area > 0.0, area, 1.0)
 
-    def _smoothed(self, radius):
+    def _smoothed(self, radius) -> Any:
         """Return what `details.smoothed` does for radii (n,), of many vertices with a start."""
         start = None
         if len(self.V) > details.MANY and self.coarse is not None:

@@ -95,7 +95,7 @@ def svd_rotations(M: FloatArray) -> FloatArray:
     True
     """
     U, _, Vt = np.linalg.svd(M)
-    R = (U @ Vt).swapaxes(1, 2)
+    R: FloatArray = (U @ Vt).swapaxes(1, 2)
     mirrored = np.linalg.det(R) < 0.0
     U[mirrored, :, 2] *= -1.0
     R[mirrored] = (U[mirrored] @ Vt[mirrored]).swapaxes(1, 2)

@@ -5,6 +5,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
+from ..environment.ahead import load_ahead
 from ..environment.engine_notes import engine_note
 from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_known_requirements
@@ -66,6 +67,7 @@ class CUBIC_PT_main(bpy.types.Panel):
             return
         if obj != context.active_object:
             layout.label(text=obj.name, icon="MESH_DATA")
+        load_ahead(object_properties(obj).device)
         _draw_cubify(context, layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             title_row, body = layout.panel(identifier, default_closed=is_closed)

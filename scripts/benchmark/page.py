@@ -46,6 +46,7 @@ def _sections(results):
         ("## Without Taichi", _NUMPY, map(tables.without_taichi, results["numpy"])),
         ("## More cores", _CORES, map(tables.cores, results["cores"])),
         ("## From start to first result", _STARTUP, tables.startup(results["startup"])),
+        ("### The first click", _CLICK, tables.first_clicks(results["startup"])),
         ("## Targets", _TARGETS, targets(results)),
     ]
     return [(heading, caption, list(rows)) for heading, caption, rows in made]
@@ -90,6 +91,9 @@ _CORES = """\
 An iteration as in the paper, in processes that may use one core and all of them. "Not parallel" is
 Amdahl's share s, by which the time on n cores is s + (1 - s) / n of that on one."""
 _STARTUP = "Fresh processes, with the files in the system's cache and the compiled kernels on disk."
+_CLICK = """\
+In the window, what the first run needs is loaded piece by piece while the panel is seen for the
+first time. "Never before": no kernel has been compiled on this machine."""
 _TARGETS = "What was to be reached, and whether this run has."
 
 

@@ -191,6 +191,22 @@ def startup(results):
             yield {"from the start of the process to": what, "median, s": seconds}
 
 
+def first_clicks(results):
+    """Give how long the first click takes after what is loaded while the panel is seen."""
+    names = {"never": "never before on this machine", "again": "after a restart of Blender"}
+    for programs in results:
+        for name, runs in programs["clicks"].items():
+            loaded, longest, click = (
+                median(run[key] for run in runs) for key in ("ahead", "longest", "click")
+            )
+            yield {
+                "the first Cubify of the monkey": names[name],
+                "loaded ahead, s": loaded,
+                "of it the longest piece, s": longest,
+                "the click, s": click,
+            }
+
+
 _BOTH = {"as in the paper": "paper", "defaults": "defaults"}
 _ENERGIES = (
     *((name, program, program) for name, program in _BOTH.items()),

@@ -122,3 +122,8 @@ def _startup(results):
         monkey, bpy = median(programs["monkey"]), median(programs["bpy"])
         yield target("seconds to the first result on the monkey", monkey, 2.5)
         yield target("of it ours", monkey - bpy, 1.5)
+        never, again = (
+            median(run["click"] for run in programs["clicks"][name]) for name in ("never", "again")
+        )
+        yield target("seconds of the first click ever, after loading ahead", never, 1.0)
+        yield target("seconds of the first click after a restart, after loading ahead", again, 0.6)

@@ -22,10 +22,12 @@ class Engine(NamedTuple):
     """what is imported and installed"""
     greeting: str
     """the environment variable that "False" keeps it from announcing itself with"""
+    log_level: str
+    """that which says what it tells besides, such as that it is in a notebook"""
 
 
-TAICHI = Engine("Taichi", "taichi", "ENABLE_TAICHI_HEADER_PRINT")
-QUADRANTS = Engine("Quadrants", "quadrants", "ENABLE_QUADRANTS_HEADER_PRINT")
+TAICHI = Engine("Taichi", "taichi", "ENABLE_TAICHI_HEADER_PRINT", "TI_LOG_LEVEL")
+QUADRANTS = Engine("Quadrants", "quadrants", "ENABLE_QUADRANTS_HEADER_PRINT", "QD_LOG_LEVEL")
 
 
 @cache

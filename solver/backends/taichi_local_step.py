@@ -19,6 +19,10 @@ from .numpy_local_step import area_scale, local_captured, local_cubeness
 from .rows import HostRows
 from .warmup import warm_up
 
+LANES_FROM = 20_000
+"""vertices from which the kernel of `taichi_lanes.py` pays: to compile it takes three times as
+long, once on each machine, and then an iteration a twentieth less"""
+
 
 class _Arguments(NamedTuple):
     """What the kernel `local_step` is called with between the positions and the `FaceTables`."""
@@ -88,8 +92,9 @@ class TaichiLocalStep:
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         # The newer LLVM of Quadrants makes vectors of a third of them only: there one vertex after
-        # the other is as quick, and compiled in a third of the time.
-        has_lanes = runtime.device == "taichi-cpu" and form.width == CUBE.width
+        # the other is as quick.
+        is_worth_it = form.width == CUBE.width and len(rest.V) >= LANES_FROM
+        has_lanes = is_worth_it and runtime.device == "taichi-cpu"
         self._kernels = _kernels(precision, form.width, captured is not None, has_lanes)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)

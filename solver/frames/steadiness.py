@@ -19,7 +19,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
-from ..aliases import FloatArray
+from ..aliases import FloatArray, RealArray
 from ..values import described, is_same
 
 MOST_JUMPS = 3.0
@@ -48,11 +48,11 @@ class Frames(NamedTuple):
     (5, 1, 3)
     """
 
-    inputs: FloatArray
+    inputs: RealArray
     """(f,k,3) positions of the input"""
-    turns: FloatArray
+    turns: RealArray
     """(f,k,4) rotations of the surroundings since the first frame, as quaternions x, y, z, w"""
-    offsets: FloatArray
+    offsets: RealArray
     """(f,k,3) from there to the result, in the frame of the surroundings"""
 
     def __eq__(self, other: object) -> bool:
@@ -189,7 +189,7 @@ class Motion(Jumps):
 
 def least_width(
     pieces: Callable[[], Iterable[Frames]], limit: float = MOST_JUMPS
-) -> tuple[float, tuple[float, float]]:
+) -> tuple[float, tuple[float, ...]]:
     """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
 
     Parameters

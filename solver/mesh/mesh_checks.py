@@ -58,7 +58,7 @@ def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
     return V, np.ascontiguousarray(F, dtype=np.int32)
 
 
-def _blocks(F: Faces) -> list[NDArray[Any]]:
+def _blocks(F: Any) -> list[NDArray[Any]]:
     """Return the faces in blocks (k,s) of those with s corners."""
     try:
         F = np.asarray(F)

@@ -3,6 +3,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -58,7 +59,7 @@ class Topology(Value):
         """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
 
-    def sum_parts_at(self, vertices, values):
+    def sum_parts_at(self, vertices, values) -> Any:
         """Sum values (k,) that belong to vertices (k,) over each component."""
         return np.bincount(self.component[vertices], values, self.component_count)
 

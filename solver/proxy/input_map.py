@@ -2,6 +2,7 @@
 """The map from the vertices of the input to those that are solved, and back."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +77,7 @@ class InputMap(Value):
         welded[self.group[(self.group >= 0) & mask]] = True
         return self._with_midpoints(welded, np.logical_and)
 
-    def _with_midpoints(self, welded, combine):
+    def _with_midpoints(self, welded, combine) -> Any:
         """Add the values of the midpoints to those of the welded vertices, and order them."""
         values = welded
         if len(self.parents):

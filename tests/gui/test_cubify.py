@@ -6,6 +6,7 @@ EXPECT_DEVICE in the environment, such as "taichi-cpu", names the backend that m
 
 import importlib
 import os
+import sys
 
 import bpy
 import guidrive as gui
@@ -92,6 +93,15 @@ def change_and_update(first, place):
     yield from gui.screenshot("changed.png")
     yield from cubify(first)
     assert changes() == []
+
+
+def loaded_ahead():
+    """While the panel is looked at, the engine starts and its kernels are loaded."""
+    ahead = importlib.import_module(f"{ADDON}.environment.ahead")
+    is_waiting = bpy.app.timers.is_registered
+    yield from gui.wait_until(lambda: not is_waiting(ahead._next_step), what="what is loaded ahead")
+    assert next(ahead._steps, None) is None, "a step has failed, or the panel has asked for none"
+    assert {"taichi", "quadrants"} & sys.modules.keys() or not os.environ.get("EXPECT_DEVICE")
 
 
 def place_of_next_section():
@@ -186,6 +196,7 @@ def test():
     yield from gui.screenshot("original.png")
     assert changes() is None
     place = yield from place_of_next_section()
+    yield from loaded_ahead()
     assert (yield from leave_edit_mode_by_button()) == place, "the panel has jumped"
     assert is_bitwise(positions(), original)
 

@@ -18,6 +18,11 @@ from solver.styles.cube import CUBE
 ROOT = Path(__file__).parents[3]
 
 
+@pytest.fixture(autouse=True)
+def lanes_for_all(monkeypatch):
+    monkeypatch.setattr("solver.backends.taichi_local_step.LANES_FROM", 0)
+
+
 def local_steps(V, F, lam, Q, captured=None):
     """Return the local step with lanes, and the same without."""
     from solver.backends.engine import ti
@@ -69,8 +74,10 @@ import sys
 sys.path[:0] = [{str(ROOT)!r}, {str(Path(__file__).parent)!r}]
 import shapes
 from solver import stylize
+from solver.backends import taichi_local_step
 from solver.backends.taichi_runtime import set_cache_folder
 set_cache_folder("cache")
+taichi_local_step.LANES_FROM = 0
 stylize(*shapes.blob(1), device="cpu", max_iterations=1)
 """
     environment = {**os.environ, "TI_PRINT_KERNEL_LLVM_IR_OPTIMIZED": "1"}

@@ -100,8 +100,7 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
         assert not any(calls["search"]), "all modules were searched for that of a frame"
         assert not calls["version"] and "TI_SKIP_VERSION_CHECK" not in os.environ
         # a function for the engine costs as much at every start as a tenth of a whole kernel
-        lanes = ["lanes"] if CPU == "taichi-cpu" else []
-        ours = {"kernels", "covariances", "active_set", *lanes}
+        ours = {"kernels", "covariances", "active_set"}
         assert set(calls["compiled"]) == {f"solver.backends.taichi_{name}" for name in ours}, calls
         assert "scipy.sparse.csgraph" not in sys.modules
         for large in ("taichi_motion_kernels", "taichi_cycle_kernels"):

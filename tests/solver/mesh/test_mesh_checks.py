@@ -23,7 +23,7 @@ F = np.array([[0, 1, 2]])
         (V, F - 1, "-1 to 1"),
         (V + [0, np.nan, 0], F, "not finite"),
         (V * 1j, F, "positions must be real numbers, not complex128"),
-        (V.astype(str), F, "positions must be real numbers, not <U"),
+        (V.astype(str), F, "positions must be real numbers, not text"),
         ("bunny.obj", F, "positions must be real numbers, not text"),
         ([[0, 0, 0], [1, 0]], F, "whose rows are of one length"),
         (None, F, "positions must be real numbers, not None"),

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Load what a first run needs, in short pieces, before anybody waits for it."""
+
+from collections.abc import Iterator
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .aliases import Device
+
+_IMPORTED_LATE = ("scipy.sparse", "scipy.sparse.linalg", "scipy.spatial", "cholespy")
+
+
+def loading_steps(device: "Device" = "auto") -> Iterator[None]:
+    """Import packages, start the engine and load its kernels, and stop after each of these.
+
+    Whoever calls it does something else between two steps, such as drawing. What is missing or does
+    not work is left to the run that needs it, which says so.
+
+    Parameters
+    ----------
+    device : {"auto", "cpu", "gpu", "numpy"}
+        That the run is going to have.
+
+    Yields
+    ------
+    None
+        After each step: of a tenth to half of a second, the last of twice that where kernels have
+        not been compiled on this machine before.
+
+    Examples
+    --------
+    >>> from solver import loading_steps
+    >>> for _ in loading_steps("numpy"):
+    ...     pass  # draw
+    """
+    for step in (_import_packages(), _start_engine(device), _solve_little(device)):
+        try:
+            yield from step
+        except Exception:  # a broken installation can raise anything
+            continue
+
+
+def _import_packages():
+    for package in _IMPORTED_LATE:
+        if find_spec(package.partition(".")[0]) is not None:
+            import_module(package)
+            yield
+
+
+def _start_engine(device):
+    from .backends import engine, taichi_runtime
+
+    if device in ("auto", "cpu"):
+        engine.import_engine()
+        yield
+        taichi_runtime.start("cpu")
+        yield
+
+
+def _solve_little(device):
+    import numpy as np
+
+    from .proxy import PAPER, ProxyOptions
+    from .runner import stylize
+
+    V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    for proxy in (PAPER, ProxyOptions()):
+        stylize(V, F, 0.4, max_iterations=2, proxy=proxy, device=device)
+        yield
