@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .mesh.edge_distances import edge_distances as edge_distances
     from .mesh.edge_distances import nearest_distances as nearest_distances
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
+    from .meshes import stylize_mesh as stylize_mesh
     from .normal_capture import NormalCapture as NormalCapture
     from .orientation.auto_orientation import auto_orient as auto_orient
     from .progress import Progress as Progress

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A complete run in one call: mesh in, cubic mesh out."""
 
+import logging
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -23,6 +24,7 @@ from .errors import CubicCraftError
 from .inputs import instance, real_number, switch
 from .limbs import KnownLimbs
 from .normal_capture import NormalCapture
+from .progress_bar import progress_bar
 from .proxy import PAPER, ProxyOptions
 from .rest import rest_mesh
 from .setup import Setup
@@ -31,6 +33,8 @@ from .styles.admm import AdmmOptions
 from .styles.polytope import Polytope
 from .stylization import Stylization
 from .values import Value
+
+_log = logging.getLogger(__name__)
 
 Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
 OnIteration: TypeAlias = Callable[[Stylization], object]
@@ -97,6 +101,7 @@ def stylize(
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
     on_iteration: OnIteration | None = None,
+    progress: bool = False,
     proxy: ProxyOptions = PAPER,
     orientation: ArrayLike | None = None,
     targets: ArrayLike | None = None,
@@ -130,6 +135,8 @@ def stylize(
         See `StopRule`.
     on_iteration : callable, optional
         Called with the Stylization after each iteration; a true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
     proxy : ProxyOptions
         How to prepare the surface: weld it, refine it, and link it to its neighbours and its
         opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
@@ -184,7 +191,7 @@ def stylize(
         admm=admm,
         is_accelerated=is_accelerated,
     )
-    return run(stylization, max_iterations, tolerance, on_iteration)
+    return run(stylization, max_iterations, tolerance, on_iteration, progress)
 
 
 def run(
@@ -192,6 +199,7 @@ def run(
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
     on_iteration: OnIteration | None = None,
+    progress: bool = False,
 ) -> Result:
     """Iterate a new Stylization to its end.
 
@@ -204,6 +212,8 @@ def run(
         See `StopRule`.
     on_iteration : callable, optional
         Called with the Stylization after each iteration; a true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
 
     Returns
     -------
@@ -230,8 +240,18 @@ def run(
     [True, True]
     """
     run = Run(stylization, max_iterations, tolerance)
-    run.complete(on_iteration)
-    return run.result()
+    if switch(progress, "progress"):
+        with progress_bar(max_iterations, tolerance) as update:
+            run.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
+    else:
+        run.complete(on_iteration)
+    result = run.result()
+    _log.info(
+        "%s after %d iterations, energy %.6g, %s, %.2f s",
+        *(result.reason, result.iterations, result.energy.total, result.device),
+        result.solve_seconds,
+    )
+    return result
 
 
 class Run:

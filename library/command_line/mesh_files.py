@@ -18,6 +18,8 @@ from typing import Any
 import meshio
 import numpy as np
 
+from solver.meshes import with_turned_normals
+
 from .decompression import within_memory
 from .errors import InputError
 from .formats import FORMATS, Format
@@ -29,7 +31,6 @@ from .vtk_file import read_vtk, with_quoted_names
 __all__ = ("MeshFile", "read", "write")
 
 _FACES = ("triangle", "quad", "polygon")
-_NORMALS = ("nx", "ny", "nz")
 _LARGEST = 1e75  # the fourth power is finite
 
 
@@ -182,7 +183,7 @@ def _fitting(
     if not kind.has_cell_data and cell_data:
         notes.append(f"left out of the cells: {', '.join(cell_data)}")
         cell_data = {}
-    point_data = _with_turned_normals(point_data, rotations)
+    point_data = with_turned_normals(point_data, rotations)
     if kind.name == "vtk":
         point_data, cell_data = with_quoted_names(point_data), with_quoted_names(cell_data)
     lost = [x for x, data in point_data.items() if not kind.has_point_data or _too_wide(data, kind)]
@@ -196,22 +197,6 @@ def _fitting(
         cell_data,
         field_data=mesh.field_data if kind.has_cell_data else None,
     )
-
-
-def _with_turned_normals(point_data: dict[str, np.ndarray], rotations: np.ndarray):
-    """Return the data with normals that fit the new shape."""
-    turned = dict(point_data)
-    if all(name in point_data for name in _NORMALS):
-        columns = [point_data[name] for name in _NORMALS]
-        normals = np.einsum("nij,nj->ni", rotations, np.stack(columns, axis=1))
-        turned.update(
-            (name, column.astype(old.dtype))
-            for name, column, old in zip(_NORMALS, normals.T, columns, strict=True)
-        )
-    for name, data in point_data.items():
-        if name.lower() in ("normal", "normals") and data.shape == (len(rotations), 3):
-            turned[name] = np.einsum("nij,nj->ni", rotations, data).astype(data.dtype)
-    return turned
 
 
 def _too_wide(data: np.ndarray, kind: Format) -> bool:

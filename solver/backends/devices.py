@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Choose the machinery of the local step by the name of a device."""
 
+import logging
 from functools import partial
 from typing import Any, get_args
 
@@ -12,6 +13,8 @@ from .engine_lock import ForkedError, alone
 from .numpy_local_step import NumpyLocalStep
 from .quick_compilation import quick_compilation
 from .taichi_local_step import TaichiLocalStep
+
+_log = logging.getLogger(__name__)
 
 DEVICES: tuple[Device, ...] = get_args(Device)
 PRECISIONS: tuple[Precision, ...] = get_args(Precision)
@@ -78,6 +81,8 @@ def _taichi_local_step(device, precision, *arguments):
                 " choose the device auto or numpy"
             ) from error
         _problem, _tries_left = reason, _tries_left - 1 if is_imported else 0
+        level = logging.WARNING if is_imported else logging.INFO  # most who have none know it
+        _log.log(level, "%s cannot be used (%s); NumPy computes", engine().name, reason)
         return NumpyLocalStep(*arguments)
     if device == "auto":
         _problem, _tries_left = "", _TRIES
