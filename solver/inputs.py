@@ -133,7 +133,7 @@ def _kind(value: Any) -> str:
     if value is None:
         return "None"
     is_array = isinstance(value, np.ndarray | np.generic | list | tuple)
-    kind = np.asarray(value).dtype if is_array else None
+    kind = np.asarray(cast("Any", value)).dtype if is_array else None
     if isinstance(value, str | bytes) or (kind is not None and kind.kind in "SU"):
         return "text"
     return str(kind) if is_array else type(value).__name__

@@ -10,6 +10,8 @@ signed singular values as eigenvalues. So the result is certified, and what Newt
 certify (reflections, rank 1, far-off guesses) gets a singular value decomposition.
 """
 
+from typing import Any
+
 import numpy as np
 
 from .algebra import (
@@ -95,7 +97,8 @@ def svd_rotations(M: FloatArray) -> FloatArray:
     True
     """
     U, _, Vt = np.linalg.svd(M)
-    R: FloatArray = (U @ Vt).swapaxes(1, 2)
+    product: Any = U @ Vt
+    R = product.swapaxes(1, 2)
     mirrored = np.linalg.det(R) < 0.0
     U[mirrored, :, 2] *= -1.0
     R[mirrored] = (U[mirrored] @ Vt[mirrored]).swapaxes(1, 2)

@@ -322,7 +322,7 @@ class Run:
         is_kept = switch(keep_apart, "keep_apart") and not stylization.is_coarse
         is_kept = is_kept and rest.options.keep_apart
         self._apart = KeepApart(rest) if is_kept else None
-        self._end = "converged"
+        self._end: Reason = "converged"
         self._round = 0
 
     @property

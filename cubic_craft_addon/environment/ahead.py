@@ -45,7 +45,7 @@ def _next_step():
     try:
         check_known_requirements()
         use_extension_folder()
-        next(_steps)
+        next(_steps or iter(()))
     except StopIteration:
         return None
     except Exception as error:  # nobody has asked for anything yet; the click tells what is wrong
