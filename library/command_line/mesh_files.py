@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Read and write mesh files through meshio.
 
-See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong.
+See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong, and
+`gltf_file` for a format that it does not know.
 
 meshio prints its messages, and ends the process where a file cannot be read. Here they become
 errors, and notes of what a format cannot hold.
@@ -23,6 +24,7 @@ from solver.meshes import with_turned_normals
 from .decompression import within_memory
 from .errors import InputError
 from .formats import FORMATS, Format
+from .gltf_file import GltfFile, write_surface
 from .obj_text import ObjText
 from .ply_header import readable_ply
 from .surface import Surface
@@ -31,6 +33,7 @@ from .vtk_file import read_vtk, with_quoted_names
 __all__ = ("MeshFile", "read", "write")
 
 _FACES = ("triangle", "quad", "polygon")
+_GLTF = (".glb", ".gltf")
 _LARGEST = 1e75  # the fourth power is finite
 
 
@@ -41,8 +44,8 @@ class MeshFile:
     surface: Surface
     mesh: Any
     """meshio.Mesh with everything that meshio can write"""
-    obj: ObjText | None
-    """the text of an .obj file"""
+    whole: ObjText | GltfFile | None
+    """the file itself, of a format of which all is kept"""
 
 
 def read(path: Path) -> MeshFile:
@@ -63,6 +66,8 @@ def read(path: Path) -> MeshFile:
             _check_size(path, obj.points)
             blocks = [(_cell_type(block), block.astype(np.int32)) for block in obj.faces]
             return MeshFile(Surface(obj.points, obj.faces), meshio.Mesh(obj.points, blocks), obj)
+        if path.suffix.lower() in _GLTF:
+            return _read_gltf(path)
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file; check the path") from None
     except OSError as error:
@@ -101,12 +106,19 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
     OSError
         The disk is full, or something else is wrong with it.
     """
-    if file.obj is not None and path.suffix.lower() == ".obj":
-        file.obj.write(path, positions)
+    suffix = path.suffix.lower()
+    if isinstance(file.whole, ObjText) and suffix == ".obj":
+        file.whole.write(path, positions)
         return []
-    kind = FORMATS[path.suffix.lower()]
+    if isinstance(file.whole, GltfFile) and suffix in _GLTF:
+        _check_float32(positions)
+        return file.whole.write(path, positions, rotations)
+    kind = FORMATS[suffix]
     notes: list[str] = []
     mesh = _fitting(file, kind, positions, rotations, notes)
+    if suffix in _GLTF:
+        write_surface(path, mesh.points, file.surface.triangles)
+        return notes
     with _quiet() as said:
         try:
             meshio.write(path, mesh, file_format=kind.writer or kind.name, **kind.options)
@@ -118,6 +130,16 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
                 f"cannot be written as {path.suffix} ({reason}); choose another format"
             ) from error
     return notes
+
+
+def _read_gltf(path: Path) -> MeshFile:
+    try:
+        file = GltfFile(path)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    _check_size(path, file.points)
+    mesh = meshio.Mesh(file.points.astype(np.float32), [("triangle", file.triangles)])
+    return MeshFile(Surface(file.points, [file.triangles]), mesh, file)
 
 
 def _read_with_meshio(path: Path) -> Any:
@@ -160,16 +182,21 @@ def _check_size(path: Path, points: np.ndarray) -> None:
         raise InputError(f"{path}: {reason}, which is too large; repair the file, or scale it down")
 
 
+def _check_float32(positions: np.ndarray) -> None:
+    with np.errstate(over="ignore"):
+        is_held = np.isfinite(positions.astype(np.float32)).all()
+    if not is_held:
+        raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
+
+
 def _fitting(
     file: MeshFile, kind: Format, positions: np.ndarray, rotations: np.ndarray, notes: list[str]
 ) -> Any:
     """Return the mesh with its new positions as far as a format can hold it."""
     mesh, surface = file.mesh, file.surface
     dtype = np.float32 if kind.is_float32 or mesh.points.dtype.itemsize == 4 else np.float64
-    with np.errstate(over="ignore"):
-        is_held = np.isfinite(positions.astype(dtype)).all()
-    if not is_held:
-        raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
+    if dtype is np.float32:
+        _check_float32(positions)
     cells = [(block.type, _native(block.data)) for block in mesh.cells]
     cell_data = {name: [_native(x) for x in data] for name, data in mesh.cell_data.items()}
     point_data = {name: _native(data) for name, data in mesh.point_data.items()}

@@ -25,6 +25,8 @@ _BEGINNINGS = {
     b"OFF": ".off",
     b"COFF": ".off",
     b"# vtk": ".vtk",
+    b"glTF": ".glb",
+    b"{": ".gltf",
     b"<?xml": ".vtu",
     b"<VTKFile": ".vtu",
     b"solid": ".stl",
