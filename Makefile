@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository lock wheel test-wheel bench bench-quick bench-live films docs-images clean has-py313
+	build package repository release lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -151,6 +151,12 @@ package: setup $(ZIP) ## One zip for each platform that brings its wheels, in di
 repository: package ## Those as an extension repository for any web server, in dist/repository
 	$(PY) scripts/package repository dist/packages/*.zip
 
+release: package wheel ## All that is published of a version, with checksums, in dist/release
+	rm -rf dist/release
+	mkdir dist/release
+	cp dist/packages/cubic_craft-* dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz dist/release
+	$(PY) scripts/package checksums dist/release
+
 wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in dist
 	rm -f dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz
 	$(VENV)-wheel/bin/python -m build --no-isolation --outdir dist
@@ -188,8 +194,11 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
 	$(PY) scripts/benchmark_live.py $(ZIP)
 
-docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; checks its links
-	NO_MKDOCS_2_WARNING=1 $(VENV)-docs/bin/python -m mkdocs build
+docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; SITE_URL=where it will lie
+	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
+
+test-site: setup docs ## The site in Chromium, if there is one; pictures in build/site_pictures
+	$(PY) $(PYTEST) tests/site
 
 $(VENV)-docs/.done: requirements/docs.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
@@ -208,6 +217,10 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 .PHONY: form-pictures
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
+
+example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images
+	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_PICTURES=docs/images \
+		$(PY) $(PYTEST) --thorough tests/blender/test_examples.py
 
 films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
 	TESTS="film_*" tests/gui/run.sh $(ZIP)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure how steady the frames of an animation are, and what one costs: docs/animation.md.
+"""Measure how steady the frames of an animation are, and what one costs: docs/steadiness.md.
 
 It prints the tables of that page and draws its plot, ``--plot FILE.png``.
 """

@@ -6,6 +6,7 @@ as all others.
 """
 
 import logging
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 import bpy
@@ -23,7 +24,7 @@ PAUSE = 0.05
 """seconds between two pieces"""
 
 _log = logging.getLogger(__name__)
-_steps = None
+_steps: Iterator[None] | None = None
 
 
 def load_ahead(device: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What artists get by default beside the paper's energy; `earlier.py` has that of 0.1.0."""
+"""What artists get by default beside the paper's energy; `earlier.py` has that of the prototype."""
 
 import time
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The solver of version 0.1.0, as the history of this repository has it."""
+"""The solver of the prototype, as the history of this repository has it."""
 
 import json
 import subprocess

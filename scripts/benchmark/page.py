@@ -75,11 +75,11 @@ One run to our own stop, as in the paper: phases of set-up, then those of an ite
 all but the first. Peak memory is that of the whole process; "for the run" is what it takes above
 Python, the libraries and the kernels."""
 _DEFAULTS = """\
-The artist's defaults beside the paper's settings and beside version 0.1.0, which had no others;
-each to its own stop. The large meshes, by which the defaults are judged, are measured at three
-values of cubeness, of which the geometric mean counts: how many iterations a single case takes is
-to a good part luck. "Ticks per second" is how often Live could show a coarse mesh anew, without
-what Blender takes to draw."""
+The artist's defaults beside the paper's settings and beside the prototype (commit 9c85a9d),
+which had no others; each to its own stop. The large meshes, by which the defaults are judged,
+are measured at three values of cubeness, of which the geometric mean counts: how many
+iterations a single case takes is to a good part luck. "Ticks per second" is how often Live
+could show a coarse mesh anew, without what Blender takes to draw."""
 _LINKED = """\
 The defaults have an energy of their own, with links. Gaps of either energy, between rest and the
 lowest that any of the runs or a long one has seen, as in the paper and with the defaults."""

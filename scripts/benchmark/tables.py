@@ -125,8 +125,10 @@ def defaults(case):
     return row | {
         "of it finding links, s": median_of(case, "defaults", "links"),
         "times as long": times_as_long(case),
-        "0.1.0: to our stop, s": median_of(case, "earlier", "seconds") if has_earlier else None,
-        "times as long as 0.1.0": times_as_long(case, beside="earlier") if has_earlier else None,
+        "prototype: to our stop, s": median_of(case, "earlier", "seconds") if has_earlier else None,
+        "times as long as the prototype": (
+            times_as_long(case, beside="earlier") if has_earlier else None
+        ),
         "ticks per second": ticks_per_second(case),
     }
 
@@ -134,7 +136,7 @@ def defaults(case):
 def gaps_of_defaults(cases):
     """Give the times to a gap of either energy, where it has been measured.
 
-    Version 0.1.0 has that of the paper.
+    The prototype has that of the paper.
     """
     for case in cases:
         if "bounds" in case:
@@ -210,7 +212,7 @@ def first_clicks(results):
 _BOTH = {"as in the paper": "paper", "defaults": "defaults"}
 _ENERGIES = (
     *((name, program, program) for name, program in _BOTH.items()),
-    ("0.1.0", "earlier", "paper"),
+    ("prototype", "earlier", "paper"),
 )
 """what a program is called, which it is, and whose energy it lowers"""
 

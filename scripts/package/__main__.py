@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from package.check import check  # noqa: E402
+from package.checksums import write_checksums  # noqa: E402
 from package.targets import PLATFORMS, packages_for  # noqa: E402
 
 DIST = ROOT / "dist"
@@ -31,6 +32,8 @@ def arguments():
     repository = commands.add_parser("repository", help="a folder for a web server")
     repository.add_argument("zips", nargs="+", type=Path)
     repository.add_argument("--output", type=Path, default=DIST / "repository")
+    sums = commands.add_parser("checksums", help="write those of all files in a folder")
+    sums.add_argument("folder", type=Path)
     commands.add_parser("lock", help="choose the wheels anew")
     return parser.parse_args()
 
@@ -44,6 +47,8 @@ def main():
         write_locks()
     elif options.command == "check":
         check_all(options.zips)
+    elif options.command == "checksums":
+        write_checksums(options.folder)
     elif options.command == "repository":
         make_repository(options.zips, options.output)
     else:
@@ -60,6 +65,7 @@ def build_all(options):
             stale.unlink()
         for package in packages_for(PLATFORMS[name]):
             built += build_platform(package, options.plain, options.output, options.cache)
+    write_checksums(options.output)
     for path in built:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")
 

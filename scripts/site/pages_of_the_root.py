@@ -31,8 +31,10 @@ def on_page_markdown(markdown, page, **_):
     """Let links to the root lead to the pages."""
     if page.file.src_uri in PAGES.values():
         return markdown
+    up = "../" * page.file.src_uri.count("/")  # from there to docs/
     for name, target in PAGES.items():
-        markdown = re.sub(rf"\]\(\.\./{re.escape(name)}(?=[)#])", f"]({target}", markdown)
+        link = rf"\]\({re.escape(up)}\.\./{re.escape(name)}(?=[)#])"
+        markdown = re.sub(link, f"]({up}{target}", markdown)
     return markdown
 
 

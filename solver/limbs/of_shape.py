@@ -42,7 +42,7 @@ SHORT = 0.8
 WIDEST, THIN, SIDES = 0.75, 0.7, 3
 """of a trunk: its width beside the largest of its body, that of limbs beside it, their number"""
 CUT = 0.8
-"""widths: length of the short pieces of one that bends"""
+"""thicknesses: length of the short pieces of one that bends"""
 OF_NODES = 3
 """fewest in a short piece, in the mean: fewer do not say how it bends"""
 BEND = np.cos(np.radians(4.0))
@@ -257,11 +257,11 @@ def _cut(piece, directions, skeleton, direction, confidence, width):
             continue
         along = skeleton.place[rows] @ axis
         begin, length = along.min(), np.ptp(along)
-        count = max(round(length / (CUT * width[rows].mean())), 1)
+        count = max(round(length / (CUT * skeleton.thickness[rows].mean())), 1)
         place = np.minimum((along - begin) * (count / max(length, 1e-12)), count - 1).astype(int)
         share = confidence[rows]
-        own = np.copysign(share, direction[rows] @ axis)[:, None] * direction[rows]
-        own += (1.0 - share)[:, None] * axis
+        own = _tangents(skeleton.place[rows], place, share, count, axis)[place]
+        own = share[:, None] * own + (1.0 - share)[:, None] * axis
         sums = np.stack([np.bincount(place, x, count) for x in own.T], axis=1)
         sums[np.bincount(place, minlength=count) == 0] = axis
         pieces = sums / np.linalg.norm(sums, axis=1)[:, None]
@@ -270,6 +270,26 @@ def _cut(piece, directions, skeleton, direction, confidence, width):
         result[rows] = len(found) + place
         found += list(pieces)
     return result, np.array(found).reshape(-1, 3)
+
+
+def _tangents(places, number, share, count, axis):
+    """Return the directions (count,3) of the line through the middles of short pieces, along axis.
+
+    Of the middles, as what is around a node, in its window, also lies beyond a bend.
+    """
+    weight = np.bincount(number, share, count)
+    known = np.flatnonzero(weight > 0.0)
+    if len(known) < 2:
+        return np.tile(axis, (count, 1))
+    sums = np.stack([np.bincount(number, share * x, count) for x in places.T], axis=1)
+    middles = sums[known] / weight[known, None]
+    steps = np.diff(middles, axis=0)
+    first, last = steps[:2].mean(axis=0), steps[-2:].mean(axis=0)  # a single step is noisy
+    steps = np.vstack([first, steps, last])  # before and after each of them
+    ends = steps[:-1] + steps[1:]
+    tangents = np.tile(axis, (count, 1))
+    tangents[known] = ends / np.maximum(np.linalg.norm(ends, axis=1), 1e-12)[:, None]
+    return tangents
 
 
 def _smoothed(of_node, node, skin):

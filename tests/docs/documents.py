@@ -9,7 +9,9 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
+GUIDE = ROOT / "docs" / "guide"
+NAVIGATION = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nvalidation:")[0]
 
 
 @dataclass
@@ -55,6 +57,12 @@ def sections(page):
                 child.attrs["src"] for child in token.children if child.type == "image"
             ]
     return found
+
+
+def pages_for(readers):
+    """Return the pages below a heading of the site's navigation, such as "For artists"."""
+    block = NAVIGATION.split(f"  - {readers}:\n")[1].split("\n  - ")[0]
+    return [ROOT / "docs" / name for name in re.findall(r": (\S+\.md)$", block, re.MULTILINE)]
 
 
 @cache

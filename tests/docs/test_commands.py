@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the documentation tells to type is there, and each figure names what makes it."""
 
+import fnmatch
 import json
 import re
 import subprocess
@@ -8,11 +9,14 @@ import sys
 from functools import cache
 
 import pytest
-from documents import PAGES, ROOT, sections
+from documents import PAGES, ROOT, pages_for, sections
 
 HEADLESS = "headless_render.py"
-PAGES_OF_HEADLESS = ("README.md", "batch.md", "handles.md", "scripting.md", "user_guide.md")
+PAGES_OF_HEADLESS = ("batch.md", "handles_scripts.md", "scripting.md")
 MAKES_FIGURES = re.compile(r"^(make |pytest |python |\.venv/|scripts/|tests/|[A-Z_]+=)")
+OF_DEVELOPERS = re.compile(r"^(make |pytest |\.venv/|tests/)")
+PICTURES = ROOT / "docs" / "pictures.md"
+LONGEST_README = 700  # words
 MEASURED = re.compile(r"\d ?(ms|s|seconds|minutes|MB|GB|MiB|GiB|times) ")
 
 by_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -61,12 +65,31 @@ def test_files_in_commands_are_there(page):
 
 @by_page
 def test_figures_name_the_command_that_makes_them(page):
-    """In their section, or in the introduction of the page."""
+    """In their section, in the introduction of the page, or for pictures on a page of its own."""
     introduction = sections(page)[0]
     for section in sections(page):
-        has_figure = section.images or MEASURED.search(section.text)
+        unnamed = [image for image in section.images if not is_listed(page.parent / image)]
+        if MEASURED.search(section.text):
+            unnamed.append("numbers")
         named = [c for c in section.commands + introduction.commands if MAKES_FIGURES.match(c)]
-        assert named or not has_figure, f'"{section.title}" has figures, but no command beside them'
+        assert named or not unnamed, f'"{section.title}" has {unnamed}, but no command beside them'
+
+
+def is_listed(image):
+    """Return whether the page that lists pictures names this one, alone or by a pattern."""
+    name = image.resolve().relative_to(PICTURES.parent).as_posix()
+    return any(fnmatch.fnmatch(name, pattern) for pattern in commands(PICTURES))
+
+
+@pytest.mark.parametrize("page", pages_for("For artists"), ids=lambda page: page.name)
+def test_artists_are_told_no_commands_of_developers(page):
+    assert not [command for command in commands(page) if OF_DEVELOPERS.match(command)]
+
+
+def test_readme_has_the_two_commands_and_one_screen_of_words():
+    readme = ROOT / "README.md"
+    assert {"make render", "make test"} <= {command.strip() for command in commands(readme)}
+    assert len(readme.read_text(encoding="utf-8").split()) <= LONGEST_README
 
 
 def test_json_of_handles_can_be_read(tmp_path):
@@ -75,7 +98,7 @@ def test_json_of_handles_can_be_read(tmp_path):
 
     blocks = [
         content
-        for section in sections(ROOT / "docs" / "handles.md")
+        for section in sections(ROOT / "docs" / "handles_scripts.md")
         for language, content, _ in section.fences
         if language == "json"
     ]

@@ -4,7 +4,7 @@
 import re
 
 import pytest
-from documents import PAGES, ROOT, anchors, links
+from documents import NAVIGATION, PAGES, ROOT, anchors, links
 
 import solver
 
@@ -30,6 +30,6 @@ def test_every_public_name_is_in_the_reference():
 
 
 def test_every_page_is_in_the_navigation():
-    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nvalidation:")[0]
-    for page in (ROOT / "docs").glob("*.md"):
-        assert f": {page.name}\n" in navigation, f"{page.name} is not in mkdocs.yml"
+    for page in (ROOT / "docs").rglob("*.md"):
+        name = page.relative_to(ROOT / "docs").as_posix()
+        assert f": {name}\n" in NAVIGATION, f"{name} is not in mkdocs.yml"

@@ -5,7 +5,7 @@ import ast
 import re
 from functools import cache
 
-from documents import ROOT
+from documents import GUIDE, ROOT
 
 _SHORTEST = 4  # characters of a part between two "..."
 
@@ -25,9 +25,8 @@ def texts():
 
 
 def test_messages_are_those_of_the_program():
-    guide = (ROOT / "docs" / "user_guide.md").read_text(encoding="utf-8")
-    section = guide.split("## Troubleshooting")[1]
-    messages = re.findall(r"^\| \*(.+?)\* \|", section, re.MULTILINE)
+    page = (GUIDE / "troubleshooting.md").read_text(encoding="utf-8")
+    messages = re.findall(r"^\| \*(.+?)\* \|", page, re.MULTILINE)
     assert len(messages) > 10
     for message in messages:
         for part in re.split(r"\.\.\.|\(\.\.\.\)", message):

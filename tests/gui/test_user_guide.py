@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: trixie
-"""The pictures of docs/user_guide.md: each section of the panel as the artist sees it.
+"""The pictures of the user guide: each section of the panel as the artist sees it.
 
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
