@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..aliases import FloatArray
+from ..errors import CubicCraftError
 from ..optional_packages import optional_package
 
 MANY = 100
@@ -34,6 +35,11 @@ def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     -------
     (k * (s - 2), 3) numpy int array
         In the order of the polygons, and with their orientation; none for s less than 3.
+
+    Raises
+    ------
+    CubicCraftError
+        A concave one has more than `MANY` corners, and mapbox-earcut is not installed.
     """
     count, size = faces.shape
     if size <= 3:
@@ -46,8 +52,7 @@ def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     if size > 4:
         for polygon in np.flatnonzero(~_is_fan(V, fans)):
             corners = V[faces[polygon]]
-            earcut = None if size <= MANY else optional_package("mapbox_earcut")
-            clipped = _clip_many_ears(corners, earcut) if earcut else _clip_ears(corners)
+            clipped = _clip_ears(corners) if size <= MANY else _clip_many_ears(corners)
             fans[polygon] = faces[polygon][clipped]
     return fans.reshape(-1, 3)
 
@@ -90,12 +95,17 @@ def _clip_ears(points):
     return np.array([*triangles, left])
 
 
-def _clip_many_ears(points, earcut):
+def _clip_many_ears(points):
     """Return the triangles (s-2,3) of a polygon (s,3) with many corners, in near to linear time.
 
     One that is not simple, of which not all corners are used, gets a fan.
     """
     size = len(points)
+    earcut = optional_package("mapbox_earcut")
+    if earcut is None:
+        raise CubicCraftError(
+            f"a face has {size} corners; for more than {MANY}, install mapbox-earcut"
+        )
     flat = _bent_inward(_in_plane(points))
     triangles = earcut.triangulate_float64(flat, np.array([size], np.uint32))
     triangles = triangles.reshape(-1, 3).astype(np.int64)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from solver import CubicCraftError
+from solver.mesh import polygons
 from solver.mesh.mesh_checks import check_mesh
 
 V = np.eye(3)
@@ -57,3 +58,13 @@ def test_lists_and_32_bit_arrays_are_taken():
     checked_V, checked_F = check_mesh(V.astype(np.float32).tolist(), F.tolist())
     assert checked_V.dtype == np.float64
     assert checked_F.dtype == np.int32
+
+
+def test_without_earcut_large_concave_faces_are_refused(monkeypatch):
+    monkeypatch.setattr(polygons, "optional_package", lambda name: None)
+    angles = np.arange(200) * np.pi / 100
+    radii = 1.0 + 0.5 * np.cos(5.0 * angles)
+    V = np.stack([radii * np.cos(angles), radii * np.sin(angles), 0.0 * angles], axis=1)
+    with pytest.raises(CubicCraftError, match="200 corners; for more than 100, install mapbox"):
+        check_mesh(V, [range(200)])
+    assert check_mesh(V[::4], [range(50)])[1].shape == (48, 3)
