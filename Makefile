@@ -20,7 +20,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package repository release lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
+	build package upload repository release lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -145,8 +145,11 @@ build: $(ZIP) ## The extension as Blender installs it
 $(ZIP): $(VENV)/.done $(SOURCES)
 	$(PY) scripts/build_extension.py $@
 
-package: setup $(ZIP) ## One zip for each platform that brings its wheels, in dist/packages
+package: setup $(ZIP) ## One zip for each platform and Python that brings its wheels, in dist/packages
 	$(PY) scripts/package build $(ZIP) $(ARGS)
+
+upload: setup $(ZIP) ## Those for the extensions platform, in dist/upload
+	$(PY) scripts/package upload $(ZIP)
 
 repository: package ## Those as an extension repository for any web server, in dist/repository
 	$(PY) scripts/package repository dist/packages/*.zip
@@ -217,6 +220,10 @@ preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/asse
 .PHONY: form-pictures
 form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
 	$(PY) scripts/form_pictures $(ARGS)
+
+.PHONY: platform-pictures
+platform-pictures: setup ## Icon and feature picture for the extensions platform, in docs/images
+	$(PY) scripts/platform_pictures $(ARGS)
 
 example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_PICTURES=docs/images \

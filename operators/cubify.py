@@ -52,7 +52,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
     capture_object: pointer_name("capture_object")
     handles: CollectionProperty(
         name="Handles",
-        description="Handles to use instead of those of the objects",
+        description="Handles to use in place of those of the objects",
         type=CubicCraftGivenHandle,
         options={"SKIP_SAVE"},
     )
@@ -196,7 +196,7 @@ def _affine(item):
     matrix = tuple(value for row in item.matrix for value in row)
     if matrix[12:] != (0.0, 0.0, 0.0, 1.0) or not all(map(math.isfinite, matrix)):
         raise CubicCraftError(
-            f'the matrix of handle "{item.name}" is no affine map; give it as a mathutils.Matrix'
-            " (Blender takes a plain list by its columns)"
+            f'the matrix of handle "{item.name}" is not an affine map; give it as a'
+            " mathutils.Matrix (Blender takes a plain list by its columns)"
         )
     return matrix

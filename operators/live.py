@@ -92,13 +92,15 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         session = self._session
         if session.error:
             self.report({"ERROR"}, session.error)
-        elif session.end_message and not session.summary:
+        elif session.end_message and not session.written.summary:
             self.report({"WARNING"}, session.end_message)
-        if not (session.summary or session.problems):
+        if not (session.written.summary or session.written.problems):
             return {"CANCELLED"}
-        texts = filter(None, (session.end_message, session.summary))
-        status = report_all(self, ": ".join(texts) if session.summary else "", session.problems)
-        return {"CANCELLED"} if session.has_pushed_undo else status
+        texts = filter(None, (session.end_message, session.written.summary))
+        status = report_all(
+            self, ": ".join(texts) if session.written.summary else "", session.written.problems
+        )
+        return {"CANCELLED"} if session.written.has_pushed_undo else status
 
 
 class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):

@@ -19,8 +19,8 @@ from benchmark.shapes import blob
 
 from solver import (
     Frames,
+    FrameSequence,
     ProxyOptions,
-    Sequence,
     Setup,
     Stylization,
     frame_of,
@@ -103,7 +103,7 @@ def stylization(setup):
 def recorded(frames, F):
     """Solve each frame from the one before."""
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
-    sequence, found = Sequence(setup.rest), []
+    sequence, found = FrameSequence(setup.rest), []
     for V in frames:
         result = sequence.solve(stylization(setup.posed(V)))
         found.append(frame_of(V, sequence.turns, result.positions))
@@ -134,7 +134,7 @@ def print_costs():
     """Print what a frame costs beside a Cubify of its own, in turns."""
     V, F = blob(LEVELS_OF_COST)
     setup = Setup(rest_mesh(V, F, ProxyOptions()))
-    sequence = Sequence(setup.rest)
+    sequence = FrameSequence(setup.rest)
     sequence.solve(stylization(setup))
     single, frame = [], []
     for number in range(COSTS):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .errors import CubicCraftError as CubicCraftError
     from .flatten import Flattened as Flattened
     from .flatten import flatten_facets as flatten_facets
-    from .frames.sequence import Sequence as Sequence
+    from .frames.sequence import FrameSequence as FrameSequence
     from .frames.sequence import SequenceState as SequenceState
     from .frames.steadiness import MOST_JUMPS as MOST_JUMPS
     from .frames.steadiness import Frames as Frames

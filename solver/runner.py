@@ -239,13 +239,13 @@ def run(
     >>> [run(Stylization(setup, x, device="numpy")).converged for x in (0.1, 0.4)]
     [True, True]
     """
-    run = Run(stylization, max_iterations, tolerance)
+    steps = Run(stylization, max_iterations, tolerance)
     if switch(progress, "progress"):
         with progress_bar(max_iterations, tolerance) as update:
-            run.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
+            steps.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
     else:
-        run.complete(on_iteration)
-    result = run.result()
+        steps.complete(on_iteration)
+    result = steps.result()
     _log.info(
         "%s after %d iterations, energy %.6g, %s, %.2f s",
         *(result.reason, result.iterations, result.energy.total, result.device),

@@ -160,8 +160,8 @@ class AnimatedGroup:
     def _continued(self, state):
         rest = self._first.setup.rest
         if self._is_process:
-            return solver.Sequence(rest, state, forgotten=0.0)
-        return solver.Sequence(rest, state)
+            return solver.FrameSequence(rest, state, forgotten=0.0)
+        return solver.FrameSequence(rest, state)
 
     def forget(self) -> None:
         """Begin the next frame from its pose, not from the shape of the last frame.

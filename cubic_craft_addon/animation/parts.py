@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of the frames that are solved apart from each other, on several machines.
 
-A frame is solved from the end of the one before, of which it forgets a share, see `Sequence`. So a
-part begins some frames early, without keeping these: what it does not know of the frames before
-them is forgotten by then. Where nothing moves, nothing is solved, and so nothing is forgotten.
+A frame is solved from the end of the one before, of which it forgets a share, see `FrameSequence`.
+So a part begins some frames early, without keeping these: what it does not know of the frames
+before them is forgotten by then. Where nothing moves, nothing is solved and so nothing forgotten.
 """
 
 from collections.abc import Sequence

@@ -48,12 +48,12 @@ def read_point_cache(path: Path) -> np.ndarray:
     Raises
     ------
     CubicCraftError
-        It is no PC2 file, or it is incomplete.
+        It is not a PC2 file, or it is incomplete.
     """
     with path.open("rb") as file:
         head = file.read(_HEADER.itemsize)
     if len(head) < _HEADER.itemsize or not head.startswith(_SIGNATURE):
-        raise CubicCraftError(f'"{path}" is no PC2 file')
+        raise CubicCraftError(f'"{path}" is not a PC2 file')
     header = np.frombuffer(head, _HEADER)[0]
     frames, points = int(header["samples"]), int(header["points"])
     if path.stat().st_size < _HEADER.itemsize + 12 * frames * points:

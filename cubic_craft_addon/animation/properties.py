@@ -43,7 +43,7 @@ class BakeProperties:
 
     use_range: BoolProperty(
         name="Own Range",
-        description="Bake other frames than those of the scene",
+        description="Bake frames other than those of the scene",
         default=False,
         options=set(),
     )

@@ -39,7 +39,8 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
     Raises
     ------
     CubicCraftError
-        It is no affine map, or flattens the vertices; the message names the handle and the remedy.
+        It is not an affine map, or flattens the vertices; the message names the handle and the
+        remedy.
     """
     if pose == IDENTITY:
         return
@@ -49,9 +50,9 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
         if sizes[-1] > SMALLEST_SCALE * sizes[0]:
             return
     raise CubicCraftError(
-        f'the pose of the handle "{handle.group}" of "{obj.name}" is no affine map, or has a scale'
-        " of zero; click Reset Pose, or give it as a mathutils.Matrix (Blender takes a plain list"
-        " by its columns)"
+        f'the pose of the handle "{handle.group}" of "{obj.name}" is not an affine map, or has a'
+        " scale of zero; click Reset Pose, or give it as a mathutils.Matrix (Blender takes a plain"
+        " list by its columns)"
     )
 
 

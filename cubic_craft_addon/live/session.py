@@ -4,7 +4,6 @@
 Nothing of Blender's data is kept between two calls, because undo, delete and load free it.
 """
 
-import contextlib
 import logging
 import time
 from collections.abc import Callable
@@ -16,11 +15,8 @@ from .. import mesh_bridge
 from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
-from ..run.assembly import assemblies
-from ..run.failures import UNEXPECTED
-from ..run.tasks import Task, plan, write_all
 from ..screen.redraw import redraw_panels
-from ..settings.overrides import ALL, SettingsOverrides
+from ..settings.overrides import ALL
 from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
 from .followed_mesh import FollowedMesh
 from .follower import remove_left
@@ -29,8 +25,9 @@ from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
 from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
-from .saved_file import write_for_file
+from .plan import Plan
 from .undo_steps import UndoSteps
+from .written import Written
 
 _log = logging.getLogger(__name__)
 
@@ -65,10 +62,7 @@ class Session:
         Returns whether a handle is being dragged in the viewport.
     error : str
         Why it has ended by itself.
-    has_pushed_undo : bool
-        Whether what was written has its undo step already.
-    summary, problems : str, list of str
-        What was written, as from `tasks.write_all`, or why nothing could be written.
+    written : Written
     """
 
     def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
@@ -82,10 +76,8 @@ class Session:
         self._has_written = self._may_be_painted = self._is_undone = False
         self._is_reported = False
         self._undo_steps = UndoSteps()
-        self._in_file: contextlib.AbstractContextManager = contextlib.nullcontext()
-        self._mode_left, self.has_pushed_undo = "", False
-        self.error, self.summary = "", ""
-        self.problems: list[str] = []
+        self.written = Written()
+        self.error = ""
         rebase_edited_handles(objects, lambda obj: object_properties(obj).start)
         properties.adopt(objects[0])
         self._own = self._values = properties.live_values()
@@ -93,9 +85,10 @@ class Session:
         self.meshes: list[LiveMesh] = []
         self._runs = LiveRuns()
         self._following = Following(self._runs)
-        self._plan(objects)
+        self._plan = Plan()
+        self._plan.renew(objects)
         seen = set()
-        for task in self._tasks.values():
+        for task in self._plan.tasks.values():
             self.meshes.append(_mesh_for(task, seen))
             seen.add(task.mesh)
         self._restart_changed()
@@ -140,12 +133,12 @@ class Session:
     @property
     def all_problems(self):
         """What is wrong with the settings or the objects, as texts."""
-        return self._plan_problems + self._runs.problems
+        return self._plan.problems + self._runs.problems
 
     @property
     def tasks(self):
         """The current runs, that of the active object first; valid only within one event."""
-        return list(self._tasks.values())
+        return list(self._plan.tasks.values())
 
     @property
     def mesh_uids(self):
@@ -299,12 +292,12 @@ class Session:
         self._undo_steps.tell(self._history)
         if not self.is_dragged():
             self._history.record(values, now)
-        self._plan(objects)
+        self._plan.renew(objects)
         if self._may_be_painted and self.is_following:
             there = {obj.session_uid: obj for obj in objects}
             self._following.look(self.meshes, there, now, is_reported=self._is_reported)
             self._is_reported = False
-        is_changed = self._runs.is_changed(self._groups)
+        is_changed = self._runs.is_changed(self._plan.groups)
         if self._is_too_young(now):
             return
         if is_changed:
@@ -313,7 +306,7 @@ class Session:
             self._follow_originals(now)
         elif self._may_be_painted and self._may_read_weights():
             self._may_be_painted = False
-            is_changed |= self._runs.restart_painted(self._groups, self.meshes)
+            is_changed |= self._runs.restart_painted(self._plan.groups, self.meshes)
         if is_changed:
             self._last_restart = now
             # The first check after an undo still finds changes: frames had not been evaluated.
@@ -324,7 +317,7 @@ class Session:
 
     def _follow_originals(self, now, *, is_hurried=False):
         is_hurried |= self.is_finishing
-        if self._following.work(self._groups, self.meshes, now, is_hurried=is_hurried):
+        if self._following.work(self._plan.groups, self.meshes, now, is_hurried=is_hurried):
             self._may_be_painted = False
             self._history.record_outside()
             self._has_written |= self._reads_edit_mode()
@@ -336,12 +329,12 @@ class Session:
         """
         return not any(
             task.is_followed_as_seen or (task.is_followed and task.obj.mode not in MODES)
-            for task in self._tasks.values()
+            for task in self._plan.tasks.values()
         )
 
     def _reads_edit_mode(self):
         """Whether reading an object has made Blender report its mesh as changed."""
-        return any(task.obj.mode == "EDIT" for task in self._tasks.values())
+        return any(task.obj.mode == "EDIT" for task in self._plan.tasks.values())
 
     def _is_too_young(self, now):
         """Return whether the runs have yet to be shown; otherwise a drag would show nothing."""
@@ -351,14 +344,14 @@ class Session:
 
     def _restart_changed(self):
         self._show_on_others()
-        self._runs.restart_changed(self._groups, self.meshes)
+        self._runs.restart_changed(self._plan.groups, self.meshes)
         if self.is_following:
             self._has_written |= self._reads_edit_mode()
 
     def _show_on_others(self):
         """Show results on followers, or on the objects themselves, as the setting is now."""
         seen = set()
-        for mesh, task in self._pairs():
+        for mesh, task in self._plan.pairs(self.meshes):
             may_be_written = task.is_followed or task.obj.mode in MODES
             if may_be_written and not mesh.suits(task):  # else the next tick ends it
                 mesh_bridge.end_preview(task.mesh)
@@ -391,26 +384,26 @@ class Session:
     def _follow(self):
         """Continue with meshes after an undo or redo, which may have another shape now."""
         self._put_back()
-        self._plan(list(self._objects(bpy.context).values()))
-        is_left = any(task.obj.mode not in MODES for task in self._tasks.values())
+        self._plan_anew()
+        is_left = any(task.obj.mode not in MODES for task in self._plan.tasks.values())
         if is_left and not self.is_following:
             return  # the next tick ends it
-        for mesh, task in self._pairs():
+        for mesh, task in self._plan.pairs(self.meshes):
             mesh.follow(task)
         if self.is_following:
             self._may_be_painted = True
         else:
-            self._runs.restart_painted(self._groups, self.meshes)
-        if self._runs.is_changed(self._groups):
+            self._runs.restart_painted(self._plan.groups, self.meshes)
+        if self._runs.is_changed(self._plan.groups):
             self._restart_changed()
         self._begin_previews()
 
     def _show_again(self):
-        self._plan(list(self._objects(bpy.context).values()))
+        self._plan_anew()
         self._begin_previews()
 
     def _begin_previews(self):
-        for mesh, task in self._pairs():
+        for mesh, task in self._plan.pairs(self.meshes):
             mesh.begin_preview(task.obj)
 
     def _complete(self):
@@ -420,41 +413,15 @@ class Session:
             self._runs.complete(_PATIENCE)
 
     def _leave_mode(self):
-        self._mode_left = elsewhere.leave_mode(list(self._objects(bpy.context).values()))
-
-    def _back_to_mode(self):
-        if self._mode_left:
-            elsewhere.back_to_mode(self._mode_left, has_written=bool(self.summary))
-            self.has_pushed_undo = bool(self.summary)
-
-    def _push_undo(self):
-        if self.summary:
-            elsewhere.push_undo_soon()
+        self.written.leave_mode([*self._objects(bpy.context).values()])
 
     def _write(self):
-        solved = self._solved()
-        self.summary, unwritten = write_all(self._overrides, solved)
-        self._settle()
-        self.problems = self.all_problems + unwritten
+        self._plan_anew()
+        self.written.write(self._plan, self.meshes, self.all_problems)
 
     def _write_to_file(self):
-        try:
-            self._in_file = write_for_file(self._overrides, self._solved())
-            self._settle()
-        except UNEXPECTED:
-            _log.exception("The file is saved with the mesh as before Live")
-
-    def _settle(self):
-        for mesh, task in self._pairs():
-            if task.written is not None:
-                mesh.settle(task.written)
-
-    def _solved(self):
-        """Plan anew, and return the tasks of which there is something to write."""
-        self._plan(list(self._objects(bpy.context).values()))
-        for mesh, task in self._pairs():
-            task.solution = mesh.solution_so_far
-        return [task for task in self._tasks.values() if task.solution is not None]
+        self._plan_anew()
+        self.written.write_to_file(self._plan, self.meshes)
 
     def _start_timer(self):
         if self._timer is None:
@@ -467,8 +434,7 @@ class Session:
             self._timer = None
 
     def _put_back(self):
-        with self._in_file:  # what was written for a file
-            self._in_file = contextlib.nullcontext()
+        self.written.out_of_file()
         take_along(self.meshes, self._objects(bpy.context))
         for mesh in self.meshes:
             mesh.put_back()
@@ -482,9 +448,7 @@ class Session:
         wake.listen(None)
         status_bar.hide()
         poses.set_live_poses({})
-        self._tasks.clear()
-        self._groups.clear()
-        self._overrides = SettingsOverrides({})
+        self._plan.release()
         self._runs.release()
         for mesh in self.meshes:
             mesh.release()
@@ -505,21 +469,8 @@ class Session:
             if uid in found and known.get(uid) in (None, found[uid].data.session_uid)
         }
 
-    def _plan(self, objects):
-        """Determine the tasks of the objects, with the current settings."""
-        self._tasks: dict[int, Task] = {}
-        self._groups: dict[tuple[int, ...], list[Task]] = {}
-        try:
-            self._overrides: SettingsOverrides = properties.live_overrides(objects)
-        except CubicCraftError as error:
-            self._plan_problems = [str(error)]
-            return
-        tasks, self._plan_problems = plan(self._overrides, objects)
-        for task in tasks:
-            task.is_followed = task.settings.result == "NEW_OBJECT"
-        self._plan_problems += filter(None, map(mesh_bridge.cover_problem, objects))
-        self._tasks = {task.uid: task for task in tasks}
-        self._groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
+    def _plan_anew(self):
+        self._plan.renew(list(self._objects(bpy.context).values()))
 
     def _drop_lost(self, objects):
         """Drop the meshes of objects that are gone; the follower of one stays, as a result."""
@@ -536,11 +487,6 @@ class Session:
     def _pairs_of(self, objects):
         """Return each mesh whose object is there, with the object."""
         return [(m, objects[m.object_uid]) for m in self.meshes if m.object_uid in objects]
-
-    def _pairs(self):
-        """Return each mesh that has a task, with the task."""
-        tasks = [(mesh, self._tasks.get(mesh.object_uid)) for mesh in self.meshes]
-        return [(mesh, task) for mesh, task in tasks if task is not None]
 
 
 def _mesh_for(task, seen):
@@ -559,7 +505,7 @@ _METHODS = {
     Action.WRITE: Session._write,
     Action.WRITE_TO_FILE: Session._write_to_file,
     Action.LEAVE_MODE: Session._leave_mode,
-    Action.BACK_TO_MODE: Session._back_to_mode,
-    Action.PUSH_UNDO: Session._push_undo,
+    Action.BACK_TO_MODE: lambda session: session.written.back_to_mode(),
+    Action.PUSH_UNDO: lambda session: session.written.push_undo(),
     Action.CLEAN_UP: Session._clean_up,
 }

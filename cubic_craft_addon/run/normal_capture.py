@@ -117,7 +117,7 @@ def _made_of(ball, linear):
     try:
         return once(solver.NormalCapture, directions, normals)
     except CubicCraftError as error:
-        raise CubicCraftError(f'"{ball.name}" is no normal capture: {error}') from error
+        raise CubicCraftError(f'"{ball.name}" is not a normal capture: {error}') from error
 
 
 def _digest(ball):

@@ -3,19 +3,17 @@
 
 from collections.abc import Callable, Hashable
 from functools import partial
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import bpy
 
-T = TypeVar("T")
+from .kept import Kept, T
 
 PAUSE = 0.2
 """seconds without a redraw that asks for it"""
-_OUTDATED = object()  # no key is equal to it
-_MOST = 2  # objects of which it is kept: windows may show different scenes
 
 
-class FoundLater(Generic[T]):
+class FoundLater(Kept[T]):
     """Something about objects, kept until it has changed.
 
     Parameters
@@ -34,9 +32,8 @@ class FoundLater(Generic[T]):
         key_of: Callable[[Any], Hashable],
         redraw: Callable[[], None],
     ):
+        super().__init__()
         self._find, self._key_of, self._redraw = find, key_of, redraw
-        self._known: dict[int, tuple[Hashable, T]] = {}
-        """the key and what was found with it, by ``session_uid`` of the object"""
         self._waiting: Callable[[], None] | None = None
 
     @property
@@ -44,25 +41,20 @@ class FoundLater(Generic[T]):
         """Whether something is going to be found."""
         return self._waiting is not None and bpy.app.timers.is_registered(self._waiting)
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is known that could be forgotten."""
-        return not self._known
-
     def now(self, obj: bpy.types.Object, *, or_before: bool = False) -> T | None:
         """Return what is known about an object; None if it is going to be found.
 
         With `or_before`, what was known before it had to be found again is returned meanwhile.
         """
-        known = self._known.get(obj.session_uid)
-        if known is not None and known[0] == self._key_of(obj):
-            return known[1]
+        known = self.get(obj.session_uid, self._key_of(obj))
+        if known is not None:
+            return known
         if self._waiting is not None and self.is_waiting:
             bpy.app.timers.unregister(self._waiting)
         window = bpy.context.window.as_pointer() if bpy.context.window else 0
         self._waiting = partial(self.find, obj.session_uid, window)
         bpy.app.timers.register(self._waiting, first_interval=PAUSE)
-        return known[1] if known is not None and or_before else None
+        return self.before(obj.session_uid) if or_before else None
 
     def find(self, uid: int, window: int = 0) -> None:
         """Find it now, if the object is still there.
@@ -85,21 +77,13 @@ class FoundLater(Generic[T]):
             self._find_in_scene(obj)
 
     def _find_in_scene(self, obj):
-        found = self._key_of(obj), self._find(obj)
-        self._known.pop(obj.session_uid, None)
-        while len(self._known) >= _MOST:
-            del self._known[next(iter(self._known))]
-        self._known[obj.session_uid] = found
+        key = self._key_of(obj)
+        self.keep(obj.session_uid, self._find(obj), key)
         self._redraw()
-
-    def has_changed(self, uid: int | None = None) -> None:
-        """Have it found again for an object, or for all."""
-        for each in self._known if uid is None else {uid} & self._known.keys():
-            self._known[each] = _OUTDATED, self._known[each][1]
 
     def forget(self) -> None:
         """Forget everything, and find nothing that was asked for."""
-        self._known.clear()
+        super().forget()
         if self._waiting is not None and self.is_waiting:
             bpy.app.timers.unregister(self._waiting)
         self._waiting = None

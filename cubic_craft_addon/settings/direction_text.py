@@ -32,7 +32,7 @@ def read_directions(text: str) -> np.ndarray:
         rows = np.empty(0)
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise CubicCraftError(
-            f'"{text[:40]}" is no list of directions; write three numbers for each, such as'
+            f'"{text[:40]}" is not a list of directions; write three numbers for each, such as'
             ' "0 0 1, 1 0 0"'
         )
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)

@@ -15,12 +15,10 @@ from ..environment import handlers
 from ..environment.requirements import check_requirements
 from ..run.angles import Angles, remaining_angles
 from ..run.object_frame import placement_alone
+from ..screen.kept import Kept
 
-_MOST = 2
-"""objects of which angles are kept: windows may show different scenes"""
-
-_known: dict[int, tuple[tuple, Angles]] = {}
-"""what the angles were measured with, and the angles, by the object's ``session_uid``"""
+_known: Kept[Angles] = Kept()
+"""by the object, with what they were measured with as the key"""
 
 
 def angles_now(obj: bpy.types.Object) -> Angles:
@@ -35,28 +33,24 @@ def angles_now(obj: bpy.types.Object) -> Angles:
     check_requirements()
     settings = live.settings_now(obj)
     placement = placement_alone(obj, settings)
-    key, known = placement.key, _known.get(obj.session_uid)
-    if known is not None and known[0] == key:
-        return known[1]
+    known = _known.get(obj.session_uid, placement.key)
+    if known is not None:
+        return known
     angles = remaining_angles(obj, placement, settings)
-    _known.pop(obj.session_uid, None)
-    while len(_known) >= _MOST:
-        del _known[next(iter(_known))]
-    _known[obj.session_uid] = key, angles
-    return angles
+    return _known.keep(obj.session_uid, angles, placement.key)
 
 
 @persistent
 def _on_update(_scene, depsgraph):
-    if _known:
+    if not _known.is_empty:
         for uid in handlers.changed_shapes(depsgraph):
-            _known.pop(uid, None)
+            _known.has_changed(uid)
 
 
 @persistent
 def forget(*_):
     """Measure the angles anew when they are asked for."""
-    _known.clear()
+    _known.forget()
 
 
 _HANDLERS = (

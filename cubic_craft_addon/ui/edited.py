@@ -13,6 +13,7 @@ from .. import live, mesh_bridge
 from ..environment import handlers
 from ..environment.modes import MODES
 from ..object_properties import object_properties
+from ..screen.kept import Kept
 from ..screen.text_fit import room_for_text, wrapped
 
 _REPLACED = "This shape replaces the original. Restore First brings that back until Apply"
@@ -22,8 +23,9 @@ _LOST = (
 )
 _BOX = 1.0  # width of an icon, that a box takes from a line
 
-_known: dict[int, dict[str, bool]] = {}
-"""what was found out about a mesh, by its ``session_uid``"""
+_edited: Kept[bool] = Kept()
+_lost: Kept[bool] = Kept()
+"""by the mesh"""
 
 
 def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
@@ -53,24 +55,24 @@ def has_edits(mesh: bpy.types.Mesh) -> bool:
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Return whether the mesh was edited since it was cubified, and its original is still there."""
-    return _found_out(mesh, "is edited", mesh_bridge.is_edited)
+    return _found_out(mesh, _edited, mesh_bridge.is_edited)
 
 
 def is_lost(mesh: bpy.types.Mesh) -> bool:
     """Return whether the original of the mesh can no longer be determined."""
-    return _found_out(mesh, "is lost", mesh_bridge.is_lost)
+    return _found_out(mesh, _lost, mesh_bridge.is_lost)
 
 
-def _found_out(mesh, what, find_out):
+def _found_out(mesh, kept, find_out):
     if not mesh_bridge.has_traces(mesh):
         return False
-    known = _known.setdefault(mesh.session_uid, {})
-    if what not in known:
-        try:
-            known[what] = find_out(mesh)
-        except CubicCraftError:
-            return False
-    return known[what]
+    known = kept.get(mesh.session_uid)
+    if known is not None:
+        return known
+    try:
+        return kept.keep(mesh.session_uid, find_out(mesh))
+    except CubicCraftError:
+        return False
 
 
 def _draw_text(context, layout, text):
@@ -86,12 +88,14 @@ def _on_update(_scene, depsgraph):
             data = update.id.original
             mesh = data.data if isinstance(data, bpy.types.Object) else data
             if isinstance(mesh, bpy.types.Mesh):
-                _known.pop(mesh.session_uid, None)
+                _edited.has_changed(mesh.session_uid)
+                _lost.has_changed(mesh.session_uid)
 
 
 @persistent
 def _forget(*_):
-    _known.clear()
+    _edited.forget()
+    _lost.forget()
 
 
 _HANDLERS = (
@@ -110,4 +114,4 @@ def register():
 def unregister():
     """Listen no longer."""
     handlers.remove(_HANDLERS)
-    _known.clear()
+    _forget()

@@ -78,7 +78,9 @@ class GltfFile:
                     raise InputError("a mesh is used in several places; make it a copy in each")
                 triangles.append(first + self._corners(primitive, len(values)))
                 linear = matrix[:3, :3]
-                of_normals = np.linalg.inv(linear).T  # which a scale of zero has not
+                if not abs(np.linalg.det(linear)) > 0.0:
+                    raise InputError("a node with a mesh has a scale of zero; apply its scale")
+                of_normals = np.linalg.inv(linear).T
                 for name, own in (("NORMAL", of_normals), ("TANGENT", linear)):
                     if name in attributes:
                         self._turned.setdefault(attributes[name], (first, own))

@@ -102,7 +102,7 @@ class ObjText:
         try:
             index = int(word.partition("/")[0])
         except ValueError:
-            raise self._error(number, f"{word!r} is no corner of a face") from None
+            raise self._error(number, f"{word!r} is not a corner of a face") from None
         if index == 0 or not -count <= index <= _MOST_VERTICES:
             raise self._error(number, f"there is no vertex {word.partition('/')[0]}")
         return index - 1 if index > 0 else count + index

@@ -68,7 +68,7 @@ class _Reader:
         """Read the file, unless its data set is another one."""
         begin = self._file.readline().split()
         if begin[:4] != [b"#", b"vtk", b"DataFile", b"Version"]:
-            raise InputError("this is no legacy .vtk file; export it again")
+            raise InputError("this is not a legacy .vtk file; export it again")
         self._is_new = float(begin[4]) >= 5.0
         self._file.readline()  # the title
         self._is_text = self._words() == ["ASCII"]

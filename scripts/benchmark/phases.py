@@ -16,7 +16,7 @@ from .meshes import read
 
 PHASES = {
     "rest mesh": (our_solver, "rest_mesh"),
-    "factorisation": (global_step, "factorize"),
+    "factorization": (global_step, "factorize"),
     "local step": (stylization.Stylization, "local_step"),
     "right-hand side": (TaichiLocalStep, "right_hand_side"),
     "solve": (global_step.GlobalStep, "positions"),

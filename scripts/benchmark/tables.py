@@ -19,7 +19,7 @@ from .summary import (
     times_as_long,
 )
 
-_SETUP_PHASES = ("rest mesh", "factorisation")
+_SETUP_PHASES = ("rest mesh", "factorization")
 _PHASES = ("local step", "right-hand side", "solve", "remainder")
 
 

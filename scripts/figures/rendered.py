@@ -27,7 +27,7 @@ from . import (
 )
 from .figure_meshes import FigureMeshes
 
-__all__ = ("render_figures",)
+__all__ = ("NOMINAL_WIDTH", "Figure", "render_figure", "render_figures")
 
 NOMINAL_WIDTH = 1600
 
@@ -78,21 +78,26 @@ def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
     with registered(root) as extension:
         meshes = FigureMeshes(extension, options.meshes, bar, options.verbose, options.rough)
         for number in wanted:
-            figure = FIGURES[number]
-            gallery = _gallery(figure, meshes)
-            path = options.output / f"{figure.name}.png"
-            settings = {
-                **{name: getattr(options, name) for name in ("engine", "samples", "verbose")},
-                "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
-                "turntable": 0,
-                "threads": None,  # all
-            }
             with bar.task(f"figure {number}") as task:
-                list(render(gallery, [path], Namespace(**settings)))
+                path = render_figure(FIGURES[number], meshes, options)
                 task.finish(f"wrote {path}")
-            if options.save_blend:
-                blend = str((options.save_blend / f"{figure.name}.blend").resolve())
-                bpy.data.libraries.write(blend, {gallery.scene}, fake_user=True)
+
+
+def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> Path:
+    """Render a figure as `render_figures` does, and return the path of the picture."""
+    gallery = _gallery(figure, meshes)
+    path = options.output / f"{figure.name}.png"
+    settings = {
+        **{name: getattr(options, name) for name in ("engine", "samples", "verbose")},
+        "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
+        "turntable": 0,
+        "threads": None,  # all
+    }
+    list(render(gallery, [path], Namespace(**settings)))
+    if options.save_blend:
+        blend = str((options.save_blend / f"{figure.name}.blend").resolve())
+        bpy.data.libraries.write(blend, {gallery.scene}, fake_user=True)
+    return path
 
 
 def _gallery(figure: Figure, meshes: FigureMeshes) -> Gallery:

@@ -12,7 +12,7 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 from package.check import check  # noqa: E402
 from package.checksums import write_checksums  # noqa: E402
-from package.targets import PLATFORMS, packages_for  # noqa: E402
+from package.targets import PLATFORMS, packages_for, packages_to_upload  # noqa: E402
 
 DIST = ROOT / "dist"
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "cubic_craft" / "wheels"
@@ -22,11 +22,13 @@ def arguments():
     """Return the parsed command line."""
     parser = argparse.ArgumentParser(prog="package", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    build = commands.add_parser("build", help="build the zips, one or more for each platform")
-    build.add_argument("plain", type=Path, help="the extension without wheels")
+    build = commands.add_parser("build", help="build the zips, one for each platform and Python")
     build.add_argument("--platforms", nargs="+", choices=PLATFORMS, default=list(PLATFORMS))
-    build.add_argument("--output", type=Path, default=DIST / "packages")
-    build.add_argument("--cache", type=Path, default=CACHE, help="folder of the wheels")
+    upload = commands.add_parser("upload", help="build the zips for the extensions platform")
+    for command, folder in ((build, "packages"), (upload, "upload")):
+        command.add_argument("plain", type=Path, help="the extension without wheels")
+        command.add_argument("--output", type=Path, default=DIST / folder)
+        command.add_argument("--cache", type=Path, default=CACHE, help="folder of the wheels")
     checks = commands.add_parser("check", help="check zips that have been built")
     checks.add_argument("zips", nargs="+", type=Path)
     repository = commands.add_parser("repository", help="a folder for a web server")
@@ -51,22 +53,46 @@ def main():
         write_checksums(options.folder)
     elif options.command == "repository":
         make_repository(options.zips, options.output)
+    elif options.command == "upload":
+        build_uploads(options)
     else:
         build_all(options)
 
 
 def build_all(options):
     """Build and list the packages; what another run has left in the folder is removed."""
-    from package.build import build_platform
+    from package.build import build_package
 
     built = []
     for name in options.platforms:
         for stale in options.output.glob(f"cubic_craft-*-{name.replace('-', '_')}*"):
             stale.unlink()
         for package in packages_for(PLATFORMS[name]):
-            built += build_platform(package, options.plain, options.output, options.cache)
+            built.append(build_package(package, options.plain, options.output, options.cache))
     write_checksums(options.output)
-    for path in built:
+    show_sizes(built)
+
+
+def build_uploads(options):
+    """Build what is uploaded to the extensions platform, each range of Blenders as a version."""
+    from package.build import build_package
+    from package.upload import release_of, upload_problems, uploaded_version
+
+    shutil.rmtree(options.output, ignore_errors=True)
+    release = release_of(options.plain)
+    built = []
+    for package in packages_to_upload():
+        version = uploaded_version(release, package)
+        built.append(build_package(package, options.plain, options.output, options.cache, version))
+    problems = upload_problems(built)
+    if problems:
+        raise SystemExit("\n".join(["the extensions platform would refuse them:", *problems]))
+    show_sizes(built)
+
+
+def show_sizes(paths):
+    """List the zips."""
+    for path in paths:
         print(f"{path.stat().st_size / 1e6:6.1f} MB  {path.name}")
 
 

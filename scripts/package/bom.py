@@ -20,7 +20,7 @@ def bill_of_materials(package, manifest, wheels, credits):
     Parameters
     ----------
     package
-        The platform and the Pythons.
+        The platform and the Python.
     manifest
         The manifest of the extension, a dictionary.
     wheels, credits
@@ -62,11 +62,7 @@ def _component(wheel, entry):
 
 
 def _needed(package, wheel, parts):
-    """Return the components that the wheel requires, of those that can be there beside it."""
-    for python in package.pythons:
-        if not wheel.fits(package.platform, python):
-            continue
-        names = {requirement_name(r) for r in wheel.requirements(package.platform, python)}
-        for other, part in parts.items():
-            if other.name in names and other.fits(package.platform, python):
-                yield part
+    """Return the components that the wheel requires."""
+    required = wheel.requirements(package.platform, package.python)
+    names = {requirement_name(requirement) for requirement in required}
+    return [part for other, part in parts.items() if other.name in names]

@@ -13,74 +13,64 @@ from build_extension import build
 from .bom import bill_of_materials
 from .check import BILL, check
 from .fetch import fetch
+from .inside import check_inside
 from .locked import REQUIREMENTS
-from .targets import SIZE_LIMIT_BYTES
 from .third_party import write_third_party
 from .wheel import Wheel
 
 MANIFEST = "blender_manifest.toml"
 
 
-def build_platform(platform_package, plain, output, cache):
-    """Build the package of a platform; if it is too large, one for each Python.
+def build_package(package, plain, output, cache, version=None):
+    """Build a package, with its bill of materials beside it.
 
     Parameters
     ----------
-    platform_package
+    package
         What is wanted.
     plain : Path
         The zip of the extension without wheels.
     output, cache : Path
         Folders of the zips and of the wheels.
+    version : str, optional
+        Stands in the manifest in place of that of the extension.
 
     Returns
     -------
-    list of Path
-        The zips, all checked.
+    Path
+        The zip, checked.
 
     Raises
     ------
     SystemExit
-        A zip does not hold what it promises.
+        The zip does not hold what it promises.
     """
-    if len(platform_package.pythons) > 1 and _size(platform_package, cache) > SIZE_LIMIT_BYTES:
-        parts = platform_package.split()
-        return [path for part in parts for path in build_platform(part, plain, output, cache)]
+    paths = fetch(package.platform, package.python, cache, REQUIREMENTS / package.lock)
     with tempfile.TemporaryDirectory(prefix="cubic_craft_package_") as folder:
         source = Path(folder)
         with zipfile.ZipFile(plain) as archive:
             archive.extractall(source)
-        manifest = _complete(source, platform_package, _wheel_paths(platform_package, cache))
-        target = output / platform_package.file_name(manifest["version"])
+        manifest = _complete(source, package, paths, version)
+        target = output / package.file_name(manifest["version"])
         build(target, source)
         shutil.copy(source / BILL, target.with_suffix(".cdx.json"))
-    problems = check(target, platform_package)
+    problems = check(target, package)
     if problems:
         raise SystemExit("\n".join([f"{target.name} is not what it promises:", *problems]))
-    return [target]
+    return target
 
 
-def _size(package, cache):
-    """Return how large the zip gets at least: Blender's tool does not compress wheels again."""
-    return sum(path.stat().st_size for path in _wheel_paths(package, cache))
-
-
-def _wheel_paths(package, cache):
-    """Return the path of each file once, also of those that are for several Pythons."""
-    lock = REQUIREMENTS / package.lock
-    found = [fetch(package.platform, python, cache, lock) for python in package.pythons]
-    paths = [path for wheels in found for path in wheels]
-    return list({path.name: path for path in paths}.values())
-
-
-def _complete(source, package, paths):
+def _complete(source, package, paths, version):
     """Add to the extension in a folder what the package has beside it; return its manifest."""
     (source / "wheels").mkdir()
     for path in paths:
         shutil.copy(path, source / "wheels" / path.name)
     wheels = [Wheel.of_path(path) for path in paths]
     credits = write_third_party(source, wheels)
+    for path in paths:
+        check_inside(path, credits)
     document = tomlkit.parse((source / MANIFEST).read_text())
+    document["version"] = version or document["version"]
     document["copyright"].extend(sorted({c for entry in credits for c in entry.copyrights}))
     document["platforms"] = [package.platform.name]
     document["wheels"] = [f"./wheels/{path.name}" for path in paths]

@@ -54,10 +54,10 @@ def check(path, package=None, lock=None, needed=None, limit=SIZE_LIMIT_BYTES):
     problems += _credit_problems(wheels, names, bill)
     problems += [p for wheel in wheels for p in _wheel_problems(wheel, package, lock)]
     used = set()
-    for python in package.pythons:
-        problems += _python_problems(wheels, package.platform, python, needed, used)
+    problems += _dependency_problems(wheels, package, needed, used)
     for wheel in wheels:
-        if wheel.file_name not in used and wheel.name != FROM_BLENDER and _fits(wheel, package):
+        is_foreign = wheel.name == FROM_BLENDER or not wheel.fits(package.platform, package.python)
+        if wheel.file_name not in used and not is_foreign:
             problems.append(f"{wheel.file_name} is needed by nothing")
     size = path.stat().st_size
     if size >= limit:
@@ -114,17 +114,18 @@ def _wheel_problems(wheel, package, lock):
         version, hashes = lock[wheel.name]
         if wheel.version != version or wheel.sha256 not in hashes:
             problems.append(f"{wheel.file_name} is not the locked file of version {version}")
-    if not _fits(wheel, package):
-        pythons = " and ".join(package.pythons)
-        problems.append(f"{wheel.file_name} is not for {package.platform.name}, Python {pythons}")
+    if not wheel.fits(package.platform, package.python):
+        here = f"{package.platform.name}, Python {package.python}"
+        problems.append(f"{wheel.file_name} is not for {here}")
     if wheel.misplaced:
         problems.append(f"{wheel.file_name} has files where older Blenders leave them unfound")
     return problems
 
 
-def _python_problems(wheels, platform, python, needed, used):
-    """Follow all dependencies for one Python; adds the file names of what it needs to `used`."""
+def _dependency_problems(wheels, package, needed, used):
+    """Follow all dependencies; adds the file names of what is needed to `used`."""
     problems = []
+    platform, python = package.platform, package.python
     here = f"{platform.name}, Python {python}"
     waiting = [(r, "the solver") for r in holding(needed, platform, python)]
     seen = set()
@@ -150,7 +151,3 @@ def _python_problems(wheels, platform, python, needed, used):
             used.update(wheel.file_name for wheel in found)
             waiting += [(r, name) for r in found[0].requirements(platform, python)]
     return list(dict.fromkeys(problems))
-
-
-def _fits(wheel, package):
-    return any(wheel.fits(package.platform, python) for python in package.pythons)

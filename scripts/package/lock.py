@@ -37,15 +37,14 @@ def write_lock(path, packages):
     ----------
     path : Path
     packages : list of Package
-        Those that share the lock; they are for the same Pythons.
+        Those that share the lock.
     """
     chosen = defaultdict(dict)  # (name, version): {file name: hash}
-    for python in packages[0].pythons:
-        for package in packages:
-            for file_name, sha256 in _resolve(package.platform, python, [pin for pin in chosen]):
-                name, version, *_ = parse_wheel_filename(file_name)
-                if name != "numpy":
-                    chosen[name, str(version)][file_name] = sha256
+    for package in sorted(packages, key=lambda package: package.python):  # "3.11", "3.13"
+        for file_name, sha256 in _resolve(package.platform, package.python, list(chosen)):
+            name, version, *_ = parse_wheel_filename(file_name)
+            if name != "numpy":
+                chosen[name, str(version)][file_name] = sha256
     path.write_text(_HEAD + "".join(_entry(*item) for item in sorted(chosen.items())))
 
 

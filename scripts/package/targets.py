@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the packages promise: on which platforms and for which Pythons they work."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from packaging import tags
 
 PYTHONS = ("3.11", "3.13")  # of Blender 4.2 to 5.0, and from 5.1 on
-NEWEST_PYTHONS = ("3.14",)  # of distributions; with Quadrants, as Taichi has no wheels for it
+NEWEST_PYTHON = "3.14"  # of distributions; with Quadrants, as Taichi has no wheels for it
 NEW_PYTHON_BLENDER = "5.1.0"  # the first with the second of them, where Blender brings Python
 
 # A wheel must work with each. Python 3.11: Blender 4.2, 4.4 to 5.0. Python 3.13: Debian 13, 5.1.
@@ -26,7 +26,7 @@ class Platform:
 
     `wheel_tags` are the last parts of the names of wheels that run there. `brings_python` is False
     where a distribution's Blender may use another Python than Blender's own of that version.
-    `pythons` are those of its packages, one package for each group, unless it has to be split.
+    `pythons` are those of its packages.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Platform:
     system: str
     machine: str
     brings_python: bool = True
-    pythons: tuple[tuple[str, ...], ...] = (PYTHONS,)
+    pythons: tuple[str, ...] = PYTHONS
 
     def markers(self, python):
         """Return what the markers of dependencies are evaluated with."""
@@ -83,7 +83,7 @@ PLATFORMS = {
             "Linux",
             "x86_64",
             brings_python=False,
-            pythons=(PYTHONS, NEWEST_PYTHONS),
+            pythons=(*PYTHONS, NEWEST_PYTHON),
         ),
         Platform(
             "linux-arm64",
@@ -92,31 +92,33 @@ PLATFORMS = {
             "Linux",
             "aarch64",
             brings_python=False,
-            pythons=(NEWEST_PYTHONS,),
+            pythons=(NEWEST_PYTHON,),
         ),
     )
 }
 
+UPLOADED = ("windows-x64", "macos-arm64", "linux-x64")  # of those that the platform knows
+
 
 @dataclass(frozen=True)
 class Package:
-    """One zip: a platform and the Pythons that it promises to work with."""
+    """One zip: a platform and the Python that it promises to work with.
+
+    Two Pythons in one zip are more than the extensions platform takes, on Windows and Linux; each
+    user would also download twice as much as is used.
+    """
 
     platform: Platform
-    pythons: tuple[str, ...] = PYTHONS
+    python: str
 
     def file_name(self, version):
         """Return the name of the zip, which says whom it is for."""
-        name = f"cubic_craft-{version}-{self.platform.name.replace('-', '_')}"
-        return name + self._suffix() + ".zip"
+        return f"cubic_craft-{version}-{self.platform.name.replace('-', '_')}-{self._suffix()}.zip"
 
     def _suffix(self):
-        if self.pythons == PYTHONS:
-            return ""
-        (python,) = self.pythons
         if not self.platform.brings_python:
-            return f"-python{python}"
-        return "-blender4.2_to_5.0" if python == PYTHONS[0] else "-blender5.1_or_newer"
+            return f"python{self.python}"
+        return "blender4.2_to_5.0" if self.python == PYTHONS[0] else "blender5.1_or_newer"
 
     def blender_versions(self):
         """Return the fields of the manifest that keep it from Blenders with another Python.
@@ -124,9 +126,9 @@ class Package:
         None on a platform where the version does not tell the Python; Blender then goes by the
         names of the wheels.
         """
-        if self.pythons == PYTHONS or not self.platform.brings_python:
+        if not self.platform.brings_python:
             return {}
-        if self.pythons == PYTHONS[:1]:
+        if self.python == PYTHONS[0]:
             return {"blender_version_max": NEW_PYTHON_BLENDER}  # the first that it is not for
         return {"blender_version_min": NEW_PYTHON_BLENDER}
 
@@ -136,22 +138,26 @@ class Package:
 
         Each package for the newest Python has its own: on Arm, some of what it needs has no wheel.
         """
-        if self.pythons == NEWEST_PYTHONS:
-            return f"wheels_{self.platform.name}_python{self.pythons[0]}.lock"
+        if self.python == NEWEST_PYTHON:
+            return f"wheels_{self.platform.name}_python{self.python}.lock"
         return "wheels.lock"
-
-    def split(self):
-        """Return one package for each Python in place of this one."""
-        return [Package(self.platform, (python,)) for python in self.pythons]
 
 
 def packages_for(platform):
-    """Return the packages of a platform, before any of them is split."""
-    return [Package(platform, pythons) for pythons in platform.pythons]
+    """Return the packages of a platform."""
+    return [Package(platform, python) for python in platform.pythons]
+
+
+def packages_to_upload():
+    """Return those for the extensions platform, which all say for which Blenders they are.
+
+    They are for Blenders from blender.org, whose version tells the Python, also on Linux.
+    """
+    platforms = [replace(PLATFORMS[name], brings_python=True) for name in UPLOADED]
+    return [Package(platform, python) for python in PYTHONS for platform in platforms]
 
 
 def all_packages():
     """Return all packages that there can be."""
-    whole = [package for platform in PLATFORMS.values() for package in packages_for(platform)]
-    parts = [part for package in whole if len(package.pythons) > 1 for part in package.split()]
-    return whole + parts
+    ours = [package for platform in PLATFORMS.values() for package in packages_for(platform)]
+    return list(dict.fromkeys([*ours, *packages_to_upload()]))

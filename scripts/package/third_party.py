@@ -50,13 +50,17 @@ def credit(wheel):
     ValueError
         Its licence, its text or its copyright is not known; see ``licences/additions.toml``.
     """
-    added = tomllib.loads((ADDITIONS / "additions.toml").read_text()).get(wheel.name, {})
+    additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())
+    added = additions.get(wheel.name, {})
     texts = dict(wheel.licences)
-    if not texts and (ADDITIONS / f"{wheel.name}.txt").exists():
+    for part, file_name in additions["texts"].items():
+        if any(part in file for file in wheel.files):
+            texts[file_name] = (ADDITIONS / file_name).read_text()
+    if not wheel.licences and (ADDITIONS / f"{wheel.name}.txt").exists():
         texts["LICENSE.txt"] = (ADDITIONS / f"{wheel.name}.txt").read_text()
     if not texts:
         raise ValueError(f"{wheel.file_name} has no licence text")
-    whole = "\n".join(texts.values())
+    whole = "\n".join(wheel.licences.values() or texts.values())
     copyrights = [*added.get("copyright", []), *copyright_lines(whole)]
     if not copyrights:
         raise ValueError(f"{wheel.file_name} does not say whose copyright it is")
@@ -86,23 +90,19 @@ def copyright_lines(text):
 
 def write_third_party(folder, wheels):
     """Write THIRD_PARTY.md and the texts into the folder of the extension; return the credits."""
-    credits, lines = {}, [_HEAD]
-    for wheel in sorted(wheels, key=lambda wheel: wheel.file_name):
-        entry = credits.setdefault(wheel.name, credit(wheel))
-        for name, text in credit(wheel).texts.items():
-            target = folder / "licences" / wheel.name / name
-            if target.exists() and target.read_text() != text:  # the wheels bundle other libraries
-                first = min(tag.interpreter for tag in wheel.tags)
-                target = target.with_stem(f"{target.stem}-{first}")
+    credits = [credit(wheel) for wheel in sorted(wheels, key=lambda wheel: wheel.file_name)]
+    lines = [_HEAD]
+    for entry in credits:
+        for name, text in entry.texts.items():
+            target = folder / "licences" / entry.name / name
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text)
-    for entry in credits.values():
         lines += [f"\n## {entry.name} {entry.version}\n", f"- Licence: {entry.licence}"]
         lines += [f"- Copyright {line}" for line in entry.copyrights]
         lines += [f"- {entry.homepage}"] if entry.homepage else []
         lines += [f"- Inside it: {line}" for line in entry.inside]
     (folder / "THIRD_PARTY.md").write_text("\n".join(lines) + "\n")
-    return list(credits.values())
+    return credits
 
 
 def _licence(wheel, text):

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Start Taichi or Quadrants without harm to Blender or to other add-ons that use it."""
 
-import contextlib
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from types import FunctionType
 
 from .engine import environment, import_engine
 from .engine_choice import engine, started_program
@@ -59,9 +58,8 @@ def start(device):
         if not is_cached:
             folder = tempfile.gettempdir()  # nothing is written to it, but it must be there
         options = {"offline_cache": is_cached, "offline_cache_file_path": folder}
-        # Taichi would ask a server for its newest version; both announce themselves at any level.
-        with environment("TI_SKIP_VERSION_CHECK", "ON"), _silence(ti.lang.misc):
-            ti.init(arch=arch, log_level=ti.ERROR, **options)
+        with environment("TI_SKIP_VERSION_CHECK", "ON"):  # Taichi would ask a server
+            _silent(ti.init)(arch=arch, log_level=ti.ERROR, **options)
         _our_program, _our_device = started_program(), device
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
     shown = "cpu" if name in ("x64", "arm64") else name
@@ -82,11 +80,12 @@ def _is_writable(folder):
         return False
 
 
-@contextlib.contextmanager
-def _silence(module: Any):
-    """Let a module print nothing for a time; what others print in other threads is shown."""
-    module.print = lambda *_, **__: None
-    try:
-        yield
-    finally:
-        del module.print
+def _silent(function: FunctionType):
+    """Return a copy of a function in which `print` does nothing; the function stays as it is.
+
+    Both engines print that they start, whatever the level of their log.
+    """
+    names = {**function.__globals__, "print": lambda *_, **__: None}
+    return FunctionType(
+        function.__code__, names, argdefs=function.__defaults__, closure=function.__closure__
+    )

@@ -44,16 +44,16 @@ class SequenceState(NamedTuple):
 
     See Also
     --------
-    Sequence : Returns and takes it.
+    FrameSequence : Returns and takes it.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Sequence, SequenceState, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, SequenceState, Setup, Stylization, rest_mesh
     >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-    >>> first = Sequence(rest)
+    >>> first = FrameSequence(rest)
     >>> _ = first.solve(Stylization(Setup(rest), 0.4, device="numpy"))
-    >>> Sequence(rest, first.state).state.positions.shape
+    >>> FrameSequence(rest, first.state).state.positions.shape
     (3, 3)
     """
 
@@ -76,7 +76,7 @@ class SequenceState(NamedTuple):
         return described(SequenceState, self._asdict().items())
 
 
-class Sequence:
+class FrameSequence:
     """Frames that are solved one after the other.
 
     Parameters
@@ -100,11 +100,11 @@ class Sequence:
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Sequence, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
     >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     >>> setup = Setup(rest_mesh(V, F))
-    >>> sequence = Sequence(setup.rest)
+    >>> sequence = FrameSequence(setup.rest)
     >>> first = sequence.solve(Stylization(setup, 0.4, device="numpy"))
     >>> frame = Stylization(setup.posed(V * [1, 1, 1.1]), 0.4, device="numpy")
     >>> sequence.solve(frame).iterations

@@ -82,7 +82,7 @@ def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Fr
     inputs, positions : (k,3) numpy arrays
         The input and the result.
     turns : (k,3,3) numpy array
-        See `Sequence.turns`.
+        See `FrameSequence.turns`.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Fr
 
     See Also
     --------
-    Sequence : Solves the frames.
+    FrameSequence : Solves the frames.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def check_same_as_cubify(obj):
 def confirm(live, session):
     session.on(live.Event.CONFIRM)
     tick_to_rest(session)
-    assert session.is_ended and not session.error and not session.problems
+    assert session.is_ended and not session.error and not session.written.problems
     return session
 
 
@@ -75,7 +75,7 @@ def check_gone(live):
         assert handler not in getattr(bpy.app.handlers, name)
     session = live._session
     assert session._timer is None
-    assert not session.tasks and not session._groups and not session._overrides.pointers
+    assert not session.tasks and not session._plan.groups and not session._plan.overrides.pointers
     assert not session._runs._runs
     for mesh in session.meshes:
         assert mesh._preview is None and mesh.member is None and mesh.run is None

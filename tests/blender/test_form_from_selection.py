@@ -235,8 +235,8 @@ def test_live_follows_the_directions(live, begin):
     ("text", "words"),
     [
         ("", "no faces were picked for the form; select some in Edit Mode"),
-        ("0 0 up", '"0 0 up" is no list of directions; write three numbers'),
-        ("0 0 1, 1 0", "is no list of directions"),
+        ("0 0 up", '"0 0 up" is not a list of directions; write three numbers'),
+        ("0 0 1, 1 0", "is not a list of directions"),
         ("0 0 1, 0 0 0", "must be finite, and not zero"),
         ("0 0 nan", "must be finite, and not zero"),
         (", ".join(f"{k} {k * k} 1" for k in range(60)), r"the form has 120 directions; give at"),

@@ -172,7 +172,7 @@ def test_the_object_may_be_deleted_in_live(live, begin):
     assert "Form" in session.all_problems[0]
     live.live_properties().form = "PRISM"
     confirm(live, session)
-    assert session.summary
+    assert session.written.summary
 
 
 @pytest.mark.parametrize("form", ["TETRAHEDRON", "PRISM", "DODECAHEDRON"])

@@ -249,7 +249,7 @@ def test_scripts_give_handles_in_place_of_the_objects_own():
 
 def test_a_matrix_that_is_no_affine_map_is_refused():
     add_posable()
-    with pytest.raises(RuntimeError, match=r"Right.*no affine map.*mathutils"):
+    with pytest.raises(RuntimeError, match=r"Right.*not an affine map.*mathutils"):
         cubify(handles=[given(RIGHT, Matrix.Translation((0, 0, 1)).transposed())])
 
 

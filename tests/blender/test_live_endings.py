@@ -52,7 +52,7 @@ def test_renaming_does_not_matter(live, begin):
     session = tick_to_sight(begin(obj))
     obj.name, obj.data.name = "Other", "Mesh"
     confirm(live, session)
-    assert session.summary
+    assert session.written.summary
 
 
 def test_replacing_the_mesh_ends_it_and_gives_the_old_one_back(live, begin):
@@ -79,8 +79,8 @@ def test_another_mode_confirms_it_and_is_there_afterwards(live, begin, mode, is_
         tick_to_rest(session)
     bpy.ops.object.mode_set(mode=mode)
     tick_to_rest(session)
-    assert session.is_ended and not session.error and not session.problems
-    assert "mode was changed" in session.end_message and session.summary
+    assert session.is_ended and not session.error and not session.written.problems
+    assert "mode was changed" in session.end_message and session.written.summary
     assert obj.mode == mode
     bpy.ops.object.mode_set(mode="OBJECT")
     check_gone(live)
@@ -106,7 +106,7 @@ def test_a_mode_that_cannot_wait_has_the_shape_so_far(
     bpy.ops.object.mode_set(mode="EDIT")
     session.tick(bpy.context)
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert session.is_ended and "not converged" in session.summary
+    assert session.is_ended and "not converged" in session.written.summary
     assert bits(obj) == shown != original
     check_gone(live)
 
@@ -119,7 +119,7 @@ def test_selecting_another_mesh_confirms_it(live, begin):
     select(other)
     bpy.context.view_layer.update()
     tick_to_rest(session)
-    assert session.is_ended and session.summary
+    assert session.is_ended and session.written.summary
     assert bits(obj) == shown != original and bits(other) == original
     assert bpy.context.object == other
     check_gone(live)
@@ -151,7 +151,7 @@ def test_another_workspace_confirms_it(live, begin):
     assert not session.is_ended
     other = next(w for w in bpy.data.workspaces if w != bpy.context.workspace)
     session.look_around(SimpleNamespace(workspace=other, scene=bpy.context.scene))
-    assert session.is_ended and session.summary and bits(obj) == shown
+    assert session.is_ended and session.written.summary and bits(obj) == shown
 
 
 def test_another_scene_confirms_it(live, begin):
@@ -165,7 +165,7 @@ def test_another_scene_confirms_it(live, begin):
     finally:
         bpy.context.window.scene = first
         bpy.data.scenes.remove(other)
-    assert session.is_ended and session.summary and not session.problems
+    assert session.is_ended and session.written.summary and not session.written.problems
     assert bits(obj) == shown
     check_gone(live)
 
@@ -363,8 +363,8 @@ def test_an_exception_while_writing_loses_nothing(live, begin, extension, monkey
     monkeypatch.setattr(results, "store_original", fail)
     session.on(live.Event.CONFIRM)
     tick_to_rest(session)
-    assert session.is_ended and not session.summary
-    assert "on fire" in session.problems[0]
+    assert session.is_ended and not session.written.summary
+    assert "on fire" in session.written.problems[0]
     assert bits(obj) == original
     check_gone(live)
 

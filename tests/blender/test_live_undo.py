@@ -54,7 +54,7 @@ def leave_object_mode(live, session, mode):
     bpy.ops.object.mode_set(mode=mode)
     bpy.ops.ed.undo_push(message="Toggle Mode")
     tick_to_rest(session)
-    assert session.is_ended and session.summary and session.has_pushed_undo
+    assert session.is_ended and session.written.summary and session.written.has_pushed_undo
     check_gone(live)
     return shape_and_mode()[0]
 

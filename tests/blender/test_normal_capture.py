@@ -117,9 +117,9 @@ def test_a_cubified_ball_with_more_vertices_on_top_counts_by_its_vertices(captur
         (lambda: "Nobody", 'no object "Nobody"; pick another normal capture'),
         (lambda: add_empty("Nothing").name, '"Nothing" has no surface'),
         (lambda: add_triangle_less().name, '"Dots" has no surface'),
-        (lambda: add_solid("plane").name, '"Form" is no normal capture: .* do not surround'),
-        (lambda: add_far_ball().name, '"Ball" is no normal capture: .* do not surround its origin'),
-        (lambda: add_triangle().name, '"Three" is no normal capture: .* fewer than four'),
+        (lambda: add_solid("plane").name, '"Form" is not a normal capture: .* do not surround'),
+        (lambda: add_far_ball().name, '"Ball" is not a normal capture: .* not surround its origin'),
+        (lambda: add_triangle().name, '"Three" is not a normal capture: .* fewer than four'),
         (lambda: "Suzanne", '"Suzanne" cannot be its own normal capture'),
     ],
 )
@@ -208,7 +208,7 @@ def test_the_ball_may_be_deleted_in_live(live, begin):
     assert 'no object "Cushion"' in session.all_problems[0]
     live.live_properties().capture_object = ""
     confirm(live, session)
-    assert session.summary and obj.cubic_craft.capture_object is None
+    assert session.written.summary and obj.cubic_craft.capture_object is None
 
 
 def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():

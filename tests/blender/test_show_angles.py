@@ -247,9 +247,9 @@ def test_the_angles_follow_live(angles_now, begin, one_phase):
 def test_angles_of_few_objects_are_kept(angles_now, part):
     for name in "ABCD":
         angles_now(add_monkey(name))
-    assert len(part("ui.angles")._known) == part("ui.angles")._MOST
+    assert len(part("ui.angles")._known._known) == part("screen.kept").MOST
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert not part("ui.angles")._known
+    assert part("ui.angles")._known.is_empty
 
 
 def test_what_is_drawn(drawn):
@@ -320,7 +320,7 @@ def test_the_overlay_leaves_nothing_behind(extension, angles_now, part):
     count = len(handlers())
     assert count == len(angles._HANDLERS)
     bpy.ops.preferences.addon_disable(module=extension.__name__)
-    assert not overlay._handles and not angles._known and not handlers()
+    assert not overlay._handles and angles._known.is_empty and not handlers()
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)
     bpy.ops.preferences.addon_enable(module=extension.__name__)
     assert hasattr(bpy.types.WindowManager, overlay.PROPERTY) and len(handlers()) == count

@@ -154,8 +154,9 @@ def end_by(*keys):
     session = live().current()
     yield from press(*keys)
     yield from wait_over()
-    assert not session.error and not session.problems, (session.error, session.problems)
-    assert bool(session.summary) == (keys[-1] in ("RET", "NUMPAD_ENTER"))
+    problems = session.written.problems
+    assert not session.error and not problems, (session.error, problems)
+    assert bool(session.written.summary) == (keys[-1] in ("RET", "NUMPAD_ENTER"))
 
 
 def wait_settled():

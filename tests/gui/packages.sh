@@ -55,7 +55,7 @@ run_suite() {
 }
 
 NEWEST=$(ls "$PACKAGES"/*linux_x64-python3.14.zip)
-OLDER=$(ls "$PACKAGES"/*linux_x64*.zip | grep -vF "$NEWEST" | tail -n 1)  # of 3.13, or of 3.11 as well
+OLDER=$(ls "$PACKAGES"/*linux_x64*.zip | grep -vF "$NEWEST" | tail -n 1)  # of 3.13
 RESULT=0
 for suite in "${SUITES[@]}"; do
     folder=$OUTPUT/$suite

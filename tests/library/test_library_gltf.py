@@ -125,7 +125,7 @@ REFUSED = {
     "strip": (of_primitive(mode=5), "strips or fans"),
     "lines": (of_primitive(mode=1), "no faces"),
     "twice": (of_tree(nodes=TWICE), "used in several places"),
-    "flat": (of_tree(nodes=[{"mesh": 0, "scale": [1, 1, 0]}]), "Singular matrix"),
+    "flat": (of_tree(nodes=[{"mesh": 0, "scale": [1, 1, 0]}]), "a scale of zero"),
     "compressed": (compressed, "sparse or compressed"),
     "quantized": (shorts, "positions are compressed"),
     "too long": (too_long, "its data is cut off"),

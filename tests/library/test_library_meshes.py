@@ -37,6 +37,7 @@ def test_a_trimesh_keeps_all():
 
 
 def test_uvs_of_a_trimesh_stay():
+    pytest.importorskip("PIL")  # which trimesh needs for textures
     uv = np.random.default_rng(2).random((len(V), 2))
     visual = trimesh.visual.TextureVisuals(uv=uv)
     made = stylize_mesh(trimesh.Trimesh(V, F, visual=visual, process=False), device="numpy")

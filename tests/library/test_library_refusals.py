@@ -89,7 +89,7 @@ FILES = {
     "face_colors.ply": (PLY, "property red"),
     "other.off": ("hello", "cannot be read as .off (Expected the first line to be `OFF`.)"),
     "quads.off": ("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "cannot be read as .off"),
-    "other.vtk": ("hello", "no legacy .vtk file"),
+    "other.vtk": ("hello", "not a legacy .vtk file"),
     "count.vtk": (VTK.replace("POINTS 4", f"POINTS {DIGITS}"), "its counts are wrong"),
     "section.vtk": (VTK + "HELLO 4\n", "a section 'HELLO', which is not known"),
     "digits.vtk": (VTK.replace("3 0 2 1", f"3 0 2 {DIGITS}"), "not among the 4"),

@@ -11,18 +11,18 @@ from packaging.requirements import Requirement
 from scripts.package.targets import PLATFORMS, Package
 
 LINUX = PLATFORMS["linux-x64"]
-PACKAGE = Package(LINUX)
+PACKAGE = Package(LINUX, "3.13")
 NEEDED = [Requirement("fast"), Requirement("plain>=1.0")]
 
 
 def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MIT",)):
-    """Return the name and the bytes of a wheel."""
+    """Return the name and the bytes of a wheel; `files` are names, or texts by name."""
     lines = ["Metadata-Version: 2.1", f"Name: {name}", f"Version: {version}", *fields]
     lines += [f"Requires-Dist: {text}" for text in requires]
     info = f"{name}-{version}.dist-info"
     content = BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
-        texts = dict.fromkeys(files, "")
+        texts = dict(files) if isinstance(files, dict) else dict.fromkeys(files, "")
         texts[f"{info}/METADATA"] = "\n".join(lines) + "\n\n"
         texts[f"{info}/LICENSE"] = "MIT License\n\nCopyright (c) 2020-2026 The Makers\n"
         for file, text in texts.items():
@@ -32,10 +32,9 @@ def wheel(name, tags, version="1.0", requires=(), files=(), fields=("License: MI
 
 
 def good_wheels():
-    """Return the wheels of a package for Linux with both Pythons, by name."""
+    """Return the wheels of a package for Linux and Python 3.13, by name."""
     return dict(
         [
-            wheel("fast", "cp311-cp311-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
             wheel("fast", "cp312-abi3-manylinux_2_28_x86_64", requires=["numpy>=1.23"]),
             wheel("plain", "py3-none-any", requires=["deep~=1.0", "extra_only; extra == 'x'"]),
             wheel("deep", "py2.py3-none-any"),

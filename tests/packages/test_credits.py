@@ -3,6 +3,7 @@
 
 import io
 import json
+from dataclasses import replace
 
 import pytest
 from cyclonedx.schema import SchemaVersion
@@ -10,6 +11,7 @@ from cyclonedx.validation.json import JsonStrictValidator
 from made_up import PACKAGE, good_wheels, sha256, wheel
 
 from scripts.package.bom import bill_of_materials
+from scripts.package.inside import check_inside, libraries_inside
 from scripts.package.third_party import copyright_lines, credit, write_third_party
 from scripts.package.wheel import Wheel
 
@@ -68,6 +70,27 @@ def test_the_list_and_the_texts(tmp_path, wheels):
         assert page.count(f"## {name} 1.0") == 1
         assert "The Makers" in (tmp_path / "licences" / name / "LICENSE").read_text()
     assert page.count("- Copyright 2020-2026 The Makers") == 3
+
+
+def test_libraries_inside_a_wheel_are_credited(tmp_path):
+    """By the name of a file, or by what stands in machine code."""
+    code = {"deep/lib/libMoltenVK.dylib": "", "deep/core.pyd": "LLVM ERROR: no N5Eigen here"}
+    name, content = wheel("deep", "py3-none-any", files={**code, "deep/a.py": "glfwInit()"})
+    (tmp_path / name).write_bytes(content)
+    assert libraries_inside(io.BytesIO(content)) == {"MoltenVK", "LLVM", "Eigen"}
+    known = credit(read(name, content))
+    with pytest.raises(ValueError, match="has Eigen, LLVM, MoltenVK inside"):
+        check_inside(tmp_path / name, [known])
+    complete = replace(known, inside=["MoltenVK, Eigen (MPL-2.0)", "llvm (Apache-2.0)"])
+    check_inside(tmp_path / name, [complete])
+
+
+def test_what_has_terms_of_its_own_brings_their_text():
+    files = ["deep/slim_libdevice.10.bc"]
+    with_terms = credit(read(*wheel("deep", "py3-none-any", files=files)))
+    assert "libdevice.10.bc" in with_terms.texts["NVIDIA_CUDA_TOOLKIT.txt"]
+    assert with_terms.copyrights == ["2020-2026 The Makers"], "not those of the added text"
+    assert set(credit(read(*wheel("deep", "py3-none-any"))).texts) == {"LICENSE"}
 
 
 def test_the_bill_is_valid_and_complete(tmp_path, wheels):

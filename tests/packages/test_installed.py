@@ -38,8 +38,7 @@ def package_for(python):
     """Return the package for a Python."""
     code = "import sys; print('%d.%d' % sys.version_info[:2])"
     version = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True)
-    names = ["linux_x64.zip", f"linux_x64-python{version.stdout.strip()}.zip"]
-    (found,) = [path for name in names for path in PACKAGES.glob(f"cubic_craft-*-{name}")]
+    (found,) = PACKAGES.glob(f"cubic_craft-*-linux_x64-python{version.stdout.strip()}.zip")
     return found.resolve()
 
 

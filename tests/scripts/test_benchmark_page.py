@@ -40,7 +40,7 @@ def results(case):
         "bounds": {"paper": [2.0, 1.0], "defaults": [2.0, 1.0]},
     }
     phases = {
-        "setup": {"rest mesh": 0.3, "factorisation": 0.4, "solve": 0.1, "remainder": 0.2},
+        "setup": {"rest mesh": 0.3, "factorization": 0.4, "solve": 0.1, "remainder": 0.2},
         "iteration": {"local step": 20.0, "right-hand side": 3.0, "solve": 5.0, "remainder": 1.0},
     }
     devices = {"taichi": [run(0.2)], "numpy": [run(0.5)]}

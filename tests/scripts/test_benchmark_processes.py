@@ -84,7 +84,7 @@ def test_split_of_set_up_and_iteration():
 def test_phases_of_a_run(tmp_path):
     path = keep("blob", tmp_path / "blob.npz", *shapes.blob(2)).path
     result = isolated(phases.phases, path=path, cubeness=0.4)
-    assert min(result["setup"]["rest mesh"], result["setup"]["factorisation"]) > 0.0
+    assert min(result["setup"]["rest mesh"], result["setup"]["factorization"]) > 0.0
     assert min(result["iteration"][name] for name in ("local step", "solve")) > 0.0
     assert result["peak"] > result["above"]
 

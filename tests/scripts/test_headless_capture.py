@@ -55,7 +55,7 @@ def test_a_file_without_a_ball_is_refused(source, tmp_path):
     flat = make_blend(FLAT, tmp_path / "flat.blend")
     headless_refused(
         *(source, "--capture", flat, "--no-render", "--report", "r.json"),
-        words=['"flat" is no normal capture', "do not surround"],
+        words=['"flat" is not a normal capture', "do not surround"],
         cwd=tmp_path,
     )
     headless_ok(

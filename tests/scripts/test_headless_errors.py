@@ -86,7 +86,7 @@ CONTENT = {
     "no sides of a form": (["ok.obj", "--region", "hand:cube5:1"], ["GROUP:FORM:CUBENESS"]),
     "no directions": (
         ["ok.obj", "--form", "faces", "--form-directions", "up"],
-        ['"up" is no list of directions'],
+        ['"up" is not a list of directions'],
     ),
     "no such map group": (["ok.obj", "--map", "hand"], ["--map", "hand", "vertex group"]),
 }

@@ -9,10 +9,10 @@ import shapes
 
 from solver import (
     Frames,
+    FrameSequence,
     Mirror,
     NormalCapture,
     ProxyOptions,
-    Sequence,
     Setup,
     Stylization,
     flatten_facets,
@@ -37,7 +37,7 @@ def stylization(cubeness=0.4):
 
 
 def state(steps=2):
-    sequence = Sequence(rest_mesh(V, F))
+    sequence = FrameSequence(rest_mesh(V, F))
     sequence.solve(Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy"), steps)
     return sequence.state
 

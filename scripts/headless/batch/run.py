@@ -134,7 +134,7 @@ def _write_error(path: Path, files: list[dict[str, Any]]) -> bool:
 
 
 def _why_left_out(path: Path) -> str:
-    return "as it is hidden" if path.name[0] == "." else "as it is no regular file"
+    return "as it is hidden" if path.name[0] == "." else "as it is not a regular file"
 
 
 def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:

@@ -37,7 +37,7 @@ def find_sources(
     """List the given files and those in the given folders, each once, folders in order of name.
 
     Hidden files are left out, and what lies in the output folder, as that is results; and what is
-    no regular file, or a link to none, as a pipe or a device may have no end.
+    not a regular file, or a link to none, as a pipe or a device may have no end.
 
     Parameters
     ----------

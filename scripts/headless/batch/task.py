@@ -103,7 +103,7 @@ def key_of(source: Path, decides: str) -> str:
     Of files that the source refers to (materials, textures, buffers) nothing is in it.
     """
     if not source.is_file() and source.exists():  # to read a pipe would never end
-        raise OSError(errno.EINVAL, "is no regular file", str(source))
+        raise OSError(errno.EINVAL, "is not a regular file", str(source))
     with source.open("rb") as file:
         content = hashlib.file_digest(file, "sha256").hexdigest()
     return hashlib.sha256(f"{content} {decides}".encode()).hexdigest()

@@ -86,8 +86,8 @@ def check_opened(path: Path) -> list[str]:
             continue
         if not isinstance(holder, _LOOKS):
             raise InputError(
-                f'{path}: "{holder.name}" refers to {text}, which is no file in its folder; move '
-                "that there, or make it part of the file"
+                f'{path}: "{holder.name}" refers to {text}, which is not a file in its folder; '
+                "move that there, or make it part of the file"
             )
         if isinstance(holder, bpy.types.Image):
             _emptied[holder.name_full] = text

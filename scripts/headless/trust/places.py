@@ -33,7 +33,7 @@ def refuse_outside(source: Path, references: list[str]) -> None:
         # As on Windows, where these are folders, so that a file is the same everywhere.
         if not is_inside(reference.replace("\\", "/"), folder):
             raise InputError(
-                f"{source}: refers to {reference!r}, which is no file in its folder; move that "
+                f"{source}: refers to {reference!r}, which is not a file in its folder; move that "
                 "there, or export it again as one file"
             )
 

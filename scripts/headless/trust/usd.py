@@ -46,8 +46,8 @@ def check_usd(path: Path) -> None:
                 waiting += [other] if is_new else []
             elif other.suffix.lower() in _LAYERS or not other.is_file():
                 raise InputError(
-                    f"{path}: refers to {name!r}, which is no file in its folder; export it again "
-                    "as one file"
+                    f"{path}: refers to {name!r}, which is not a file in its folder; export it "
+                    "again as one file"
                 )
 
 

@@ -8,10 +8,10 @@ import shapes
 
 from solver import (
     PAPER,
+    FrameSequence,
     Mirror,
     ProxyOptions,
     Run,
-    Sequence,
     Setup,
     Stylization,
     partners,
@@ -248,7 +248,7 @@ def test_a_pose_has_its_own_contacts():
 def test_frames_of_an_animation_are_not_looked_at():
     V, F = contact_shapes.hand(count=3)
     state = stylization(V, F, options=COARSE)
-    assert Sequence(state.rest).solve(state, max_iterations=20).crossings is None
+    assert FrameSequence(state.rest).solve(state, max_iterations=20).crossings is None
 
 
 def test_links_that_are_none_change_nothing():

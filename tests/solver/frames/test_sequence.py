@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from shapes import blob, rotation, sheet
 
-from solver import ProxyOptions, Sequence, Setup, Stylization, rest_mesh, run
+from solver import FrameSequence, ProxyOptions, Setup, Stylization, rest_mesh, run
 from solver.frames.sequence import STEPS
 from solver.frames.steadiness import (
     MOST_JUMPS,
@@ -47,7 +47,7 @@ def solved(setup, sequence, frames, cubeness=0.4, **options):
 def recorded(frames, F, **options):
     """Solve all frames; return them as `Frames`."""
     setup = Setup(rest_mesh(frames[0], F))
-    sequence = Sequence(setup.rest)
+    sequence = FrameSequence(setup.rest)
     results = solved(setup, sequence, frames, keep_rotation=True, **options)
     pairs = zip(frames, results, strict=True)
     found = [frame_of(V, sequence.turns, result.positions) for V, result in pairs]
@@ -86,7 +86,9 @@ def test_at_cubeness_zero_each_frame_is_the_input(proxy, device):
     V, F = blob()
     frames = bending(V, 4)
     setup = Setup(rest_mesh(frames[0], F, proxy))
-    results = solved(setup, Sequence(setup.rest), frames, 0.0, device=device, keep_rotation=True)
+    results = solved(
+        setup, FrameSequence(setup.rest), frames, 0.0, device=device, keep_rotation=True
+    )
     for result, frame in zip(results, frames, strict=True):
         np.testing.assert_allclose(result.positions, frame, atol=2e-5)
 
@@ -95,7 +97,7 @@ def test_at_cubeness_zero_each_frame_is_the_input(proxy, device):
 def test_a_sheet_that_falls_over_a_ball_does_not_stay_flat():
     frames, F = draping(30)
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
-    *_, last = solved(setup, Sequence(setup.rest), frames, device="numpy", keep_rotation=True)
+    *_, last = solved(setup, FrameSequence(setup.rest), frames, device="numpy", keep_rotation=True)
     alone = run(Stylization(Setup(rest_mesh(frames[-1], F, ProxyOptions())), 0.4, device="numpy"))
     heights = [np.ptp(positions[:, 2]) for positions in (last.positions, alone.positions)]
     assert heights[0] > 0.85 * heights[1]
@@ -105,7 +107,7 @@ def test_a_frame_is_nearly_as_good_as_one_that_has_converged():
     V, F = blob()
     frames = bending(V, 12)
     setup = Setup(rest_mesh(frames[0], F))
-    results = list(solved(setup, Sequence(setup.rest), frames, keep_rotation=True))
+    results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
     for frame, result in zip(frames[3::3], results[3::3], strict=True):
         assert result.iterations <= STEPS
         alone = Stylization(setup.posed(frame), 0.4, keep_rotation=True)
@@ -124,7 +126,7 @@ def test_nothing_accumulates_while_a_coat_turns_to_and_fro():
     F = np.concatenate([np.stack([a, b, b + 432], 1), np.stack([a, b + 432, a + 432], 1)])
     frames = [V @ rotation(z=14.3 * np.cos(np.pi * f / 10)).T for f in range(7)]
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
-    results = list(solved(setup, Sequence(setup.rest), frames, keep_rotation=True))
+    results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
     alone = run(Stylization(setup.posed(frames[-1]), 0.4, keep_rotation=True))
     assert results[-1].energy.total < 1.06 * alone.energy.total
 
@@ -134,7 +136,7 @@ def test_what_is_pinned_stays_in_its_place_in_each_frame():
     pinned = np.flatnonzero(V[:, 2] < -0.5)
     frames = turning(V, 4)
     setup = Setup(rest_mesh(frames[0], F), pinned)
-    results = solved(setup, Sequence(setup.rest), frames)
+    results = solved(setup, FrameSequence(setup.rest), frames)
     for result, frame in zip(results, frames, strict=True):
         np.testing.assert_array_equal(result.positions[pinned], frame[pinned])
 
@@ -144,7 +146,7 @@ def test_groups_keep_their_place_in_each_frame():
     weights = (V[:, 2] > 0.3).astype(float)
     setup = Setup(rest_mesh(V, F)).with_holds([weights])
     frames = V + np.array([[[0.0, 0, 0]], [[0.5, 0, 0]]])
-    sequence = Sequence(setup.rest)
+    sequence = FrameSequence(setup.rest)
     options = {"hold_matrices": [np.eye(4)]}
     one, other = (r.positions for r in solved(setup, sequence, frames, **options))
     share = weights / weights.sum()
@@ -156,11 +158,11 @@ def test_a_sequence_continues_bit_for_bit_from_its_state():
     V, F = blob()
     frames = bending(V, 4)
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
-    whole = list(solved(setup, Sequence(setup.rest), frames))
-    first = Sequence(setup.rest)
+    whole = list(solved(setup, FrameSequence(setup.rest), frames))
+    first = FrameSequence(setup.rest)
     list(solved(setup, first, frames[:2]))
     fresh = Setup(rest_mesh(frames[0], F, ProxyOptions()))
-    rest = list(solved(fresh, Sequence(fresh.rest, first.state), frames[2:]))
+    rest = list(solved(fresh, FrameSequence(fresh.rest, first.state), frames[2:]))
     for one, other in zip(whole[2:], rest, strict=True):
         np.testing.assert_array_equal(one.positions, other.positions)
 

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the objects of Live are to become, with its settings as they are now."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from collections.abc import Sequence
+
+import bpy
+
+from ...solver import CubicCraftError
+from .. import mesh_bridge
+from ..run.assembly import assemblies
+from ..run.tasks import Task, plan
+from ..settings.overrides import SettingsOverrides
+from . import properties
+from .live_mesh import LiveMesh
+
+
+class Plan:
+    """The tasks of the objects.
+
+    Attributes
+    ----------
+    tasks : dict of Task
+        By ``session_uid`` of the objects, that of the active one first; valid only within one
+        event.
+    groups : dict of list of Task
+        Those that are solved together, by their ``session_uid``.
+    overrides : SettingsOverrides
+    problems : list of str
+        What is wrong with the settings or the objects.
+    """
+
+    def __init__(self):
+        self.problems: list[str] = []
+        self.release()
+
+    def release(self) -> None:
+        """Forget all data of Blender."""
+        self.tasks: dict[int, Task] = {}
+        self.groups: dict[tuple[int, ...], list[Task]] = {}
+        self.overrides = SettingsOverrides({})
+
+    def renew(self, objects: list[bpy.types.Object]) -> None:
+        """Determine the tasks of the objects, with the current settings."""
+        self.tasks, self.groups = {}, {}
+        try:
+            self.overrides = properties.live_overrides(objects)
+        except CubicCraftError as error:
+            self.problems = [str(error)]
+            return
+        tasks, self.problems = plan(self.overrides, objects)
+        for task in tasks:
+            task.is_followed = task.settings.result == "NEW_OBJECT"
+        self.problems += filter(None, map(mesh_bridge.cover_problem, objects))
+        self.tasks = {task.uid: task for task in tasks}
+        self.groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
+
+    def pairs(self, meshes: Sequence[LiveMesh]) -> list[tuple[LiveMesh, Task]]:
+        """Return each mesh that has a task, with the task."""
+        tasks = [(mesh, self.tasks.get(mesh.object_uid)) for mesh in meshes]
+        return [(mesh, task) for mesh, task in tasks if task is not None]
+
+    def solved(self, meshes: Sequence[LiveMesh]) -> list[Task]:
+        """Return the tasks of which there is something to write."""
+        for mesh, task in self.pairs(meshes):
+            task.solution = mesh.solution_so_far
+        return [task for task in self.tasks.values() if task.solution is not None]

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Live writes: at its end, in the mode that allows it, or for as long as a file is saved."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+import contextlib
+import logging
+from collections.abc import Sequence
+
+import bpy
+
+from ..run.failures import UNEXPECTED
+from ..run.tasks import write_all
+from . import elsewhere
+from .live_mesh import LiveMesh
+from .plan import Plan
+from .saved_file import write_for_file
+
+_log = logging.getLogger(__name__)
+
+
+class Written:
+    """What has been written.
+
+    Attributes
+    ----------
+    summary : str
+        As from `tasks.write_all`; empty if nothing was written.
+    problems : list of str
+        Why something could not be written.
+    has_pushed_undo : bool
+        Whether it has its undo step already.
+    """
+
+    def __init__(self):
+        self.summary, self.has_pushed_undo = "", False
+        self.problems: list[str] = []
+        self._mode_left = ""
+        self._in_file: contextlib.AbstractContextManager = contextlib.nullcontext()
+
+    def leave_mode(self, objects: Sequence[bpy.types.Object]) -> None:
+        """Leave a mode that forbids writing."""
+        self._mode_left = elsewhere.leave_mode(list(objects))
+
+    def back_to_mode(self) -> None:
+        """Go back to the mode that was left."""
+        if self._mode_left:
+            elsewhere.back_to_mode(self._mode_left, has_written=bool(self.summary))
+            self.has_pushed_undo = bool(self.summary)
+
+    def push_undo(self) -> None:
+        """Push an undo step for what was written, if anything was."""
+        if self.summary:
+            elsewhere.push_undo_soon()
+
+    def write(self, plan: Plan, meshes: Sequence[LiveMesh], problems: Sequence[str]) -> None:
+        """Write all that is solved; `problems` are those of what is not."""
+        self.summary, unwritten = write_all(plan.overrides, plan.solved(meshes))
+        _settle(plan, meshes)
+        self.problems = [*problems, *unwritten]
+
+    def write_to_file(self, plan: Plan, meshes: Sequence[LiveMesh]) -> None:
+        """Write all that is solved until `out_of_file` takes it back."""
+        try:
+            self._in_file = write_for_file(plan.overrides, plan.solved(meshes))
+            _settle(plan, meshes)
+        except UNEXPECTED:
+            _log.exception("The file is saved with the mesh as before Live")
+
+    def out_of_file(self) -> None:
+        """Take back what was written for a file."""
+        with self._in_file:
+            self._in_file = contextlib.nullcontext()
+
+
+def _settle(plan, meshes):
+    for mesh, task in plan.pairs(meshes):
+        if task.written is not None:
+            mesh.settle(task.written)
