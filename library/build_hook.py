@@ -15,12 +15,27 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PACKAGE = "cubic_craft"
+_ROOMS = (
+    ("solver", "**/*.py"),
+    ("library", "__main__.py"),
+    ("library", "command_line/**/*.py"),
+)
 _IMPORT = re.compile(r"^(\s*(?:>>> |\.\.\. )?from )solver\b", re.MULTILINE)
 
 
 def renamed(text: str) -> str:
     """Return source code with its imports from the solver under the name of the package."""
     return _IMPORT.sub(rf"\g<1>{PACKAGE}", text)
+
+
+def stage(root: Path, folder: Path) -> None:
+    """Write the package into a folder, from the files of a checkout."""
+    for room, files in _ROOMS:
+        for source in sorted((root / room).glob(files)):
+            target = folder / source.relative_to(root / room)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(renamed(source.read_text(encoding="utf-8")), encoding="utf-8")
+    shutil.copy(root / "library" / "py.typed", folder)
 
 
 class WheelHook(BuildHookInterface):
@@ -40,14 +55,8 @@ class WheelHook(BuildHookInterface):
             raise ValueError(
                 "an editable install is not possible; import solver in the root of the checkout"
             )
-        root = Path(self.root)
         self._staged = Path(tempfile.mkdtemp(prefix="cubic_craft-"))
-        for room, place in (("solver", ""), ("library/command_line", "command_line")):
-            for source in sorted((root / room).rglob("*.py")):
-                target = self._staged / place / source.relative_to(root / room)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_text(renamed(source.read_text(encoding="utf-8")), encoding="utf-8")
-        shutil.copy(root / "library" / "py.typed", self._staged)
+        stage(Path(self.root), self._staged)
         build_data["force_include"][str(self._staged)] = PACKAGE
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

@@ -2,135 +2,95 @@
 """Cubic stylization without Blender: NumPy, SciPy and, if installed, Taichi or Quadrants.
 
 The names below are imported on first use, so that Blender can show the panel of the extension
-without loading SciPy, and even if SciPy is missing.
+without loading SciPy, and even if SciPy is missing. They are listed once: type checkers read the
+imports as they stand, and at run time `_exports` reads them from the source of this file.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
-from .errors import CubicCraftError
-
 if TYPE_CHECKING:
-    from .backends import DEVICES, engine_name, problem_with_engine, set_cache_folder
-    from .energy import Energy
-    from .flatten import Flattened, flatten_facets
-    from .frames.sequence import FrameSequence, SequenceState
-    from .frames.steadiness import MOST_JUMPS, Frames, frame_of, least_width
-    from .limbs import KnownLimbs, joined_limbs, limbs_of_bones, placed_limbs
-    from .limbs.frames import pose_frames
-    from .loading import loading_steps
-    from .mesh.edge_distances import edge_distances, nearest_distances
-    from .mesh.rest_measures import triangle_areas_and_normals
-    from .normal_capture import NormalCapture
-    from .orientation.auto_orientation import auto_orient
-    from .progress import Progress
-    from .proxy.options import PAPER, ProxyOptions
-    from .rest import RestMesh, rest_mesh
-    from .rotation_fit import svd_rotations
-    from .runner import Result, Run, run, stylize
-    from .setup import Setup
-    from .stop_rule import StopRule
-    from .styles.cube import nearest_to_identity
-    from .stylization import Stylization
-    from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
+    from .backends import DEVICES as DEVICES
+    from .backends import engine_name as engine_name
+    from .backends import problem_with_engine as problem_with_engine
+    from .backends import set_cache_folder as set_cache_folder
+    from .energy import Energy as Energy
+    from .errors import CubicCraftError as CubicCraftError
+    from .flatten import Flattened as Flattened
+    from .flatten import flatten_facets as flatten_facets
+    from .frames.sequence import FrameSequence as FrameSequence
+    from .frames.sequence import SequenceState as SequenceState
+    from .frames.steadiness import MOST_JUMPS as MOST_JUMPS
+    from .frames.steadiness import Frames as Frames
+    from .frames.steadiness import frame_of as frame_of
+    from .frames.steadiness import least_width as least_width
+    from .limbs import KnownLimbs as KnownLimbs
+    from .limbs import joined_limbs as joined_limbs
+    from .limbs import limbs_of_bones as limbs_of_bones
+    from .limbs import placed_limbs as placed_limbs
+    from .limbs.frames import pose_frames as pose_frames
+    from .loading import loading_steps as loading_steps
+    from .mesh.edge_distances import edge_distances as edge_distances
+    from .mesh.edge_distances import nearest_distances as nearest_distances
+    from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
+    from .meshes import stylize_mesh as stylize_mesh
+    from .normal_capture import NormalCapture as NormalCapture
+    from .orientation.auto_orientation import auto_orient as auto_orient
+    from .progress import Progress as Progress
+    from .proxy.options import PAPER as PAPER
+    from .proxy.options import ProxyOptions as ProxyOptions
+    from .rest import RestMesh as RestMesh
+    from .rest import rest_mesh as rest_mesh
+    from .rotation_fit import svd_rotations as svd_rotations
+    from .runner import Result as Result
+    from .runner import Run as Run
+    from .runner import run as run
+    from .runner import stylize as stylize
+    from .setup import Setup as Setup
+    from .stop_rule import StopRule as StopRule
+    from .styles.cube import nearest_to_identity as nearest_to_identity
+    from .stylization import Stylization as Stylization
+    from .symmetry import MATCHING as MATCHING
+    from .symmetry import NO_PARTNER as NO_PARTNER
+    from .symmetry import Mirror as Mirror
+    from .symmetry import commuting as commuting
+    from .symmetry import partners as partners
 
-__all__ = [
-    "DEVICES",
-    "MATCHING",
-    "MOST_JUMPS",
-    "NO_PARTNER",
-    "PAPER",
-    "CubicCraftError",
-    "Energy",
-    "Flattened",
-    "FrameSequence",
-    "Frames",
-    "KnownLimbs",
-    "Mirror",
-    "NormalCapture",
-    "Progress",
-    "ProxyOptions",
-    "RestMesh",
-    "Result",
-    "Run",
-    "SequenceState",
-    "Setup",
-    "StopRule",
-    "Stylization",
-    "auto_orient",
-    "commuting",
-    "edge_distances",
-    "engine_name",
-    "flatten_facets",
-    "frame_of",
-    "joined_limbs",
-    "least_width",
-    "limbs_of_bones",
-    "loading_steps",
-    "nearest_distances",
-    "nearest_to_identity",
-    "partners",
-    "placed_limbs",
-    "pose_frames",
-    "problem_with_engine",
-    "rest_mesh",
-    "run",
-    "set_cache_folder",
-    "stylize",
-    "svd_rotations",
-    "triangle_areas_and_normals",
-]
+    __version__: str
+else:
 
-_MODULES = {
-    "DEVICES": "backends",
-    "Energy": "energy",
-    "Flattened": "flatten",
-    "FrameSequence": "frames.sequence",
-    "Frames": "frames.steadiness",
-    "KnownLimbs": "limbs",
-    "Mirror": "symmetry",
-    "MATCHING": "symmetry",
-    "MOST_JUMPS": "frames.steadiness",
-    "NO_PARTNER": "symmetry",
-    "NormalCapture": "normal_capture",
-    "PAPER": "proxy.options",
-    "Progress": "progress",
-    "ProxyOptions": "proxy.options",
-    "RestMesh": "rest",
-    "Result": "runner",
-    "Run": "runner",
-    "SequenceState": "frames.sequence",
-    "Setup": "setup",
-    "StopRule": "stop_rule",
-    "Stylization": "stylization",
-    "auto_orient": "orientation.auto_orientation",
-    "commuting": "symmetry",
-    "edge_distances": "mesh.edge_distances",
-    "engine_name": "backends",
-    "flatten_facets": "flatten",
-    "frame_of": "frames.steadiness",
-    "joined_limbs": "limbs",
-    "least_width": "frames.steadiness",
-    "limbs_of_bones": "limbs",
-    "loading_steps": "loading",
-    "nearest_distances": "mesh.edge_distances",
-    "nearest_to_identity": "styles.cube",
-    "partners": "symmetry",
-    "pose_frames": "limbs.frames",
-    "placed_limbs": "limbs",
-    "problem_with_engine": "backends",
-    "rest_mesh": "rest",
-    "run": "runner",
-    "set_cache_folder": "backends",
-    "stylize": "runner",
-    "svd_rotations": "rotation_fit",
-    "triangle_areas_and_normals": "mesh.rest_measures",
-}
+    def _exports():
+        """Return the module of each name that the block above imports."""
+        import ast
 
+        tree = ast.parse(__spec__.loader.get_source(__name__))
+        block = next(node for node in tree.body if isinstance(node, ast.If))
+        lines = (line for line in block.body if isinstance(line, ast.ImportFrom))
+        return {alias.name: f".{line.module}" for line in lines for alias in line.names}
 
-def __getattr__(name):
-    if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f".{_MODULES[name]}", __name__), name)
-    globals()[name] = value
-    return value
+    _MODULES = _exports()
+
+    __all__ = sorted(_MODULES)
+
+    def __getattr__(name):
+        if name in _MODULES:
+            from importlib import import_module
+
+            value = getattr(import_module(_MODULES[name], __name__), name)
+        elif name == "__version__":
+            value = _version()
+        else:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        globals()[name] = value
+        return value
+
+    def __dir__():
+        return sorted({*__all__, "__version__", *(x for x in globals() if x.startswith("__"))})
+
+    def _version():
+        """Return the version of the installed package; the extension's is in its manifest."""
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            return version("cubic-craft")
+        except PackageNotFoundError as error:
+            raise AttributeError("the package cubic-craft is not installed") from error

@@ -25,6 +25,6 @@ class Energy:
     """of the normals, which is lowest along the axes of the cube, and along captured ones"""
 
     @property
-    def total(self):
+    def total(self) -> float:
         """The energy that is minimised."""
         return self.arap + self.cubic

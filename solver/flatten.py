@@ -5,11 +5,15 @@ Each vertex goes to the nearest point in the planes of its facets, which one lin
 finds. Nothing has to converge, and the same input always gives the same bits.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .errors import CubicCraftError
+from .inputs import real_numbers
 from .mesh.components import components
 from .mesh.edge_vectors import double_area_vectors, edge_vectors
 from .mesh.edges import Edges
@@ -17,6 +21,7 @@ from .mesh.mesh_checks import check_mesh
 from .mesh.nearest_on_planes import MOST, nearest_on_planes
 from .mesh.unit_box import unit_box
 from .proxy.weld import weld
+from .values import Value
 
 FEWEST = 3
 """triangles of a facet; fewer are a detail, not a side"""
@@ -24,8 +29,8 @@ _LEAST_AREA = 1e-6
 """of the area of a triangle before; one that keeps less has collapsed or turned over"""
 
 
-@dataclass(frozen=True)
-class Flattened:
+@dataclass(frozen=True, eq=False, repr=False)
+class Flattened(Value):
     """A shape with planar facets, as `flatten_facets` returns it.
 
     Examples
@@ -39,15 +44,15 @@ class Flattened:
     (True, True)
     """
 
-    positions: np.ndarray
+    positions: FloatArray
     """(n,3) float64, in the unit of the input"""
-    facet_of: np.ndarray
+    facet_of: IntArray
     """(m,) int, the planar facet that each triangle lies in, or -1"""
-    normals: np.ndarray
+    normals: FloatArray
     """(f,3) unit normals of the planar facets, each exactly one of the directions"""
-    offsets: np.ndarray
+    offsets: FloatArray
     """(f,) distances of their planes from the origin"""
-    corners: np.ndarray
+    corners: IntArray
     """(p,2) int, the vertices of the facets: each vertex with a facet that it lies in; of vertices
     at the same place, the first"""
     moved: int
@@ -56,23 +61,31 @@ class Flattened:
     """largest distance that a vertex was moved by"""
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Number of planar facets."""
         return len(self.normals)
 
     @property
-    def deviation(self):
+    def deviation(self) -> float:
         """Largest distance of a vertex from the plane of its facet: a rounding error."""
         return self.deviation_of(self.positions)
 
-    def deviation_of(self, positions):
+    def deviation_of(self, positions: FloatArray) -> float:
         """Return the same for other positions (n,3), for example rounded ones."""
         vertex, facet = self.corners.T
         heights = np.einsum("pj,pj->p", positions[vertex], self.normals[facet])
         return float(np.abs(heights - self.offsets[facet]).max(initial=0.0))
 
 
-def flatten_facets(positions, triangles, directions, angle, tolerance, walls=(), counts=None):
+def flatten_facets(
+    positions: ArrayLike,
+    triangles: Faces,
+    directions: ArrayLike,
+    angle: float,
+    tolerance: float,
+    walls: Iterable[tuple[BoolArray, ArrayLike]] = (),
+    counts: BoolArray | None = None,
+) -> Flattened:
     """Make the almost flat sides of a shape exactly planar.
 
     Connected triangles whose normals are nearest to the same direction, and within the angle of it,
@@ -200,7 +213,7 @@ class _Patches:
 
 
 def _unit_directions(directions):
-    directions = np.array(directions, dtype=np.float64)
+    directions = real_numbers(directions, "directions").copy()
     if directions.ndim != 2 or directions.shape[1] != 3 or not len(directions):
         raise CubicCraftError(f"directions must have the shape (k, 3), not {directions.shape}")
     lengths = np.linalg.norm(directions, axis=1)

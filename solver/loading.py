@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from importlib import import_module
 from importlib.util import find_spec
 
+from .aliases import Device
+
 _IMPORTED_LATE = ("scipy.sparse", "scipy.sparse.linalg", "scipy.spatial", "cholespy")
 
 
-def loading_steps(device: str = "auto") -> Iterator[None]:
+def loading_steps(device: Device = "auto") -> Iterator[None]:
     """Import packages, start the engine and load its kernels, and stop after each of these.
 
     Whoever calls it does something else between two steps, such as drawing. What is missing or does

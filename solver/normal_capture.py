@@ -10,8 +10,11 @@ was asks for nothing, and a flat side of it for exactly one normal.
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .aliases import FloatArray
 from .errors import CubicCraftError
+from .inputs import real_numbers, vectors
 
 LEAST = 4
 """directions"""
@@ -48,8 +51,8 @@ class NormalCapture:
     array([[1., 0., 0.]])
     """
 
-    def __init__(self, directions, normals):
-        d, n = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (directions, normals))
+    def __init__(self, directions: ArrayLike, normals: ArrayLike):
+        d, n = (vectors(x, "the vectors of a normal capture") for x in (directions, normals))
         if d.shape != n.shape:
             raise CubicCraftError("a normal capture needs one normal for each direction")
         is_usable = np.isfinite(d).all(axis=1) & np.isfinite(n).all(axis=1)
@@ -62,8 +65,17 @@ class NormalCapture:
         self._directions, self._normals = d, n
         self._hull = _hull(d)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, NormalCapture) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __repr__(self) -> str:
+        return f"NormalCapture({len(self._directions)} directions)"
+
     @cached_property
-    def key(self):
+    def key(self) -> bytes:
         """Bytes that are the same for the same map."""
         return self._directions.tobytes() + self._normals.tobytes()
 
@@ -87,12 +99,12 @@ class NormalCapture:
         corners = np.unique(self._hull.simplices)
         return KDTree(self._directions[corners]), corners, triangles
 
-    def at(self, x):
+    def at(self, x: ArrayLike) -> FloatArray:
         """Return the unit normals (n,3) for vectors x (n,3).
 
         Zero for a vector without length, and where the normals around it cancel out.
         """
-        x = _unit(np.asarray(x, dtype=np.float64))
+        x = _unit(real_numbers(x, "the directions"))
         tree, corners, triangles = self._nearby
         nearest = corners[tree.query(x)[1]]
         found = self._interpolated(x, triangles[nearest], nearest)

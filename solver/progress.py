@@ -3,6 +3,8 @@
 
 import math
 
+from .stylization import Stylization
+
 
 class Progress:
     """Estimate the progress of a run from 0 to 1; the estimate never decreases.
@@ -34,13 +36,13 @@ class Progress:
     0.01
     """
 
-    def __init__(self, max_iterations, tolerance):
+    def __init__(self, max_iterations: int, tolerance: float):
         self._max_iterations = max_iterations
         self._tolerance = tolerance
         self._fraction = 0.0
         self._largest = 0.0
 
-    def update(self, stylization):
+    def update(self, stylization: Stylization) -> float:
         """Record one iteration of a Stylization and return the fraction done."""
         fraction = stylization.iteration / self._max_iterations
         if stylization.iteration > 1 and stylization.distance > 0.0:

@@ -4,13 +4,16 @@
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import details
+from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
 from .contacts.crossings import crossings
+from .inputs import instance, real_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings
 from .memory import check_memory
 from .mesh.cotangents import cotangents
@@ -28,10 +31,11 @@ from .proxy.nearest import Nearest
 from .proxy.neighbours import neighbour_links
 from .proxy.samples import extents
 from .proxy.thickness import outward_sign, thickness_links
+from .values import Value
 
 
-@dataclass(frozen=True)
-class RestMesh:
+@dataclass(frozen=True, eq=False, repr=False)
+class RestMesh(Value):
     """The rest shape in the unit box: the proxy of the input, without its loose vertices.
 
     The arrays are indexed by the `n` vertices that are solved; `input_map` maps between them and
@@ -49,60 +53,60 @@ class RestMesh:
     ((3, 3), (4, 3))
     """
 
-    input_positions: np.ndarray
+    input_positions: FloatArray
     """(N,3) float64 rest positions as given, loose vertices included"""
     input_map: InputMap
     box: UnitBox
-    V: np.ndarray
+    V: FloatArray
     """(n,3) float64 rest positions in the unit box"""
     topology: Topology
-    areas: np.ndarray
+    areas: FloatArray
     """(n,) barycentric areas a_i"""
-    normals: np.ndarray
+    normals: FloatArray
     """(n,3) unit normals n_i, zero where undefined"""
-    is_flat: np.ndarray
+    is_flat: BoolArray
     """(n,) bool, the vertices of flat sides, which have no detail"""
-    smoothness: np.ndarray
+    smoothness: FloatArray
     """(n,) how meaningful the normals are, from 0 in creases to 1"""
-    normal_shares: np.ndarray
+    normal_shares: FloatArray
     """(n,) area that each normal stands for, relative to its own: 0 in creases, more beside them"""
     to_neighbours: Links
     to_other_side: Links | None
     """for a solidity of 1; None if they have not been computed"""
     options: ProxyOptions
-    cotangents: np.ndarray
+    cotangents: FloatArray
     """(m,3) weight of the edge opposite each corner of the triangles"""
     skin: SpokesAndRims
     """of the triangles only"""
     matrices: SpokesAndRims
     """including the links"""
-    triangles: np.ndarray | None = None
+    triangles: NDArray[np.int32] | None = None
     """(k,3) int32 triangles of the input, as given"""
     unposed: "RestMesh | None" = None
     """the mesh that this is a pose of"""
 
     @property
-    def F(self):  # noqa: N802 - as everywhere
+    def F(self) -> NDArray[np.int32]:  # noqa: N802 - as everywhere
         """(m,3) int32 triangles."""
         return self.topology.F
 
     @cached_property
-    def used(self):
+    def used(self) -> IntArray:
         """(n,) int vertex of the input that represents each solved vertex."""
         return self.input_map.source
 
     @cached_property
-    def place(self):
+    def place(self) -> tuple[IntArray, IntArray]:
         """Vertices of the input that are solved, and the solved vertex of each of them."""
         return self.input_map.place()
 
     @cached_property
-    def box_frames(self):
+    def box_frames(self) -> FloatArray | None:
         """(n,3,3) frames of parts that are already boxes, see `proxy/boxes.py`, or None."""
         return box_frames(self.V, self.F, self.topology.part) if self.options.refine else None
 
     @cached_property
-    def outward(self):
+    def outward(self) -> FloatArray:
         """(n,1) -1 for the normals of parts that are inside out, else 1.
 
         The cube does not care; a pyramid would come out upside down.
@@ -111,17 +115,17 @@ class RestMesh:
         return np.where(sign < 0.0, -1.0, 1.0)[self.topology.part][:, None]
 
     @property
-    def cubic_normals(self):
+    def cubic_normals(self) -> FloatArray:
         """(n,3) unit normals that the cubic term sees, without their details; zero for none."""
         return self._drawn[0]
 
     @property
-    def cubic_shares(self):
+    def cubic_shares(self) -> FloatArray:
         """(n,) factors of the cubeness: 0 in creases, more than 1 beside them."""
         return self._drawn[1]
 
     @cached_property
-    def standing(self):
+    def standing(self) -> FloatArray:
         """(n,) weights of the vertices in the rotation of a component.
 
         In the paper's energy, they are the areas. Otherwise they are the fourth roots of the areas,
@@ -131,13 +135,13 @@ class RestMesh:
         return (np.sqrt(np.sqrt(self.areas)) if self.options.refine else self.areas) + 1e-300
 
     @property
-    def links(self):
+    def links(self) -> Links:
         """All links, with their weights."""
         if self.to_other_side is None:
             return self.to_neighbours
         return self.to_neighbours.joined(self.to_other_side.scaled(self.options.solidity))
 
-    def with_options(self, options):
+    def with_options(self, options: ProxyOptions) -> "RestMesh | None":
         """Return the RestMesh with other options, or None if its surface would be another one."""
         now = self.options
         if (options.together, options.refine) != (now.together, now.refine):
@@ -155,7 +159,7 @@ class RestMesh:
         return changed
 
     @cached_property
-    def thickness(self):
+    def thickness(self) -> FloatArray:
         """(n,) of the surface, at the nearest vertex that is linked to its other side."""
         links, n = self.to_other_side, len(self.V)
         if links is None or not len(links):
@@ -168,7 +172,7 @@ class RestMesh:
         return found[nearest]
 
     @cached_property
-    def _drawn(self):
+    def _drawn(self) -> tuple[FloatArray, FloatArray]:
         if not self.options.detail:
             return self.normals, self.normal_shares
         parts, component = self.topology.part, self.topology.component
@@ -201,7 +205,7 @@ class RestMesh:
         return with_coverings(found, self.V, self.topology.part, neighbours, self.linked_share)
 
     @cached_property
-    def linked_share(self):
+    def linked_share(self) -> FloatArray:
         """(p,) share of the area of each part that is linked to other parts."""
         links, part = self.to_neighbours, self.topology.part
         # those of a coarser mesh include links within parts
@@ -212,7 +216,7 @@ class RestMesh:
         area = np.bincount(part, self.areas)
         return np.bincount(part, self.areas * is_linked) / np.where(area > 0.0, area, 1.0)
 
-    def _smoothed(self, radius):
+    def _smoothed(self, radius) -> Any:
         """Return what `details.smoothed` does for radii (n,), of many vertices with a start."""
         start = None
         if len(self.V) > details.MANY and self.coarse is not None:
@@ -224,7 +228,7 @@ class RestMesh:
         return details.smoothed(self.skin, self.areas, self.normals, radius, coupling, start)
 
     @cached_property
-    def shown(self):
+    def shown(self) -> NDArray[np.int32]:
         """(k,3) int triangles of the input between solved vertices: what is seen of the result."""
         assert self.triangles is not None
         number = np.zeros(len(self.input_positions), dtype=np.int32)
@@ -233,13 +237,13 @@ class RestMesh:
         return number[self.triangles]
 
     @cached_property
-    def crossing_at_rest(self):
+    def crossing_at_rest(self) -> BoolArray:
         """(k,) bool array, the triangles of the input that cross others at rest."""
         is_crossing = np.zeros(len(self.shown), dtype=bool)
         is_crossing[crossings(self.V, self.shown).ravel()] = True
         return is_crossing
 
-    def linked(self, links):
+    def linked(self, links: Links) -> "RestMesh":
         """Return the mesh with further links, which change nothing in what covers what."""
         to_neighbours = self.to_neighbours.joined(links)
         linked = replace(
@@ -251,7 +255,7 @@ class RestMesh:
         linked.__dict__["linked_share"] = self.linked_share
         return linked
 
-    def posed(self, input_positions):
+    def posed(self, input_positions: ArrayLike) -> "RestMesh":
         """Return the same mesh in another pose, with all weights and links of this one.
 
         Its Laplacian is the same, so what has been factorised can be reused.
@@ -260,7 +264,7 @@ class RestMesh:
         ----------
         input_positions : (N,3) numpy array
         """
-        positions = np.array(input_positions, dtype=np.float64)
+        positions = real_numbers(input_positions, "positions").copy()
         V = self.input_map.points(self.box.to_unit(positions))
         areas, normals = areas_and_normals(V, self.F)
         skin = spokes_and_rims(V, self.F, self.cotangents)
@@ -276,7 +280,7 @@ class RestMesh:
         return replace(posed, matrices=skin.with_links(V, posed.links))
 
     @cached_property
-    def edge_sums(self):
+    def edge_sums(self) -> FloatArray:
         """sum_ij w_ij |v_j - v_i|^2 over the ordered pairs of each component."""
         matrices = self.matrices
         rows = np.repeat(np.arange(len(self.V), dtype=np.int32), np.diff(matrices.indptr))
@@ -290,7 +294,7 @@ class RestMesh:
         return self.topology.sum_parts_at(i, weighted)
 
     @cached_property
-    def energy_terms(self):
+    def energy_terms(self) -> FloatArray:
         """(n,) 0.75 sum w |d|^2 - tr S of each vertex at rest, where the ARAP energy is 0."""
         m, V = self.matrices, self.V
         L = m.matrix(m.laplacian)
@@ -299,7 +303,7 @@ class RestMesh:
         return 0.75 * quadratic - trace
 
     @cached_property
-    def coarse(self):
+    def coarse(self) -> "Coarsening | None":
         """The Coarsening, or None if it is not available."""
         neighbours = self.skin.matrix(self.skin.laplacian)
         contracted = contract(self.V, self.F, neighbours, self.topology.part)
@@ -322,24 +326,24 @@ class RestMesh:
         )
 
 
-@dataclass(frozen=True)
-class Coarsening:
+@dataclass(frozen=True, eq=False, repr=False)
+class Coarsening(Value):
     """A coarser mesh of the same shape."""
 
     rest: RestMesh
-    cluster: np.ndarray
+    cluster: IntArray
     """(n,) int vertex of the coarser mesh into which each vertex was merged"""
 
 
-def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMesh:
+def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     """Build the RestMesh of a mesh.
 
     Parameters
     ----------
     V : (N,3) numpy array
         Rest positions, in any unit.
-    F : (m,3) numpy int array
-        Triangles.
+    F : (m,3) numpy int array, or faces with more corners
+        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
     proxy : ProxyOptions
         How to prepare the surface; by default nothing is done, as in the paper.
 
@@ -369,6 +373,7 @@ def rest_mesh(V: ArrayLike, F: ArrayLike, proxy: ProxyOptions = PAPER) -> RestMe
     (3, True)
     """
     input_positions, F = check_mesh(V, F)
+    instance(proxy, "proxy", ProxyOptions)
     given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
     surface = surface_of(input_positions, F, proxy)

@@ -10,6 +10,8 @@ signed singular values as eigenvalues. So the result is certified, and what Newt
 certify (reflections, rank 1, far-off guesses) gets a singular value decomposition.
 """
 
+from typing import Any
+
 import numpy as np
 
 from .algebra import (
@@ -24,6 +26,7 @@ from .algebra import (
     trace,
     turn,
 )
+from .aliases import FloatArray
 
 NEWTON_STEPS = 8
 ANGLE_TOLERANCE = 1e-6
@@ -66,7 +69,7 @@ def fit_rotations(M, guess):
     return R
 
 
-def svd_rotations(M):
+def svd_rotations(M: FloatArray) -> FloatArray:
     """Return argmax tr(R M) over SO(3) for each M, by singular value decompositions.
 
     Parameters
@@ -94,7 +97,8 @@ def svd_rotations(M):
     True
     """
     U, _, Vt = np.linalg.svd(M)
-    R = (U @ Vt).swapaxes(1, 2)
+    product: Any = U @ Vt
+    R = product.swapaxes(1, 2)
     mirrored = np.linalg.det(R) < 0.0
     U[mirrored, :, 2] *= -1.0
     R[mirrored] = (U[mirrored] @ Vt[mirrored]).swapaxes(1, 2)

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A complete run in one call: mesh in, cubic mesh out."""
 
+import logging
+import math
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from .aliases import Device, Faces, FloatArray, IntArray, Precision
 from .coarse_to_fine.start import (
     MAX_ITERATIONS,
     TOLERANCE,
@@ -17,12 +19,25 @@ from .coarse_to_fine.start import (
     prolongate,
 )
 from .contacts.keep_apart import KeepApart
+from .energy import Energy
 from .errors import CubicCraftError
+from .inputs import instance, real_number, switch
+from .limbs import KnownLimbs
+from .normal_capture import NormalCapture
+from .progress_bar import progress_bar
 from .proxy import PAPER, ProxyOptions
 from .rest import rest_mesh
 from .setup import Setup
 from .stop_rule import StopRule
-from .stylization import Energy, Stylization
+from .styles.admm import AdmmOptions
+from .styles.polytope import Polytope
+from .stylization import Stylization
+from .values import Value
+
+_log = logging.getLogger(__name__)
+
+Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
+OnIteration: TypeAlias = Callable[[Stylization], object]
 
 OF_ROUND = 4
 LEAST_ROUND = 10
@@ -30,9 +45,11 @@ LEAST_ROUND = 10
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
 
 
-@dataclass(frozen=True)
-class Result:
+@dataclass(frozen=True, eq=False, repr=False)
+class Result(Value):
     """The result of a run.
+
+    Results compare bit for bit, but for the times that they took.
 
     See Also
     --------
@@ -49,24 +66,24 @@ class Result:
     ('converged', 'numpy', (4, 3), (4, 3, 3))
     """
 
-    positions: np.ndarray
+    positions: FloatArray
     """(n,3) float64, in the units of the input"""
-    rotations: np.ndarray
+    rotations: FloatArray
     """(n,3,3) float64 rotation of each vertex; the identity for loose vertices"""
     energy: Energy
     """of the result, in the unit box"""
     iterations: int
-    reason: str
+    reason: Reason
     """"converged", "max_iterations" or "cancelled" """
     device: str
     """name of the device that ran the local step, such as "taichi-cpu" """
-    compile_seconds: float
+    compile_seconds: float = field(compare=False)
     """time to compile the kernels or to load them from a cache"""
-    solve_seconds: float
+    solve_seconds: float = field(compare=False)
     """time of the iterations"""
     crossings: int | None = None
     """number of triangles that cross others and did not at rest; None where nobody has looked"""
-    crossing_vertices: np.ndarray | None = None
+    crossing_vertices: IntArray | None = None
     """(k,) int vertices of these triangles"""
 
     @property
@@ -77,15 +94,28 @@ class Result:
 
 def stylize(
     V: ArrayLike,
-    F: ArrayLike,
+    F: Faces,
     cubeness: ArrayLike = 0.4,
     pinned: ArrayLike = (),
     *,
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
-    on_iteration: Callable[[Stylization], Any] | None = None,
+    on_iteration: OnIteration | None = None,
+    progress: bool = False,
     proxy: ProxyOptions = PAPER,
-    **options: Any,
+    orientation: ArrayLike | None = None,
+    targets: ArrayLike | None = None,
+    form: Polytope | Sequence[Polytope] | None = None,
+    form_of: ArrayLike | None = None,
+    capture: NormalCapture | Sequence[NormalCapture] | None = None,
+    capture_strength: ArrayLike = 0.0,
+    capture_of: ArrayLike | None = None,
+    limbs: KnownLimbs | None = None,
+    keep_rotation: bool = False,
+    device: Device = "auto",
+    precision: Precision | None = None,
+    admm: AdmmOptions | None = None,
+    is_accelerated: bool = True,
 ) -> Result:
     """Return the cubic version of a mesh.
 
@@ -93,24 +123,28 @@ def stylize(
     ----------
     V : (n,3) numpy array
         Rest positions, in any unit. Vertices that belong to no triangle do not move.
-    F : (m,3) numpy int array
-        Triangles.
+    F : (m,3) numpy int array, or faces with more corners
+        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
     cubeness : float or (n,) numpy array
         0 keeps the shape; 0.1 to 1 are common.
-    pinned : (k,) numpy int array
-        Vertices held exactly in place.
+    pinned : (k,) numpy int array or (n,) numpy bool array
+        Vertices held exactly in place: their numbers, or a mask.
     max_iterations : int
         Limit, even if the run has not converged.
     tolerance : float
         See `StopRule`.
     on_iteration : callable, optional
         Called with the Stylization after each iteration; a true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
     proxy : ProxyOptions
         How to prepare the surface: weld it, refine it, and link it to its neighbours and its
         opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
         defaults of the extension.
-    **options
-        See `Stylization`: orientation, targets, device, precision, keep_rotation and more.
+    orientation, targets, form, form_of, capture, capture_strength, capture_of, limbs
+        See `Stylization`.
+    keep_rotation, device, precision, admm, is_accelerated
+        See `Stylization`.
 
     Returns
     -------
@@ -140,15 +174,32 @@ def stylize(
     >>> stylize(V, F, 0.4, device="numpy").converged
     True
     """
-    stylization = Stylization(Setup(rest_mesh(V, F, proxy), pinned), cubeness, **options)
-    return run(stylization, max_iterations, tolerance, on_iteration)
+    stylization = Stylization(
+        Setup(rest_mesh(V, F, proxy), pinned),
+        cubeness,
+        orientation,
+        targets,
+        form,
+        form_of,
+        capture=capture,
+        capture_strength=capture_strength,
+        capture_of=capture_of,
+        limbs=limbs,
+        keep_rotation=keep_rotation,
+        device=device,
+        precision=precision,
+        admm=admm,
+        is_accelerated=is_accelerated,
+    )
+    return run(stylization, max_iterations, tolerance, on_iteration, progress)
 
 
 def run(
     stylization: Stylization,
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
-    on_iteration: Callable[[Stylization], Any] | None = None,
+    on_iteration: OnIteration | None = None,
+    progress: bool = False,
 ) -> Result:
     """Iterate a new Stylization to its end.
 
@@ -161,6 +212,8 @@ def run(
         See `StopRule`.
     on_iteration : callable, optional
         Called with the Stylization after each iteration; a true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
 
     Returns
     -------
@@ -187,8 +240,18 @@ def run(
     [True, True]
     """
     steps = Run(stylization, max_iterations, tolerance)
-    steps.complete(on_iteration)
-    return steps.result()
+    if switch(progress, "progress"):
+        with progress_bar(max_iterations, tolerance) as update:
+            steps.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
+    else:
+        steps.complete(on_iteration)
+    result = steps.result()
+    _log.info(
+        "%s after %d iterations, energy %.6g, %s, %.2f s",
+        *(result.reason, result.iterations, result.energy.total, result.device),
+        result.solve_seconds,
+    )
+    return result
 
 
 class Run:
@@ -238,12 +301,14 @@ class Run:
         tolerance: float = 1e-3,
         keep_apart: bool = True,
     ):
-        if not (np.isfinite(tolerance) and tolerance > 0.0):
+        instance(stylization, "stylization", Stylization)
+        tolerance = real_number(tolerance, "tolerance")
+        if not (math.isfinite(tolerance) and tolerance > 0.0):
             raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
-        if not max_iterations >= 1:
+        if not real_number(max_iterations, "max_iterations") >= 1:
             raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
         self.stylization = stylization
-        self.reason: str | None = None
+        self.reason: Reason | None = None
         self._last = max_iterations
         self._tolerance = tolerance
         self._rule = StopRule(tolerance, stylization.resolution)
@@ -254,9 +319,10 @@ class Run:
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
         self._coarse_energy: Energy | None = None
         rest = stylization.rest
-        is_kept = keep_apart and rest.options.keep_apart and not stylization.is_coarse
+        is_kept = switch(keep_apart, "keep_apart") and not stylization.is_coarse
+        is_kept = is_kept and rest.options.keep_apart
         self._apart = KeepApart(rest) if is_kept else None
-        self._end = "converged"
+        self._end: Reason = "converged"
         self._round = 0
 
     @property
@@ -345,7 +411,7 @@ class Run:
         self._apart.finish(self.stylization)
         self.reason = self._end
 
-    def complete(self, on_iteration: Callable[[Stylization], Any] | None = None) -> None:
+    def complete(self, on_iteration: OnIteration | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
         while self.reason is None:
             before = self.stylization.iteration
@@ -354,14 +420,14 @@ class Run:
             if is_new and on_iteration is not None and on_iteration(self.stylization):
                 self.reason = "cancelled"
 
-    def positions(self) -> np.ndarray:
+    def positions(self) -> FloatArray:
         """Return the current positions (n,3), in the units of the input.
 
         While the run is on a coarser mesh, they follow its vertices, with the details at rest.
         """
         return self.stylization.placed_positions(self._current()[1])
 
-    def placed(self) -> tuple[np.ndarray, np.ndarray]:
+    def placed(self) -> tuple[FloatArray, FloatArray]:
         """Return the current positions (n,3) and rotations (n,3,3)."""
         return self.stylization.placed(*self._current())
 

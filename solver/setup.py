@@ -4,31 +4,39 @@
 from collections.abc import Sequence
 from copy import copy
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .aliases import BoolArray
 from .errors import CubicCraftError
 from .global_step.holds import HoldFields
 from .global_step.step import GlobalStep
+from .inputs import instance, vertex_mask, vertex_numbers
+from .proxy import Links
 from .rest import RestMesh
 from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
+from .values import described, is_same
 
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, in a ring beside held vertices that is left free:
 it moves by less than this length."""
 MOST_STRETCH = 4.0
 """How often larger or smaller the area around a vertex may be in a pose that the weights suit."""
+_MADE_ANEW = ("global_step", "coarse")
 
 
 class Setup:
     """A rest mesh, its pinned vertices and the factorisation for both.
 
+    It can be pickled, and is factorized anew where it is read.
+
     Parameters
     ----------
     rest : RestMesh
-    pinned : (k,) numpy int array, optional
-        Vertices of the input that are held exactly.
+    pinned : (k,) numpy int array or (N,) numpy bool array, optional
+        Vertices of the input that are held exactly: their numbers, or a mask.
     still : (N,) numpy bool array, optional
         Vertices of the input that should stay in place. They are held, except for one narrow ring
         next to the moving vertices, so that the surface bends there without a crease.
@@ -51,7 +59,7 @@ class Setup:
     Raises
     ------
     CubicCraftError
-        An index is not an integer or is out of range, or no vertex is left free.
+        An argument has another type or shape, an index is out of range, or no vertex is left free.
 
     See Also
     --------
@@ -73,21 +81,18 @@ class Setup:
         still: ArrayLike | None = None,
         mirrors: Sequence[Mirror] = (),
     ):
-        pinned = np.asarray(pinned)
-        if pinned.size and not np.issubdtype(pinned.dtype, np.integer):
-            raise CubicCraftError(f"pinned must list vertices by number, not be {pinned.dtype}")
-        pinned = np.unique(pinned.astype(np.int64))
+        self.rest = instance(rest, "rest", RestMesh)
         count = len(rest.input_positions)
-        if len(pinned) and (pinned[0] < 0 or pinned[-1] >= count):
-            raise CubicCraftError(f"pinned vertices must lie between 0 and {count - 1}")
-        self.rest = rest
+        pinned = vertex_numbers(pinned, "pinned", count)
         self.pinned_input = pinned
         is_pinned = np.zeros(count, dtype=bool)
         is_pinned[pinned] = True
         if is_pinned[rest.place[0]].all():
             raise CubicCraftError("all vertices are pinned; leave some of them free")
         if still is not None:
-            self.pinned_input = np.union1d(pinned, _held_by(rest, np.asarray(still)))
+            self.pinned_input = np.union1d(
+                pinned, _held_by(rest, vertex_mask(still, "still", count))
+            )
             is_pinned[self.pinned_input] = True
         self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
         self.has_pin = np.zeros(rest.topology.component_count, dtype=bool)
@@ -96,15 +101,45 @@ class Setup:
         self.global_step = GlobalStep(rest, self.pinned)
         self.hold_fields: HoldFields | None = None
 
+    def __copy__(self):
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out the factorisations, which cannot be stored: they are made anew."""
+        state = {name: x for name, x in self.__dict__.items() if name not in _MADE_ANEW}
+        state["hold_fields"] = None if self.hold_fields is None else self.hold_fields.weights
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state, hold_fields=None)
+        self.global_step = GlobalStep(self.rest, self.pinned)
+        if state["hold_fields"] is not None:
+            self.__dict__.update(self.with_holds(state["hold_fields"]).__dict__)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Setup):
+            return NotImplemented
+        return is_same(*(sorted(x.__getstate__().items()) for x in (self, other)))
+
+    __hash__ = object.__hash__  # it is one of many uses of the same arrays
+
+    def __repr__(self) -> str:
+        pins, holds = len(self.pinned_input), self.hold_fields
+        values = [("vertices", len(self.rest.input_positions)), ("pinned", pins)]
+        values.append(("held_groups", 0 if holds is None else len(holds.weights)))
+        return described(Setup, values)
+
     @property
-    def is_anchored(self):
+    def is_anchored(self) -> BoolArray:
         """(component_count,) bool array, components with a pinned vertex or a held group.
 
         The other components float; they stay in place as a whole.
         """
         return self.global_step.is_anchored
 
-    def posed(self, input_positions) -> "Setup":
+    def posed(self, input_positions: ArrayLike) -> "Setup":
         """Return the same setup in another pose of the mesh.
 
         The factorisation is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
@@ -131,7 +166,7 @@ class Setup:
         is_near = (others <= MOST_STRETCH * areas) & (areas <= MOST_STRETCH * others)
         return bool(is_near.all())
 
-    def with_holds(self, weights) -> "Setup":
+    def with_holds(self, weights: Sequence[ArrayLike]) -> "Setup":
         """Return the same setup with groups of vertices that keep their place, see `holds.py`.
 
         The factorisation is reused. A Stylization is given the goal of each group.
@@ -147,7 +182,7 @@ class Setup:
         other.global_step = self.global_step.anchored(other.hold_fields.components)
         return other
 
-    def linked(self, rest: RestMesh, links) -> "Setup":
+    def linked(self, rest: RestMesh, links: Links) -> "Setup":
         """Return the setup of a RestMesh of the same vertices with further Links, factorized anew.
 
         Pins, held groups and mirrors stay in force.
@@ -171,7 +206,7 @@ class Setup:
         return commuting(found)
 
     @cached_property
-    def coarse(self):
+    def coarse(self) -> "Setup | None":
         """The Setup of the coarser mesh, with merged pins, or None if there is no such mesh."""
         coarsening = self.rest.coarse
         if coarsening is None:

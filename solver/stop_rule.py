@@ -34,12 +34,12 @@ class StopRule:
     [False, True]
     """
 
-    def __init__(self, tolerance, resolution=1e-9):
+    def __init__(self, tolerance: float, resolution: float = 1e-9):
         self._tolerance = tolerance
         self._resolution = resolution
-        self._energies = []
+        self._energies: list[float] = []
 
-    def is_converged(self, energy, displacement, distance):
+    def is_converged(self, energy: float, displacement: float, distance: float) -> bool:
         """Record one iteration and return whether it was the last.
 
         Parameters

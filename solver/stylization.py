@@ -3,16 +3,19 @@
 
 from collections.abc import Sequence
 from copy import copy
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_matrix
 
 from .acceleration import Momentum
+from .aliases import Device, FloatArray, Precision
 from .backends import local_step_class
 from .energy import Energy
 from .errors import CubicCraftError
 from .global_step.holds import Holds
+from .inputs import choices_per_vertex, instance, instances, real_numbers, switch
 from .limbs import KnownLimbs, Limbs, no_limbs, turns
 from .mesh.mesh_checks import per_vertex
 from .normal_capture import NormalCapture, targets_for
@@ -21,12 +24,16 @@ from .styles.admm import AdmmOptions
 from .styles.polytope import Polytope
 from .styles.polytopes import polytopes
 from .symmetry import Mirror
+from .values import described, is_same
 
+_MADE_ANEW = ("_local", "_motion", "_constraints", "_acceleration")
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
 
 
 class Stylization:
     """The state of one run: call `step` repeatedly and read `positions`.
+
+    One that is pickled goes on from its shape where it is read, without its momentum.
 
     Parameters
     ----------
@@ -116,30 +123,36 @@ class Stylization:
         targets: ArrayLike | None = None,
         form: Polytope | Sequence[Polytope] | None = None,
         form_of: ArrayLike | None = None,
-        device: str = "auto",
-        precision: str | None = None,
+        device: Device = "auto",
+        precision: Precision | None = None,
         admm: AdmmOptions | None = None,
         is_accelerated: bool = True,
         keep_rotation: bool = False,
         is_coarse: bool = False,
-        hold_matrices: Sequence[np.ndarray] = (),
+        hold_matrices: Sequence[FloatArray] = (),
         capture: NormalCapture | Sequence[NormalCapture] | None = None,
         capture_strength: ArrayLike = 0.0,
         capture_of: ArrayLike | None = None,
         limbs: KnownLimbs | None = None,
-        drawn: np.ndarray | None = None,
+        drawn: FloatArray | None = None,
     ):
-        self.setup = setup
-        self.is_accelerated, self.is_coarse = is_accelerated, is_coarse
+        self.setup = instance(setup, "setup", Setup)
+        self.is_accelerated = switch(is_accelerated, "is_accelerated")
+        self.is_coarse = is_coarse
         self.is_started = False
-        self._keep_rotation = keep_rotation
+        keep_rotation = self._keep_rotation = switch(keep_rotation, "keep_rotation")
+        if admm is not None:
+            instance(admm, "admm", AdmmOptions)
+        if limbs is not None:
+            instance(limbs, "limbs", KnownLimbs)
         self._options = {"device": device, "precision": precision, "admm": admm}
         rest = self.rest = setup.rest
         lam = self._lam = _spread(cubeness, "cubeness", setup)
         Q = _orientation(orientation, rest, may_mirror=not (form is None and capture is None))
         self._given_Q = Q
-        self._form, self._form_of = form, _numbers(form_of, rest)
-        self._capture, self._capture_of = capture, _numbers(capture_of, rest)
+        self._form, self._form_of = form, _numbers(form, form_of, "form", Polytope, rest)
+        self._capture = capture
+        self._capture_of = _numbers(capture, capture_of, "capture", NormalCapture, rest)
         if drawn is None:
             drawn = rest.cubic_normals
             if form is not None or capture is not None:
@@ -181,6 +194,33 @@ class Stylization:
         self._motion = self._local.motion(self.setup, U, constraints)
         self._acceleration = self._momentum()
 
+    def __copy__(self):
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what lies on the device: it is made anew from the positions and rotations."""
+        state = {name: x for name, x in self.__dict__.items() if name not in _MADE_ANEW}
+        return {**state, "positions": self.positions, "rotations": self.rotations}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        U, R = state.pop("positions"), state.pop("rotations")
+        self.__dict__.update(state)
+        self._begin(U.copy())
+        self._local.start_from(R)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Stylization):
+            return NotImplemented
+        return is_same(*(sorted(x.__getstate__().items()) for x in (self, other)))
+
+    __hash__ = object.__hash__  # its state changes
+
+    def __repr__(self) -> str:
+        values = [("setup", self.setup), ("iteration", self.iteration), ("energy", self.energy)]
+        return described(Stylization, [*values, ("device", self.device)])
+
     def continued(self, setup: Setup) -> "Stylization":
         """Return a Stylization that goes on from here, with another setup of the same vertices."""
         other = copy(self)
@@ -196,7 +236,7 @@ class Stylization:
         self,
         setup: Setup,
         targets: ArrayLike | None = None,
-        hold_matrices: Sequence[np.ndarray] = (),
+        hold_matrices: Sequence[FloatArray] = (),
     ) -> "Stylization":
         """Return a Stylization that goes on from here with another rest shape.
 
@@ -237,44 +277,44 @@ class Stylization:
         other.iteration, other.energy = 0, None
         return other
 
-    def impose(self, U):
+    def impose(self, U: FloatArray) -> None:
         """Move positions (n,3) in the unit box so that mirrors and held groups are obeyed."""
         for constraint in self._constraints:
             constraint.impose(U)
 
-    def go_to(self, R, U):
+    def go_to(self, R: FloatArray, U: FloatArray) -> None:
         """Go to rotations (n,3,3) and positions (n,3) in the unit box, as they are."""
         self._local.start_from(R)
         self._motion.put(U)
         self._acceleration = self._momentum()
 
     @property
-    def device(self):
+    def device(self) -> str:
         """Name of the device that runs the local step, such as "taichi-cpu"."""
         return self._local.device
 
     @property
-    def resolution(self):
+    def resolution(self) -> float:
         """Distance in the unit box below which differences are rounding errors."""
         return self._local.resolution
 
     @property
-    def compile_seconds(self):
+    def compile_seconds(self) -> float:
         """Seconds spent compiling kernels or loading them from a cache."""
         return self._local.compile_seconds
 
     @property
-    def positions(self):
+    def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
         return self._motion.positions
 
     @property
-    def rotations(self):
+    def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         return self._local.R
 
     @property
-    def orientations(self) -> np.ndarray:
+    def orientations(self) -> FloatArray:
         """(N,3,3) rotations into the frame of the form, of the vertices of the input."""
         rest = self.rest
         found = np.tile(self._Q[0], (len(rest.input_positions), 1, 1))
@@ -353,7 +393,7 @@ class Stylization:
     def _momentum(self):
         return Momentum(self.rest.topology.component_count) if self.is_accelerated else None
 
-    def start_from(self, R, near):
+    def start_from(self, R: FloatArray, near: FloatArray) -> None:
         """Start the iteration anew, from rotations (n,3,3) and positions (n,3) in the unit box."""
         self.is_started, self._acceleration = True, self._momentum()
         self._local.start_from(R)
@@ -391,7 +431,7 @@ class Stylization:
         assert self.energy is not None  # the local step has set it
         return self.energy
 
-    def energy_of(self, positions, steps=20):
+    def energy_of(self, positions: ArrayLike, steps: int = 20) -> Energy:
         """Return the Energy of a given shape, with rotations that fit it.
 
         Parameters
@@ -406,11 +446,13 @@ class Stylization:
         -------
         Energy
         """
-        solved = self.rest.input_map.spread(np.asarray(positions, dtype=np.float64))
+        solved = self.rest.input_map.spread(real_numbers(positions, "positions"))
         self._motion.put(self.rest.box.to_unit(solved))
         return min((self.finish() for _ in range(steps)), key=lambda energy: energy.total)
 
-    def placed(self, R=None, U=None):
+    def placed(
+        self, R: FloatArray | None = None, U: FloatArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
         """Return positions (N,3) in the units of the input and rotations (N,3,3).
 
         They are those of the current state, or of given rotations (n,3,3) and positions (n,3) in
@@ -421,7 +463,7 @@ class Stylization:
         rotations[used] = (self.rotations if R is None else R)[place]
         return self.placed_positions(U), rotations
 
-    def placed_positions(self, U=None):
+    def placed_positions(self, U: FloatArray | None = None) -> FloatArray:
         """Return only the positions, to show them while it runs."""
         rest = self.rest
         positions = rest.input_positions.copy()
@@ -439,7 +481,7 @@ def _orientation(Q, rest, may_mirror):
     """
     if Q is None:
         return np.eye(3)[None]
-    Q = np.asarray(Q, dtype=np.float64)
+    Q = real_numbers(Q, "the orientation")
     if Q.shape == (3, 3):
         Q = Q[None]
     elif Q.shape == (len(rest.input_positions), 3, 3):
@@ -461,11 +503,13 @@ def _spread(weights, name, setup):
     return weights
 
 
-def _numbers(of_input, rest):
+def _numbers(values, of_input, name, kind, rest):
     """Return the number of the form or the capture (n,) of the used vertices."""
-    if of_input is None:
+    several = [] if values is None else instances(values, name, kind)
+    if of_input is None or not several:
         return np.zeros(len(rest.V), int)
-    return np.asarray(of_input)[rest.used]
+    count = len(rest.input_positions)
+    return choices_per_vertex(of_input, f"{name}_of", count, len(several))[rest.used]
 
 
 def _targets(targets, setup):
@@ -473,7 +517,7 @@ def _targets(targets, setup):
     at_rest = setup.rest.input_positions
     if targets is None:
         return at_rest
-    targets = np.asarray(targets, dtype=np.float64)
+    targets = real_numbers(targets, "targets")
     if targets.shape != at_rest.shape:
         raise CubicCraftError(f"targets must have the shape {at_rest.shape}, not {targets.shape}")
     if not np.isfinite(targets[setup.pinned_input]).all():

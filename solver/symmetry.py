@@ -14,7 +14,9 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import KDTree
 
+from .aliases import BoolArray, FloatArray, IntArray
 from .rotation_fit import svd_rotations
+from .values import Value
 
 NO_PARTNER = -1
 """in place of the index of a partner"""
@@ -22,8 +24,8 @@ MATCHING = 1e-3
 """largest distance of a vertex from the image of its partner, relative to the largest extent"""
 
 
-@dataclass(frozen=True)
-class Mirror:
+@dataclass(frozen=True, eq=False, repr=False)
+class Mirror(Value):
     """A reflection x -> A x + b, and the vertices that are images of each other.
 
     See Also
@@ -43,15 +45,15 @@ class Mirror:
            [-1. ,  0.5,  0. ]])
     """
 
-    partner: np.ndarray
+    partner: IntArray
     """(n,) int image of each vertex: itself in the plane, -1 if it has none"""
-    linear: np.ndarray
+    linear: FloatArray
     """(3,3) A, with A A = 1"""
-    offset: np.ndarray
+    offset: FloatArray
     """(3,) b, with A b = -b"""
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Number of vertices that have an image."""
         return int(np.count_nonzero(self.partner != NO_PARTNER))
 
@@ -62,11 +64,11 @@ class Mirror:
         first = np.flatnonzero(self.partner > own)
         return first, self.partner[first], np.flatnonzero(self.partner == own)
 
-    def image(self, points):
+    def image(self, points: FloatArray) -> FloatArray:
         """Return the reflected points (n,3)."""
         return points @ self.linear.T + self.offset
 
-    def impose(self, positions):
+    def impose(self, positions: FloatArray) -> None:
         """Make positions (n,3) symmetric, in place.
 
         A reflection that only changes signs leaves them mirror images bit for bit.
@@ -77,7 +79,7 @@ class Mirror:
         positions[second] = self.image(positions[first])
         positions[inside] = 0.5 * (positions[inside] + self.image(positions[inside]))
 
-    def impose_rotations(self, rotations):
+    def impose_rotations(self, rotations: FloatArray) -> None:
         """Make rotations (n,3,3) of the vertices symmetric, in place."""
         first, second, inside = self._pairs
         inverse = np.linalg.inv(self.linear)
@@ -85,14 +87,14 @@ class Mirror:
         images = self.linear @ rotations[inside] @ inverse
         rotations[inside] = svd_rotations((rotations[inside] + images).swapaxes(1, 2))
 
-    def without(self, is_held):
+    def without(self, is_held: BoolArray) -> "Mirror":
         """Return the mirror without the vertices of a mask (n,) and without their partners."""
         partner = self.partner.copy()
         partner[is_held | is_held[partner]] = NO_PARTNER
         return replace(self, partner=partner)
 
 
-def partners(V, image, tolerance):
+def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
     """Find the vertices that are images of each other.
 
     Parameters

@@ -7,12 +7,16 @@ as all others.
 
 import logging
 from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
 
 import bpy
 
 from ...solver import loading_steps
 from .kernel_cache import use_extension_folder
 from .requirements import check_known_requirements
+
+if TYPE_CHECKING:
+    from ...solver.aliases import Device
 
 FIRST_PAUSE = 0.3
 """seconds from the panel's first drawing, so that it is seen at once"""
@@ -34,7 +38,7 @@ def load_ahead(device: str) -> None:
     global _steps
     if _steps is not None or bpy.app.background:
         return
-    _steps = loading_steps(device.lower())
+    _steps = loading_steps(cast("Device", device.lower()))
     bpy.app.timers.register(_next_step, first_interval=FIRST_PAUSE, persistent=True)
 
 

@@ -251,7 +251,7 @@ def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
     """
     turn, _ = _turn_and_stretch(_world(obj))
     axes = proper(_into_space(obj, settings, turn) @ orientation.T)
-    return Matrix(solver.nearest_to_identity(axes.T).T).to_euler()
+    return Matrix(solver.nearest_to_identity(axes.T).T.tolist()).to_euler()
 
 
 def _turn_and_stretch(world):

@@ -9,7 +9,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import bpy
 import numpy as np
@@ -21,6 +21,9 @@ from .assembly import Prepared
 from .fields import known_limbs, styles, targets
 from .floor import kept_on_floor
 from .normal_capture import captures
+
+if TYPE_CHECKING:
+    from ...solver.aliases import Device
 
 
 @dataclass(frozen=True)
@@ -114,7 +117,7 @@ def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver
         targets(prepared),
         style.form,
         style.form_of,
-        device=settings.device.lower(),
+        device=cast("Device", settings.device.lower()),
         keep_rotation=settings.rotation == "KEEP",
         hold_matrices=[hold.matrix for hold in prepared.holds],
         is_accelerated=is_accelerated,

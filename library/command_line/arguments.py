@@ -4,7 +4,6 @@
 import argparse
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 from typing import Any, NoReturn
 
 from .errors import InputError
@@ -28,8 +27,10 @@ DEFAULTS = {
 """name: by default, with ``--paper``"""
 
 HELP = {
-    "input": f"a surface: {', '.join(FORMATS)}",
-    "output": f"the result: {', '.join(FORMATS)}",
+    "paths": f"surfaces ({', '.join(FORMATS)}), and at the end the result: a file, or for several "
+    "surfaces a folder; - is standard input or output",
+    "--format": "of what is written to standard output (default: that of the input)",
+    "--quiet": "say nothing but what is wrong",
     "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
     "--form": "what a ball would become (default: cube)",
     "--form-sides": "of a prism or pyramid (default: 6)",
@@ -55,9 +56,9 @@ HELP = {
 }
 
 EPILOG = """\
-The output has the vertices and faces of the input, in its order; only positions change.
+An output has the vertices and faces of the input, in its order; only positions change.
 Angles and the poles of forms are relative to the axes of the file, with the poles along its Z.
-Exit codes: 0 the output is written, 2 it is not, with one line that says why, 130 interrupted.
+Exit codes: 0 all outputs are written, 2 one is not, with a line that says why, 130 interrupted.
 """
 
 
@@ -74,14 +75,18 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     Returns
     -------
     argparse.Namespace
-        One attribute per option; what ``--paper`` stands for is set.
+        One attribute per option, and the ``inputs`` (str) and the ``output``; what ``--paper``
+        stands for is set.
 
     Raises
     ------
     InputError
         An option cannot be used.
     """
-    options = _parser().parse_args(arguments)
+    options = _parser().parse_intermixed_args(arguments)
+    *options.inputs, options.output = options.paths
+    if not options.inputs:
+        raise InputError("the following arguments are required: OUTPUT")
     for name, values in DEFAULTS.items():
         if getattr(options, name) is None:
             setattr(options, name, values[options.paper])
@@ -91,6 +96,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="cubic-craft",
+        usage="cubic-craft [options] INPUT [INPUT ...] OUTPUT",
         description="Turn a mesh into a cubic sculpture.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -100,8 +106,7 @@ def _parser() -> argparse.ArgumentParser:
     def add(name: str, **how: Any) -> None:
         parser.add_argument(name, help=HELP[name], **how)
 
-    add("input", type=Path, metavar="INPUT")
-    add("output", type=Path, metavar="OUTPUT")
+    add("paths", nargs="+", metavar="INPUT ... OUTPUT")
     add("--cubeness", type=_number(0, 10), default=0.4, metavar="L")
     add("--form", choices=FORMS, default="cube")
     add("--form-sides", type=_number(3, 64, int), default=6, metavar="N")
@@ -119,6 +124,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--max-iterations", type=_number(1, 1_000_000, int), default=1000, metavar="N")
     add("--tolerance", type=_number(1e-12, 1), default=1e-3, metavar="T")
     add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+    add("--format", choices=[suffix.removeprefix(".") for suffix in FORMATS])
+    add("--quiet", action="store_true")
     parser.add_argument("--version", action="version", version=_version())
     return parser
 

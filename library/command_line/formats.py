@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The file formats, and what meshio's writers leave out of each.
 
-Of meshio's formats, these are the ones that are used for surfaces, consist of a single file and
+Of meshio's formats, the first are the ones that are used for surfaces, consist of a single file and
 are tested here.
 """
 
@@ -36,4 +36,7 @@ FORMATS = {
         "vtk", has_polygons=True, has_point_data=True, has_cell_data=True, writer="vtk42"
     ),
     ".vtu": Format("vtu", has_polygons=True, has_point_data=True, has_cell_data=True),
+    # These two meshio does not know: see `gltf_file`.
+    ".glb": Format("glTF", has_polygons=False, is_float32=True),
+    ".gltf": Format("glTF", has_polygons=False, is_float32=True),
 }

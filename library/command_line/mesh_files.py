@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Read and write mesh files through meshio.
 
-See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong.
+See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong, and
+`gltf_file` for a format that it does not know.
 
 meshio prints its messages, and ends the process where a file cannot be read. Here they become
 errors, and notes of what a format cannot hold.
@@ -18,9 +19,12 @@ from typing import Any
 import meshio
 import numpy as np
 
+from solver.meshes import with_turned_normals
+
 from .decompression import within_memory
 from .errors import InputError
 from .formats import FORMATS, Format
+from .gltf_file import GltfFile, write_surface
 from .obj_text import ObjText
 from .ply_header import readable_ply
 from .surface import Surface
@@ -29,7 +33,7 @@ from .vtk_file import read_vtk, with_quoted_names
 __all__ = ("MeshFile", "read", "write")
 
 _FACES = ("triangle", "quad", "polygon")
-_NORMALS = ("nx", "ny", "nz")
+_GLTF = (".glb", ".gltf")
 _LARGEST = 1e75  # the fourth power is finite
 
 
@@ -40,8 +44,8 @@ class MeshFile:
     surface: Surface
     mesh: Any
     """meshio.Mesh with everything that meshio can write"""
-    obj: ObjText | None
-    """the text of an .obj file"""
+    whole: ObjText | GltfFile | None
+    """the file itself, of a format of which all is kept"""
 
 
 def read(path: Path) -> MeshFile:
@@ -62,6 +66,8 @@ def read(path: Path) -> MeshFile:
             _check_size(path, obj.points)
             blocks = [(_cell_type(block), block.astype(np.int32)) for block in obj.faces]
             return MeshFile(Surface(obj.points, obj.faces), meshio.Mesh(obj.points, blocks), obj)
+        if path.suffix.lower() in _GLTF:
+            return _read_gltf(path)
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file; check the path") from None
     except OSError as error:
@@ -100,12 +106,19 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
     OSError
         The disk is full, or something else is wrong with it.
     """
-    if file.obj is not None and path.suffix.lower() == ".obj":
-        file.obj.write(path, positions)
+    suffix = path.suffix.lower()
+    if isinstance(file.whole, ObjText) and suffix == ".obj":
+        file.whole.write(path, positions)
         return []
-    kind = FORMATS[path.suffix.lower()]
+    if isinstance(file.whole, GltfFile) and suffix in _GLTF:
+        _check_float32(positions)
+        return file.whole.write(path, positions, rotations)
+    kind = FORMATS[suffix]
     notes: list[str] = []
     mesh = _fitting(file, kind, positions, rotations, notes)
+    if suffix in _GLTF:
+        write_surface(path, mesh.points, file.surface.triangles)
+        return notes
     with _quiet() as said:
         try:
             meshio.write(path, mesh, file_format=kind.writer or kind.name, **kind.options)
@@ -117,6 +130,16 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
                 f"cannot be written as {path.suffix} ({reason}); choose another format"
             ) from error
     return notes
+
+
+def _read_gltf(path: Path) -> MeshFile:
+    try:
+        file = GltfFile(path)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    _check_size(path, file.points)
+    mesh = meshio.Mesh(file.points.astype(np.float32), [("triangle", file.triangles)])
+    return MeshFile(Surface(file.points, [file.triangles]), mesh, file)
 
 
 def _read_with_meshio(path: Path) -> Any:
@@ -159,16 +182,21 @@ def _check_size(path: Path, points: np.ndarray) -> None:
         raise InputError(f"{path}: {reason}, which is too large; repair the file, or scale it down")
 
 
+def _check_float32(positions: np.ndarray) -> None:
+    with np.errstate(over="ignore"):
+        is_held = np.isfinite(positions.astype(np.float32)).all()
+    if not is_held:
+        raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
+
+
 def _fitting(
     file: MeshFile, kind: Format, positions: np.ndarray, rotations: np.ndarray, notes: list[str]
 ) -> Any:
     """Return the mesh with its new positions as far as a format can hold it."""
     mesh, surface = file.mesh, file.surface
     dtype = np.float32 if kind.is_float32 or mesh.points.dtype.itemsize == 4 else np.float64
-    with np.errstate(over="ignore"):
-        is_held = np.isfinite(positions.astype(dtype)).all()
-    if not is_held:
-        raise InputError("its coordinates are too large for this format; choose .obj or .vtu")
+    if dtype is np.float32:
+        _check_float32(positions)
     cells = [(block.type, _native(block.data)) for block in mesh.cells]
     cell_data = {name: [_native(x) for x in data] for name, data in mesh.cell_data.items()}
     point_data = {name: _native(data) for name, data in mesh.point_data.items()}
@@ -182,7 +210,7 @@ def _fitting(
     if not kind.has_cell_data and cell_data:
         notes.append(f"left out of the cells: {', '.join(cell_data)}")
         cell_data = {}
-    point_data = _with_turned_normals(point_data, rotations)
+    point_data = with_turned_normals(point_data, rotations)
     if kind.name == "vtk":
         point_data, cell_data = with_quoted_names(point_data), with_quoted_names(cell_data)
     lost = [x for x, data in point_data.items() if not kind.has_point_data or _too_wide(data, kind)]
@@ -196,22 +224,6 @@ def _fitting(
         cell_data,
         field_data=mesh.field_data if kind.has_cell_data else None,
     )
-
-
-def _with_turned_normals(point_data: dict[str, np.ndarray], rotations: np.ndarray):
-    """Return the data with normals that fit the new shape."""
-    turned = dict(point_data)
-    if all(name in point_data for name in _NORMALS):
-        columns = [point_data[name] for name in _NORMALS]
-        normals = np.einsum("nij,nj->ni", rotations, np.stack(columns, axis=1))
-        turned.update(
-            (name, column.astype(old.dtype))
-            for name, column, old in zip(_NORMALS, normals.T, columns, strict=True)
-        )
-    for name, data in point_data.items():
-        if name.lower() in ("normal", "normals") and data.shape == (len(rotations), 3):
-            turned[name] = np.einsum("nij,nj->ni", rotations, data).astype(data.dtype)
-    return turned
 
 
 def _too_wide(data: np.ndarray, kind: Format) -> bool:

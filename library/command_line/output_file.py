@@ -4,6 +4,7 @@
 import contextlib
 import os
 import platform
+import stat
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +13,7 @@ from .errors import InputError
 
 __all__ = ("check_writable", "replacing")
 
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 _LONGEST_STEM = 60  # characters of it in the name of the temporary file
 
 
@@ -24,6 +26,12 @@ def check_writable(path: Path) -> None:
     """
     if path.is_dir():
         raise InputError(f"{path}: this is a folder; give the name of a file")
+    if path.is_symlink():
+        raise InputError(f"{path}: this is a link, which is not replaced; give another name")
+    if path.exists() and not path.stat().st_mode & _WRITABLE:
+        raise InputError(f"{path}: this file is write-protected; give another name")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is a device or a pipe; give a file, or - for standard output")
     if not path.parent.is_dir():
         raise InputError(f"{path}: the folder {path.parent} does not exist; create it")
     try:

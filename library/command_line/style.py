@@ -33,7 +33,7 @@ def stylized(surface: Surface, options: Namespace) -> Result:
     Raises
     ------
     InputError
-        The solver refuses the mesh or an option; the message gives the file and the reason.
+        The solver refuses the mesh or an option; the message lacks the path.
     """
     try:
         return stylize(
@@ -56,9 +56,9 @@ def stylized(surface: Surface, options: Namespace) -> Result:
             keep_rotation=options.rotation == "keep",
         )
     except CubicCraftError as error:
-        raise InputError(f"{options.input}: {error}") from error
+        raise InputError(str(error)) from error
     except MemoryError:
-        raise InputError(f"{options.input}: there is not enough memory for it") from None
+        raise InputError("there is not enough memory for it") from None
 
 
 def form_of(options: Namespace) -> Polytope | None:

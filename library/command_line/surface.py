@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .polygons import triangulate
+from solver.mesh.polygons import triangulate
 
 __all__ = ("Surface",)
 

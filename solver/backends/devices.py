@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Choose the machinery of the local step by the name of a device."""
 
+import logging
 from functools import partial
+from typing import Any, get_args
 
+from ..aliases import Device, Precision
 from ..errors import CubicCraftError
 from .engine import import_engine
 from .engine_choice import engine
@@ -11,13 +14,16 @@ from .numpy_local_step import NumpyLocalStep
 from .quick_compilation import quick_compilation
 from .taichi_local_step import TaichiLocalStep
 
-DEVICES = ("auto", "cpu", "gpu", "numpy")
+_log = logging.getLogger(__name__)
+
+DEVICES: tuple[Device, ...] = get_args(Device)
+PRECISIONS: tuple[Precision, ...] = get_args(Precision)
 
 _TRIES = 3
 """runs in a row in which an installed engine may fail: what hinders it, such as a disk, may pass"""
 
 
-def local_step_class(device="auto", precision=None):
+def local_step_class(device: Device = "auto", precision: Precision | None = None) -> Any:
     """Return a function that makes the local step, with the arguments of `NumpyLocalStep`.
 
     Parameters
@@ -31,16 +37,19 @@ def local_step_class(device="auto", precision=None):
     Raises
     ------
     CubicCraftError
-        An unknown device. The function raises it if the engine is asked for and does not work.
+        An unknown device or precision. The function raises it if the engine is asked for and does
+        not work.
     """
     if device not in DEVICES:
         raise CubicCraftError(f'the device "{device}" is none of {", ".join(DEVICES)}')
+    if precision is not None and precision not in PRECISIONS:
+        raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
     if device == "numpy" or (device == "auto" and _tries_left == 0):
         return NumpyLocalStep
     return partial(_taichi_local_step, device, precision)
 
 
-def problem_with_engine():
+def problem_with_engine() -> str:
     """Return why the device "auto" means "numpy" at present, "" while it does not."""
     return _problem
 
@@ -72,6 +81,8 @@ def _taichi_local_step(device, precision, *arguments):
                 " choose the device auto or numpy"
             ) from error
         _problem, _tries_left = reason, _tries_left - 1 if is_imported else 0
+        level = logging.WARNING if is_imported else logging.INFO  # most who have none know it
+        _log.log(level, "%s cannot be used (%s); NumPy computes", engine().name, reason)
         return NumpyLocalStep(*arguments)
     if device == "auto":
         _problem, _tries_left = "", _TRIES

@@ -27,7 +27,12 @@ def import_engine() -> Any:
     builds of Blender, it then allocates with one allocator and frees with the other, and crashes.
     So the flag is filtered out for the time of the import.
     """
-    with environment(engine().greeting, "False"), _without_deepbind(), quick_module_search():
+    with (
+        environment(engine().greeting, "False"),
+        environment(engine().log_level, "error"),
+        _without_deepbind(),
+        quick_module_search(),
+    ):
         if engine() is TAICHI:
             import taichi as imported
         else:

@@ -22,19 +22,21 @@ class Engine(NamedTuple):
     """what is imported and installed"""
     greeting: str
     """the environment variable that "False" keeps it from announcing itself with"""
+    log_level: str
+    """that which says what it tells besides, such as that it is in a notebook"""
 
 
-TAICHI = Engine("Taichi", "taichi", "ENABLE_TAICHI_HEADER_PRINT")
-QUADRANTS = Engine("Quadrants", "quadrants", "ENABLE_QUADRANTS_HEADER_PRINT")
+TAICHI = Engine("Taichi", "taichi", "ENABLE_TAICHI_HEADER_PRINT", "TI_LOG_LEVEL")
+QUADRANTS = Engine("Quadrants", "quadrants", "ENABLE_QUADRANTS_HEADER_PRINT", "QD_LOG_LEVEL")
 
 
 @cache
-def engine():
+def engine() -> Engine:
     """Return the Engine that is installed, Taichi before Quadrants, or else the one to install."""
     return next(filter(_is_installed, (TAICHI, QUADRANTS)), _engine_with_wheels())
 
 
-def engine_name():
+def engine_name() -> str:
     """Return the name of the engine that computes here, or would if it were installed."""
     return engine().name
 

@@ -27,7 +27,7 @@ class Runtime:
     has_f64: bool
 
 
-def set_cache_folder(path):
+def set_cache_folder(path: str) -> None:
     """Keep compiled kernels in this folder (str) from the next start on, not in the usual one."""
     global _cache_folder
     _cache_folder = path

@@ -16,12 +16,17 @@ over several frames. A few steps for each frame are nearly enough to converge, a
 the end. They cost little: the factorisation is that of the first pose, see `RestMesh.posed`.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
+from ..aliases import FloatArray
+from ..rest import RestMesh
 from ..rotation_fit import fit_rotations, orthonormalize
-from ..runner import Run
+from ..runner import Result, Run
+from ..stylization import Stylization
+from ..values import described, is_same
 
 STEPS = 12
 """for each frame but the first"""
@@ -52,14 +57,23 @@ class SequenceState(NamedTuple):
     (3, 3)
     """
 
-    pose: np.ndarray
+    pose: FloatArray
     """(n,3) rest positions of that frame in the unit box"""
-    turns: np.ndarray
+    turns: FloatArray
     """(n,3,3) rotations of the surroundings of the vertices, from the first frame to this"""
-    positions: np.ndarray
+    positions: FloatArray
     """(n,3) the result in the unit box"""
-    rotations: np.ndarray
+    rotations: FloatArray
     """(n,3,3)"""
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is SequenceState and all(map(is_same, self, other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other  # a tuple's own would compare arrays
+
+    def __repr__(self) -> str:
+        return described(SequenceState, self._asdict().items())
 
 
 class FrameSequence:
@@ -97,12 +111,14 @@ class FrameSequence:
     12
     """
 
-    def __init__(self, first, state=None, forgotten=FORGOTTEN):
+    def __init__(
+        self, first: RestMesh, state: SequenceState | None = None, forgotten: float = FORGOTTEN
+    ):
         self._first, self._forgotten = first, forgotten
-        self.state: SequenceState | None = state
+        self.state = state
 
     @property
-    def turns(self):
+    def turns(self) -> FloatArray:
         """(N,3,3) rotations of the surroundings of the input's vertices since the first frame."""
         assert self.state is not None
         turns = np.tile(np.eye(3), (len(self._first.input_positions), 1, 1))
@@ -110,7 +126,9 @@ class FrameSequence:
         turns[used] = self.state.turns[place]
         return turns
 
-    def solve(self, stylization, max_iterations=1000, tolerance=1e-3):
+    def solve(
+        self, stylization: Stylization, max_iterations: int = 1000, tolerance: float = 1e-3
+    ) -> Result:
         """Solve the next frame; `begin`, `settle` and `end` in one.
 
         Returns
@@ -125,7 +143,9 @@ class FrameSequence:
             pass
         return self.end(run)
 
-    def begin(self, stylization, max_iterations=1000, tolerance=1e-3):
+    def begin(
+        self, stylization: Stylization, max_iterations: int = 1000, tolerance: float = 1e-3
+    ) -> Run:
         """Return the Run of the next frame, which the caller advances to its end.
 
         Parameters
@@ -146,7 +166,7 @@ class FrameSequence:
         self._turns = self._start(stylization)
         return Run(stylization, STEPS, tolerance, keep_apart=False)
 
-    def settle(self, run):
+    def settle(self, run: Run) -> Iterator[None]:
         """Make the first frame, once it is solved, like all others; yield after each step."""
         if self.state is not None or not self._forgotten:
             return
@@ -158,7 +178,7 @@ class FrameSequence:
                 stylization.step()
                 yield
 
-    def end(self, run):
+    def end(self, run: Run) -> Result:
         """Return the Result of a frame, from which the next one begins."""
         result = run.result()
         self.state = self._state_of(run.stylization)

@@ -12,11 +12,15 @@ Arrays are indexed by frame and vertex, (f,k,...). An animation is passed in pie
 frames and some of its vertices, so that it need not fit into the memory.
 """
 
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
+
+from ..aliases import FloatArray, RealArray
+from ..values import described, is_same
 
 MOST_JUMPS = 3.0
 """Jumps of the result over those of the input, in the largest and in the 99th percentile"""
@@ -44,14 +48,23 @@ class Frames(NamedTuple):
     (5, 1, 3)
     """
 
-    inputs: np.ndarray
+    inputs: RealArray
     """(f,k,3) positions of the input"""
-    turns: np.ndarray
+    turns: RealArray
     """(f,k,4) rotations of the surroundings since the first frame, as quaternions x, y, z, w"""
-    offsets: np.ndarray
+    offsets: RealArray
     """(f,k,3) from there to the result, in the frame of the surroundings"""
 
-    def results(self, width):
+    def __eq__(self, other: object) -> bool:
+        return type(other) is Frames and all(map(is_same, self, other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other  # a tuple's own would compare arrays
+
+    def __repr__(self) -> str:
+        return described(Frames, self._asdict().items())
+
+    def results(self, width: float) -> FloatArray:
         """Return the positions (f,k,3), smoothed by a Gaussian of a width in frames."""
         offsets = np.asarray(self.offsets, dtype=np.float64)
         if width > 0.0:
@@ -61,7 +74,7 @@ class Frames(NamedTuple):
         return self.inputs + turns.apply(offsets.reshape(-1, 3)).reshape(shape)
 
 
-def frame_of(inputs, turns, positions):
+def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Frames:
     """Return the `Frames` of a single frame.
 
     Parameters
@@ -174,7 +187,9 @@ class Motion(Jumps):
         return tuple(max(jump, _STEADY * step, unseen) for jump, step in pairs)
 
 
-def least_width(pieces, limit=MOST_JUMPS):
+def least_width(
+    pieces: Callable[[], Iterable[Frames]], limit: float = MOST_JUMPS
+) -> tuple[float, tuple[float, ...]]:
     """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
 
     Parameters

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame of the form at each vertex, in which limbs keep their direction."""
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from ..aliases import Faces, FloatArray
 from ..proxy.options import ProxyOptions
 from ..rest import rest_mesh
 from ..setup import Setup
@@ -12,10 +12,10 @@ from ..stylization import Stylization
 
 def pose_frames(
     V: ArrayLike,
-    F: ArrayLike,
+    F: Faces,
     orientation: ArrayLike | None = None,
     proxy: ProxyOptions | None = None,
-) -> np.ndarray:
+) -> FloatArray:
     """Return the orientations in which the limbs of a mesh keep their direction.
 
     Parameters

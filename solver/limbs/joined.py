@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """KnownLimbs of several bodies, and in other coordinates."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
 
+from ..aliases import FloatArray
 from .limbs import KnownLimbs, no_limbs
 
 
-def joined_limbs(parts, counts):
+def joined_limbs(parts: Sequence[KnownLimbs | None], counts: Sequence[int]) -> KnownLimbs | None:
     """Return the KnownLimbs of bodies that are solved together, None if none is known.
 
     Parameters
@@ -36,7 +38,7 @@ def joined_limbs(parts, counts):
     )
 
 
-def placed_limbs(limbs, rotation):
+def placed_limbs(limbs: KnownLimbs, rotation: FloatArray) -> KnownLimbs:
     """Return KnownLimbs in other coordinates, by a rotation or reflection (3,3).
 
     Examples

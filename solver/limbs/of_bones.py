@@ -10,7 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import ArrayLike
 
+from ..inputs import vectors
 from .limbs import KnownLimbs
 from .turns import smallest_turns
 
@@ -50,7 +52,9 @@ class _Measured(NamedTuple):
     """(b,) the nearest one that is measured, or -1"""
 
 
-def limbs_of_bones(V, weights, heads, tails, parents):
+def limbs_of_bones(
+    V: ArrayLike, weights: sp.csr_matrix, heads: ArrayLike, tails: ArrayLike, parents: ArrayLike
+) -> KnownLimbs:
     """Return the KnownLimbs of a mesh, one piece for each bone.
 
     Parameters
@@ -85,7 +89,7 @@ def limbs_of_bones(V, weights, heads, tails, parents):
     total = np.asarray(weights.sum(axis=1)).ravel()
     known = total > _LEAST
     shares = sp.diags(np.where(known, 1.0, 0.0) / np.where(known, total, 1.0)) @ weights
-    bones = _measured(np.asarray(V, dtype=np.float64), weights, heads, tails, parents)
+    bones = _measured(vectors(V, "positions"), weights, heads, tails, parents)
     confidence, end_of, is_foot = _confidence(bones)
     shares = sp.csr_matrix(shares @ sp.diags(confidence))
     # a limb ends where most of a vertex belongs to the trunk, or its weights would skew that
@@ -109,7 +113,7 @@ def _usable(weights):
 def _measured(V, weights, heads, tails, parents):
     """Return the _Measured bones."""
     count, spread = _spreads(V, weights)
-    heads, tails = np.asarray(heads, dtype=np.float64), np.asarray(tails, dtype=np.float64)
+    heads, tails = (vectors(ends, "the ends of bones") for ends in (heads, tails))
     along = tails - heads
     is_there = (count > 0) & np.isfinite(along).all(axis=1)
     parents = _nearest_there(np.asarray(parents), is_there)

@@ -3,13 +3,17 @@
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import ArrayLike
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
+from ..aliases import FloatArray, IntArray
 from .edges import edges_of
 
 
-def edge_distances(V, F, seeds, limit=np.inf):
+def edge_distances(
+    V: FloatArray, F: IntArray, seeds: ArrayLike, limit: float = np.inf
+) -> FloatArray:
     """Return the length of the shortest path along edges to the nearest of the seeds.
 
     Parameters
@@ -50,7 +54,7 @@ def edge_distances(V, F, seeds, limit=np.inf):
     return dijkstra(graph, directed=False, indices=seeds, limit=limit, min_only=True)
 
 
-def nearest_distances(points, others):
+def nearest_distances(points: ArrayLike, others: ArrayLike) -> FloatArray:
     """Return the distance of each point from the nearest of the others.
 
     Parameters

@@ -1,20 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Refuse input that cannot be solved, before anything is computed."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from ..aliases import Faces, FloatArray
 from ..errors import CubicCraftError
+from ..inputs import array_of, real_numbers
+from .polygons import triangulate
 
 
-def check_mesh(V, F):
+def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
     """Return the mesh as contiguous arrays, or raise an error that says what is wrong with it.
 
     Parameters
     ----------
     V : (n,3) array_like of float
         Vertex positions, any unit.
-    F : (m,3) array_like of int
-        Triangles, as indices into V.
+    F : (m,3) array_like of int, or faces with more corners
+        Triangles, as indices into V. Polygons (m,s), or rows of any length, are split into
+        triangles, block by block of the same number of corners.
 
     Returns
     -------
@@ -24,23 +31,21 @@ def check_mesh(V, F):
     Raises
     ------
     CubicCraftError
-        Wrong shapes, no faces, fewer than 3 vertices, non-finite positions, indices out of range.
+        Wrong shapes or types, no faces, fewer than 3 vertices, non-finite positions, indices out of
+        range, a polygon that has a vertex twice.
     """
-    V = np.ascontiguousarray(V, dtype=np.float64)
-    F = np.asarray(F)
+    V = np.ascontiguousarray(real_numbers(V, "positions"))
     if V.ndim != 2 or V.shape[1] != 3:
         raise CubicCraftError(f"positions must have the shape (n, 3), not {V.shape}")
-    if F.ndim != 2 or F.shape[1] != 3:
-        raise CubicCraftError(f"triangles must have the shape (m, 3), not {F.shape}")
-    if len(F) == 0:
+    blocks = _blocks(F)
+    if not sum(map(len, blocks)):
         raise CubicCraftError("the mesh has no faces; add faces first")
     if len(V) < 3:
         raise CubicCraftError(f"the mesh has only {len(V)} vertices; at least 3 are needed")
-    if not np.issubdtype(F.dtype, np.integer):
-        raise CubicCraftError(f"triangles must be integers, not {F.dtype}")
-    if F.min() < 0 or F.max() >= len(V):
+    least, most = min(int(x.min()) for x in blocks), max(int(x.max()) for x in blocks)
+    if least < 0 or most >= len(V):
         raise CubicCraftError(
-            f"triangles refer to vertices {F.min()} to {F.max()}, but there are only {len(V)}"
+            f"triangles refer to vertices {least} to {most}, but there are only {len(V)}"
         )
     bad = np.flatnonzero(~np.isfinite(V).all(axis=1))
     if len(bad):
@@ -48,18 +53,62 @@ def check_mesh(V, F):
             f"{len(bad)} vertices have positions that are not finite"
             f" (the first is vertex {bad[0]}); move or delete them"
         )
+    triangles = [_triangles(V, block) for block in blocks]
+    F = triangles[0] if len(triangles) == 1 else np.concatenate(triangles)
     return V, np.ascontiguousarray(F, dtype=np.int32)
 
 
-def per_vertex(values, name, n):
+def _blocks(F: Any) -> list[NDArray[Any]]:
+    """Return the faces in blocks (k,s) of those with s corners."""
+    try:
+        F = np.asarray(F)
+    except ValueError:  # of different lengths
+        F = np.array([*F, None], dtype=object)[:-1]  # which stays a row of rows
+    if F.ndim != 1 or F.dtype.kind != "O":
+        return [_block(F)] if F.size else []
+    rows = [array_of(row, "faces") for row in F]
+    if any(row.ndim != 1 for row in rows):
+        raise CubicCraftError("faces must be rows of vertex numbers")
+    sizes = np.array([len(row) for row in rows])
+    return [
+        _block(np.stack([rows[i] for i in np.flatnonzero(sizes == s)])) for s in np.unique(sizes)
+    ]
+
+
+def _block(F: NDArray[Any]) -> NDArray[Any]:
+    """Return faces with the same number of corners, if they are that."""
+    if F.ndim != 2 or F.shape[1] < 3:
+        raise CubicCraftError(f"triangles must have the shape (m, 3), not {F.shape}")
+    if F.dtype.kind not in "iu":
+        raise CubicCraftError(f"triangles must be integers, not {F.dtype}")
+    return F
+
+
+def _triangles(V: FloatArray, block: NDArray[Any]) -> NDArray[Any]:
+    """Return the triangles (k,3) of a block of faces."""
+    if block.shape[1] == 3:
+        return block
+    # Otherwise transposed triangles would pass as a few faces with very many corners.
+    in_order = np.sort(block, axis=1)
+    is_twice = in_order[:, 1:] == in_order[:, :-1]
+    if is_twice.any():
+        vertex = in_order[:, 1:][is_twice][0]
+        raise CubicCraftError(
+            f"a face with {block.shape[1]} corners has the vertex {vertex} twice; the faces must"
+            " have the shape (m, corners)"
+        )
+    return triangulate(V, block)
+
+
+def per_vertex(values: ArrayLike, name: str, n: int) -> FloatArray:
     """Return a scalar or an array (n,) as a finite, non-negative (n,) float64 array.
 
     Raises
     ------
     CubicCraftError
-        Another shape, a negative or a non-finite value; `name` is used in the message.
+        Another shape or type, a negative or a non-finite value; `name` is used in the message.
     """
-    values = np.asarray(values, dtype=np.float64)
+    values = real_numbers(values, name)
     if values.shape not in ((), (n,)):
         raise CubicCraftError(f"{name} must be one number or {n} of them, not {values.shape}")
     if not np.isfinite(values).all() or (values < 0).any():

@@ -3,10 +3,11 @@
 
 import numpy as np
 
+from ..aliases import FloatArray, IntArray
 from .edge_vectors import double_area_vectors, edge_vectors
 
 
-def triangle_areas_and_normals(V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def triangle_areas_and_normals(V: FloatArray, F: IntArray) -> tuple[FloatArray, FloatArray]:
     """Return the areas and unit normals of the triangles.
 
     Parameters

@@ -24,12 +24,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from ..values import Value
 from .edge_vectors import edge_vectors
 from .edges import Edges, stable_order
 
 
-@dataclass(frozen=True)
-class SpokesAndRims:
+@dataclass(frozen=True, eq=False, repr=False)
+class SpokesAndRims(Value):
     """Rows are vertices, columns their neighbours and themselves; all arrays share one pattern."""
 
     indptr: np.ndarray

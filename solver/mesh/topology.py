@@ -3,18 +3,20 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
+from ..values import Value
 from .components import components
 
 _CHUNK = 256
 _GROUP = 32
 
 
-@dataclass(frozen=True)
-class Topology:
+@dataclass(frozen=True, eq=False, repr=False)
+class Topology(Value):
     """Vertices that share triangles or links, by components.
 
     It is the same for a deformed mesh, and for all frames of an animation.
@@ -57,7 +59,7 @@ class Topology:
         """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
 
-    def sum_parts_at(self, vertices, values):
+    def sum_parts_at(self, vertices, values) -> Any:
         """Sum values (k,) that belong to vertices (k,) over each component."""
         return np.bincount(self.component[vertices], values, self.component_count)
 

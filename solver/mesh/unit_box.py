@@ -10,9 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..values import Value
 
-@dataclass(frozen=True)
-class UnitBox:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class UnitBox(Value):
     """The similarity between the user's coordinates and those of the solver."""
 
     origin: np.ndarray

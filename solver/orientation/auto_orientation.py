@@ -2,9 +2,13 @@
 """The orientation of the cube, or of another form, that best fits a shape."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
+from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..inputs import instance, real_numbers, vectors
 from ..styles.cube import cost, nearest_to_identity
 from ..styles.polytope import Polytope
 from .form_orientation import form_orientation
@@ -20,7 +24,7 @@ SMOOTHING = 1e-4
 """of the absolute value, in radians; only the refinement needs a derivative"""
 
 
-def auto_orient(normals: np.ndarray, areas: np.ndarray, form: Polytope | None = None) -> np.ndarray:
+def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = None) -> FloatArray:
     """Return the orientation whose axes best fit the normals.
 
     It minimises ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
@@ -44,6 +48,11 @@ def auto_orient(normals: np.ndarray, areas: np.ndarray, form: Polytope | None = 
         Rotation that maps a vector into the frame of the cube; its rows are the cube's axes. Or
         into that of the form.
 
+    Raises
+    ------
+    CubicCraftError
+        An argument has another type or shape.
+
     See Also
     --------
     triangle_areas_and_normals : Computes both inputs.
@@ -64,8 +73,11 @@ def auto_orient(normals: np.ndarray, areas: np.ndarray, form: Polytope | None = 
     >>> np.allclose(Q, axes, atol=1e-3)
     True
     """
+    normals, areas = vectors(normals, "the normals"), real_numbers(areas, "the areas")
+    if areas.shape != (len(normals),):
+        raise CubicCraftError(f"the areas must have the shape ({len(normals)},), not {areas.shape}")
     if form is not None:
-        return form_orientation(normals, areas, form)
+        return form_orientation(normals, areas, instance(form, "form", Polytope))
     directions, weights = binned(normals, areas, BINS)
     if not len(directions):
         return np.eye(3)

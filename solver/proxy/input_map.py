@@ -2,12 +2,15 @@
 """The map from the vertices of the input to those that are solved, and back."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from ..values import Value
 
-@dataclass(frozen=True)
-class InputMap:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InputMap(Value):
     """How `n` solved vertices come from the `N` vertices of the input.
 
     First, some vertices of the input are merged, then midpoints are added, then all are
@@ -74,7 +77,7 @@ class InputMap:
         welded[self.group[(self.group >= 0) & mask]] = True
         return self._with_midpoints(welded, np.logical_and)
 
-    def _with_midpoints(self, welded, combine):
+    def _with_midpoints(self, welded, combine) -> Any:
         """Add the values of the midpoints to those of the welded vertices, and order them."""
         values = welded
         if len(self.parents):

@@ -18,9 +18,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..values import Value
 
-@dataclass(frozen=True)
-class Links:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Links(Value):
     """`k` links between up to four vertices each; unused ones have the coefficient 0."""
 
     vertices: np.ndarray

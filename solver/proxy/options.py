@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of a proxy."""
 
+import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..errors import CubicCraftError
+from ..inputs import real_number, switch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,7 +17,7 @@ class ProxyOptions:
     Raises
     ------
     CubicCraftError
-        The solidity or the detail is negative or not finite.
+        The solidity or the detail is negative or not finite, or an option has another type.
 
     See Also
     --------
@@ -48,9 +48,11 @@ class ProxyOptions:
 
     def __post_init__(self):
         for name in ("solidity", "detail"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value >= 0.0):
+            value = real_number(getattr(self, name), name)
+            if not (math.isfinite(value) and value >= 0.0):
                 raise CubicCraftError(f"{name} must be finite and not negative, not {value}")
+        for name in ("together", "refine", "keep_pose", "keep_apart"):
+            switch(getattr(self, name), name)
 
 
 PAPER = ProxyOptions(

@@ -4,8 +4,10 @@
 from functools import cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..algebra import columns, cross, times, transposed_times
+from ..aliases import FloatArray
 
 
 def cost(x):
@@ -98,7 +100,7 @@ class Cube:
 CUBE = Cube()
 
 
-def nearest_to_identity(Q):
+def nearest_to_identity(Q: ArrayLike) -> FloatArray:
     """Return the rotation nearest to the identity that is equivalent to Q for a cube.
 
     Parameters

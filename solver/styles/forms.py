@@ -9,7 +9,9 @@ import itertools
 from functools import cache, partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..inputs import real_numbers
 from .polytope import EXACT, Polytope, from_directions
 
 GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
@@ -26,7 +28,7 @@ _exactly = partial(from_directions, rounding=EXACT)
 
 
 @cache
-def cube():
+def cube() -> Polytope:
     """Return the cube as a body like all others, to draw it, and for meshes with other forms, too.
 
     It is made without SciPy, which may be missing where it is only drawn.
@@ -35,18 +37,18 @@ def cube():
     return Polytope(np.concatenate([np.eye(3), -np.eye(3)]), np.ones(6), corners, EXACT)
 
 
-def box(weights):
+def box(weights: ArrayLike) -> Polytope:
     """Return the box with these half sizes (3,): the costs of normals along its three axes.
 
     With equal weights it is the cube. With (1, 1, 0), only horizontal surfaces cost nothing, so
     that slabs form; with (0, 0, 1), walls become vertical, but keep their outline.
     """
-    sizes = np.maximum(np.asarray(weights, dtype=np.float64), LEAST_WEIGHT)
+    sizes = np.maximum(real_numbers(weights, "the weights of a box"), LEAST_WEIGHT)
     body = _exactly(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
     return body.scaled(sizes.min() / body.offsets.min())
 
 
-def rounded_cube():
+def rounded_cube() -> Polytope:
     """Return the cube with bevels at its edges and corners: 26 sides.
 
     The bevels of edges are rectangles and those of corners triangles, which share their corners.
@@ -58,50 +60,50 @@ def rounded_cube():
     return _exactly(directions, offsets / np.linalg.norm(directions, axis=1))
 
 
-def octahedron():
+def octahedron() -> Polytope:
     """Return the form with eight sides."""
     return _exactly(list(itertools.product((-1, 1), repeat=3)))
 
 
-def tetrahedron():
+def tetrahedron() -> Polytope:
     """Return the form with four sides."""
     corners = itertools.product((-1, 1), repeat=3)
     return _exactly([corner for corner in corners if np.prod(corner) > 0])
 
 
-def dodecahedron():
+def dodecahedron() -> Polytope:
     """Return the form with twelve pentagons."""
     return _exactly(_cyclic([(0, a, b * GOLDEN) for a, b in _signs(2)]))
 
 
-def icosahedron():
+def icosahedron() -> Polytope:
     """Return the form with twenty triangles."""
     rings = _cyclic([(0, a / GOLDEN, b * GOLDEN) for a, b in _signs(2)])
     return _exactly(_signs(3) + rings)
 
 
-def rhombic_dodecahedron():
+def rhombic_dodecahedron() -> Polytope:
     """Return the form with twelve rhombi."""
     return _exactly(_cyclic([(a, b, 0) for a, b in _signs(2)]))
 
 
-def prism(sides):
+def prism(sides: int) -> Polytope:
     """Return the form with so many walls around Z, and two caps."""
     return _exactly([*_ring(sides), (0, 0, 1), (0, 0, -1)])
 
 
-def pyramid(sides):
+def pyramid(sides: int) -> Polytope:
     """Return the form with so many slopes around Z, and a base."""
     slopes = [(np.cos(SLOPE) * x, np.cos(SLOPE) * y, np.sin(SLOPE)) for x, y, _ in _ring(sides)]
     return _exactly([*slopes, (0, 0, -1)])
 
 
-def cylinder():
+def cylinder() -> Polytope:
     """Return a prism with so many sides that nobody sees them."""
     return prism(ROUND)
 
 
-def cone():
+def cone() -> Polytope:
     """Return a pyramid with so many sides that nobody sees them."""
     return pyramid(ROUND)
 

@@ -11,8 +11,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..aliases import BoolArray, FloatArray, IntArray
 from ..errors import CubicCraftError
+from ..inputs import real_numbers, vectors
 
 SAME = 1e-7
 """relative; distances below are rounding"""
@@ -26,7 +29,7 @@ STRONGEST = 4.0
 """distance of the nearest side; without this limit, bodies that are almost balls would have any"""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Polytope:
     """A convex body with flat sides that has the origin inside.
 
@@ -43,40 +46,49 @@ class Polytope:
     (8, 12, 6)
     """
 
-    normals: np.ndarray
+    normals: FloatArray
     """(f,3) unit normals of the facets"""
-    offsets: np.ndarray
+    offsets: FloatArray
     """(f,) distances of the facets from the origin"""
-    vertices: np.ndarray
+    vertices: FloatArray
     """(v,3)"""
     rounding: float = ROUNDED
     """relative distance below which vertices are one"""
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Polytope) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __repr__(self) -> str:
+        return f"Polytope({len(self.normals)} sides, {len(self.vertices)} vertices)"
+
     @cached_property
-    def key(self):
+    def key(self) -> bytes:
         """Bytes that are the same for the same body."""
         return self.normals.tobytes() + self.offsets.tobytes()
 
     @cached_property
-    def incidence(self):
+    def incidence(self) -> BoolArray:
         """(v,f) bool, which vertex lies on which facet."""
         distances = self.vertices @ self.normals.T - self.offsets
         return np.abs(distances) < 2.0 * self.rounding * self.radius
 
     @cached_property
-    def edges(self):
+    def edges(self) -> IntArray:
         """(e,2) int, pairs of vertices."""
         shared = self.incidence.astype(int) @ self.incidence.T
         return np.argwhere(np.triu(shared >= 2, 1))
 
     @property
-    def edge_facets(self):
+    def edge_facets(self) -> IntArray:
         """(e,2) int, the two facets of each edge."""
         both = self.incidence[self.edges[:, 0]] & self.incidence[self.edges[:, 1]]
         return np.argsort(~both, axis=1, kind="stable")[:, :2]
 
     @property
-    def facet_areas(self):
+    def facet_areas(self) -> FloatArray:
         """(f,) areas of the facets: of the triangles between their edges and their middles."""
         a, b = self.vertices[self.edges[:, 0]], self.vertices[self.edges[:, 1]]
         areas = np.zeros(len(self.normals))
@@ -86,32 +98,34 @@ class Polytope:
         return areas
 
     @property
-    def middles(self):
+    def middles(self) -> FloatArray:
         """(f,3) means of the vertices of each facet, which lie inside it."""
         return (self.incidence.T @ self.vertices) / self.incidence.sum(axis=0)[:, None]
 
     @cached_property
-    def radius(self):
+    def radius(self) -> float:
         """Largest distance of a vertex from the origin."""
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
-    def scaled(self, factor):
+    def scaled(self, factor: float) -> "Polytope":
         """Return the body in another size: its costs are as many times those of this one."""
         return replace(self, offsets=factor * self.offsets, vertices=factor * self.vertices)
 
-    def turned(self, turn):
+    def turned(self, turn: FloatArray) -> "Polytope":
         """Return the body whose cost at x is that of this one at ``turn x``, for (3,3) rotations.
 
         Reflections are welcome, too.
         """
         return replace(self, normals=self.normals @ turn, vertices=self.vertices @ turn)
 
-    def cost(self, x):
+    def cost(self, x: FloatArray) -> FloatArray:
         """Return the support function (n,) of vectors x (n,3)."""
         return (x @ self.vertices.T).max(axis=1)
 
 
-def from_directions(directions, offsets=None, rounding=ROUNDED):
+def from_directions(
+    directions: ArrayLike, offsets: ArrayLike | None = None, rounding: float = ROUNDED
+) -> Polytope:
     """Return the body of all points y with ``d.y <= offset`` for each direction d.
 
     Parameters
@@ -134,9 +148,9 @@ def from_directions(directions, offsets=None, rounding=ROUNDED):
     CubicCraftError
         The directions do not enclose the origin: the body would have no end.
     """
-    d = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
+    d = vectors(directions, "the directions of a form")
     sizes = np.linalg.norm(d, axis=1)
-    r = np.ones(len(d)) if offsets is None else np.asarray(offsets, dtype=np.float64)
+    r = np.ones(len(d)) if offsets is None else real_numbers(offsets, "the offsets of a form")
     if not (np.isfinite(d).all() and np.isfinite(r).all() and (sizes > 0.0).all() and len(d)):
         raise CubicCraftError("the directions of a form must be finite, and not zero")
     if not (r > NARROWEST * r.max()).all():
@@ -161,7 +175,7 @@ def from_directions(directions, offsets=None, rounding=ROUNDED):
     return replace(body, normals=d, offsets=r).scaled(strength / r.min())
 
 
-def from_points(points):
+def from_points(points: ArrayLike) -> Polytope:
     """Return the convex hull of points, about their origin.
 
     Parameters
@@ -178,7 +192,7 @@ def from_points(points):
     CubicCraftError
         The points are flat, or the origin does not lie inside.
     """
-    normals, offsets, _ = hull_planes(np.asarray(points, dtype=np.float64).reshape(-1, 3))
+    normals, offsets, _ = hull_planes(vectors(points, "the points of a form"))
     return from_directions(normals, offsets)
 
 

@@ -96,7 +96,7 @@ def test_the_input_is_never_written_to():
 @pytest.mark.parametrize(
     ("positions", "triangles", "words"),
     [
-        (V, np.concatenate([F, F], axis=1)[:, :4], "triangles must have the shape (m, 3)"),
+        (V, np.concatenate([F, F], axis=1)[:, :4], "has the vertex 0 twice"),
         (V[:, :2], F, "positions must have the shape (n, 3)"),
         (V, F.astype(float), "triangles must be integers"),
         (V, F + len(V), "triangles refer to vertices"),

@@ -43,6 +43,17 @@ def test_it_warns_of_nothing(executed):
             assert output.get("name") != "stderr", output.text
 
 
+def test_the_engine_says_nothing(tmp_path):
+    """Taichi tells that it is in a notebook, unless it is told to be quiet before its import."""
+    notebook = nbformat.v4.new_notebook()
+    source = (
+        "import cubic_craft\ncubic_craft.stylize([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]);"
+    )
+    notebook.cells = [nbformat.v4.new_code_cell(source)]
+    NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    assert notebook.cells[0].outputs == []
+
+
 def test_each_figure_is_drawn(executed):
     for cell in code(executed):
         pictures = [each for each in cell.outputs if "image/png" in each.get("data", {})]

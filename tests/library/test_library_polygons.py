@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from cubic_craft.command_line.polygons import MANY, triangulate
+from cubic_craft.mesh.polygons import MANY, triangulate
 
 TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What must hold for the method as a whole, on every shape and with both backends."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import shapes
@@ -8,6 +10,7 @@ from devices import by_device
 from procrustes import best_rotation
 
 from solver import CubicCraftError, Setup, Stylization, rest_mesh, run, stylize
+from solver.styles import forms
 
 FIXED = {"max_iterations": 40, "tolerance": 1e-12}
 Q = shapes.rotation(30, 20, 40)
@@ -199,8 +202,22 @@ def test_steps_one_at_a_time_equal_a_run(device):
         ({"orientation": np.diag([1.0, 1.0, -1.0])}, "must be a rotation"),
         ({"orientation": np.eye(2)}, r"shape \(3, 3\)"),
         ({"pinned": [42]}, "between 0 and 41"),
-        ({"pinned": np.ones(42, bool)}, "by number"),
-        ({"pinned": [0.7]}, "by number"),
+        ({"pinned": np.ones(41, bool)}, "one truth value for each of the 42 vertices"),
+        ({"pinned": [0.7]}, "by number, or be a mask of 42 truth values, not be float64"),
+        ({"pinned": ["0"]}, "not be text"),
+        ({"cubeness": "0.4"}, "cubeness must be real numbers, not text"),
+        ({"cubeness": None}, "cubeness must be real numbers, not None"),
+        ({"orientation": 1j * np.eye(3)}, "orientation must be real numbers, not complex128"),
+        ({"keep_rotation": "no"}, "keep_rotation must be True or False, not 'no'"),
+        ({"is_accelerated": 0}, "is_accelerated must be True or False, not 0"),
+        ({"form": "octahedron"}, "form must be of the type Polytope, not text"),
+        ({"form": forms.octahedron(), "form_of": np.ones(42, int)}, "form_of must lie between"),
+        ({"form": forms.octahedron(), "form_of": [0]}, r"form_of must have the shape \(42,\)"),
+        ({"proxy": {"solidity": 1}}, "proxy must be of the type ProxyOptions, not dict"),
+        ({"limbs": 3}, "limbs must be of the type KnownLimbs, not int"),
+        ({"precision": "f16"}, "precision must be f64 or f32"),
+        ({"tolerance": "small"}, "tolerance must be real numbers, not text"),
+        ({"max_iterations": [3]}, "max_iterations must be one number"),
         ({"pinned": [0], "targets": np.ones((2, 3))}, r"targets must have the shape \(42, 3\)"),
         ({"max_iterations": np.nan}, "max_iterations must"),
         ({"pinned": range(42)}, "all vertices are pinned"),
@@ -212,5 +229,23 @@ def test_steps_one_at_a_time_equal_a_run(device):
 )
 def test_bad_options_are_refused(options, message):
     V, F = shapes.blob(1)
-    with pytest.raises(CubicCraftError, match=message):
+    with pytest.raises(CubicCraftError, match=message) as caught:
         stylize(V, F, **{"cubeness": 0.3, "device": "numpy", **options})
+    assert "\n" not in str(caught.value)
+
+
+def test_options_that_are_not_there_are_named():
+    V, F = shapes.blob(1)
+    for function in (stylize, partial(Stylization, Setup(rest_mesh(V, F)), 0.3)):
+        with pytest.raises(TypeError, match="unexpected keyword argument 'orientaton'"):
+            function(V, F, orientaton=np.eye(3))
+
+
+def test_pins_may_be_a_mask():
+    V, F = shapes.blob(1)
+    numbers = np.flatnonzero(V[:, 2] > 0.3)
+    one, other = (
+        stylize(V, F, 0.3, pinned, device="numpy").positions
+        for pinned in (numbers, (V[:, 2] > 0.3).tolist())
+    )
+    assert len(numbers) and np.array_equal(one, other)

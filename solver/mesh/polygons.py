@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangulate polygons, so that the solver can work on them; the file keeps its faces.
+"""Triangulate polygons, so that the solver can work on them; the caller keeps the faces.
 
 Every corner is used, also those on a straight edge, which libraries for triangulation leave out:
 a vertex that no triangle has would not move.
 """
 
-import mapbox_earcut
-import numpy as np
+from typing import Any
 
-__all__ = ("triangulate",)
+import numpy as np
+from numpy.typing import NDArray
+
+from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..optional_packages import optional_package
 
 MANY = 100
 """corners: up to so many the best ear is cut off each time, which takes their number squared"""
@@ -18,7 +22,7 @@ BEND = 1e-4
 """how far the middle of a straight edge with corners on it is bent inward, of its length"""
 
 
-def triangulate(V: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     """Split polygons into triangles without new vertices.
 
     Parameters
@@ -31,6 +35,11 @@ def triangulate(V: np.ndarray, faces: np.ndarray) -> np.ndarray:
     -------
     (k * (s - 2), 3) numpy int array
         In the order of the polygons, and with their orientation; none for s less than 3.
+
+    Raises
+    ------
+    CubicCraftError
+        A concave one has more than `MANY` corners, and mapbox-earcut is not installed.
     """
     count, size = faces.shape
     if size <= 3:
@@ -43,8 +52,8 @@ def triangulate(V: np.ndarray, faces: np.ndarray) -> np.ndarray:
     if size > 4:
         for polygon in np.flatnonzero(~_is_fan(V, fans)):
             corners = V[faces[polygon]]
-            clip = _clip_ears if size <= MANY else _clip_many_ears
-            fans[polygon] = faces[polygon][clip(corners)]
+            clipped = _clip_ears(corners) if size <= MANY else _clip_many_ears(corners)
+            fans[polygon] = faces[polygon][clipped]
     return fans.reshape(-1, 3)
 
 
@@ -92,8 +101,13 @@ def _clip_many_ears(points):
     One that is not simple, of which not all corners are used, gets a fan.
     """
     size = len(points)
+    earcut = optional_package("mapbox_earcut")
+    if earcut is None:
+        raise CubicCraftError(
+            f"a face has {size} corners; for more than {MANY}, install mapbox-earcut"
+        )
     flat = _bent_inward(_in_plane(points))
-    triangles = mapbox_earcut.triangulate_float64(flat, np.array([size], np.uint32))
+    triangles = earcut.triangulate_float64(flat, np.array([size], np.uint32))
     triangles = triangles.reshape(-1, 3).astype(np.int64)
     if len(triangles) != size - 2:
         inner = np.arange(1, size - 1)

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The two parts of a glTF file: its JSON, and the bytes that this describes.
+
+All buffers of a file become one. What lies in other files is refused, not looked for.
+"""
+
+import base64
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+
+__all__ = ("GltfData",)
+
+_MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
+_HEAD = struct.Struct("<4sII")
+_CHUNK = struct.Struct("<II")
+_TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+_URI = "data:application/octet-stream;base64,"
+
+
+class GltfData:
+    """A file in memory.
+
+    Parameters
+    ----------
+    tree : dict
+        The JSON, whose buffer views refer to one buffer.
+    binary : bytearray
+        The buffer.
+    """
+
+    def __init__(self, tree: dict[str, Any], binary: bytearray) -> None:
+        self.tree, self.binary = tree, binary
+
+    @classmethod
+    def read(cls, path: Path) -> "GltfData":
+        """Read a .glb or .gltf file.
+
+        Raises
+        ------
+        InputError
+            It refers to another file, or is cut off; the message lacks the path.
+        """
+        content = path.read_bytes()
+        if not content.startswith(_MAGIC):
+            return cls._joined(json.loads(content), b"")
+        _, version, length = _HEAD.unpack_from(content)
+        if version != 2 or length > len(content):
+            raise InputError("is cut off or of another version than 2; export it again")
+        chunks: dict[int, bytes] = {}
+        begin = _HEAD.size
+        while begin + _CHUNK.size <= length:
+            size, kind = _CHUNK.unpack_from(content, begin)
+            begin += _CHUNK.size
+            chunks.setdefault(kind, content[begin : begin + size])
+            begin += size
+        return cls._joined(json.loads(chunks[_JSON]), chunks.get(_BINARY, b""))
+
+    @classmethod
+    def _joined(cls, tree: dict[str, Any], chunk: bytes) -> "GltfData":
+        binary, starts = bytearray(), list[int]()
+        for buffer in tree.get("buffers", ()):
+            uri, length = buffer.pop("uri", None), buffer["byteLength"]
+            if uri is not None and not uri.startswith("data:"):
+                raise InputError(f"its data lies in {uri[:80]!r}; export it as one .glb file")
+            data = chunk if uri is None else base64.b64decode(uri.partition(",")[2])
+            if len(data) < length:
+                raise InputError("its data is cut off; export it again")
+            binary.extend(b"\0" * (-len(binary) % 4))
+            starts.append(len(binary))
+            binary.extend(data[:length])
+        for view in tree.get("bufferViews", ()):
+            view["byteOffset"] = view.get("byteOffset", 0) + starts[view["buffer"]]
+            view["buffer"] = 0
+        return cls(tree, binary)
+
+    def accessor(self, number: int) -> np.ndarray:
+        """Return the values (k,w) of an accessor, which can be written to.
+
+        Raises
+        ------
+        InputError
+            They are stored in a way that is not known here.
+        """
+        accessor = self.tree["accessors"][number]
+        if "sparse" in accessor or "bufferView" not in accessor:
+            raise InputError("has sparse or compressed data; export it without compression")
+        view = self.tree["bufferViews"][accessor["bufferView"]]
+        kind, width = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]]
+        size = width * kind.itemsize
+        stride = view.get("byteStride", size)
+        begin, count = view["byteOffset"] + accessor.get("byteOffset", 0), accessor["count"]
+        if begin < 0 or count < 1 or begin + (count - 1) * stride + size > len(self.binary):
+            raise InputError("its data is cut off; export it again")
+        strides = (stride, kind.itemsize)
+        return np.ndarray((count, width), kind, self.binary, begin, strides)
+
+    def add(self, values: np.ndarray, **of_accessor: Any) -> int:
+        """Store values at the end, and return the number of their accessor."""
+        views = self.tree.setdefault("bufferViews", [])
+        accessors = self.tree.setdefault("accessors", [])
+        self.binary.extend(b"\0" * (-len(self.binary) % 4))
+        place = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": values.nbytes}
+        views.append(place)
+        self.binary.extend(values.tobytes())
+        accessors.append({"bufferView": len(views) - 1, "count": len(values), **of_accessor})
+        return len(accessors) - 1
+
+    def write(self, path: Path) -> None:
+        """Write a .glb or .gltf file, as its suffix says."""
+        binary = bytes(self.binary) + b"\0" * (-len(self.binary) % 4)
+        tree = {**self.tree, "buffers": [{"byteLength": len(binary)}]} if binary else self.tree
+        if path.suffix.lower() == ".gltf":
+            if binary:
+                tree["buffers"][0]["uri"] = _URI + base64.b64encode(binary).decode("ascii")
+            path.write_text(json.dumps(tree), encoding="utf-8")
+            return
+        text = json.dumps(tree, separators=(",", ":")).encode("utf-8")
+        text += b" " * (-len(text) % 4)
+        chunks = [_CHUNK.pack(len(text), _JSON), text]
+        if binary:
+            chunks += [_CHUNK.pack(len(binary), _BINARY), binary]
+        length = _HEAD.size + sum(map(len, chunks))
+        path.write_bytes(b"".join([_HEAD.pack(_MAGIC, 2, length), *chunks]))

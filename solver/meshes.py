@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of other libraries: those of trimesh and of meshio, which are known by what they have.
+
+Neither library is imported.
+"""
+
+from collections.abc import Sequence
+from copy import deepcopy
+from typing import Any, TypedDict, TypeVar, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .aliases import Device, FloatArray, Precision
+from .errors import CubicCraftError
+from .limbs import KnownLimbs
+from .mesh.mesh_checks import check_mesh
+from .normal_capture import NormalCapture
+from .proxy import ProxyOptions
+from .runner import OnIteration, stylize
+from .styles.admm import AdmmOptions
+from .styles.polytope import Polytope
+
+M = TypeVar("M")
+
+_FACES = ("triangle", "quad", "polygon")
+_NORMALS = ("nx", "ny", "nz")
+
+
+class Options(TypedDict, total=False):
+    """What `stylize` takes besides."""
+
+    max_iterations: int
+    tolerance: float
+    on_iteration: OnIteration | None
+    progress: bool
+    proxy: ProxyOptions
+    orientation: ArrayLike | None
+    targets: ArrayLike | None
+    form: Polytope | Sequence[Polytope] | None
+    form_of: ArrayLike | None
+    capture: NormalCapture | Sequence[NormalCapture] | None
+    capture_strength: ArrayLike
+    capture_of: ArrayLike | None
+    limbs: KnownLimbs | None
+    keep_rotation: bool
+    device: Device
+    precision: Precision | None
+    admm: AdmmOptions | None
+    is_accelerated: bool
+
+
+def stylize_mesh(
+    mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Unpack[Options]
+) -> M:
+    """Return the cubic version of a mesh of trimesh or meshio, with everything that it has.
+
+    Colors, UVs, materials and other data stay. Normals of points that meshio has read turn with the
+    surface; trimesh computes its own anew.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh or meshio.Mesh
+        It is not changed. Lines and points of meshio stay where they are, unless they belong to the
+        surface.
+    cubeness, pinned, **options
+        As for `stylize`.
+
+    Returns
+    -------
+    trimesh.Trimesh or meshio.Mesh
+        As the mesh.
+
+    Raises
+    ------
+    CubicCraftError
+        It is no such mesh or no surface, or as for `stylize`.
+
+    See Also
+    --------
+    stylize : For arrays; also tells the energy, and whether it has converged.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> from solver import stylize_mesh
+    >>> V, F = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3]]
+    >>> mesh = SimpleNamespace(vertices=V, faces=F)  # instead of a trimesh.Trimesh
+    >>> stylize_mesh(mesh, 0.4, device="numpy").vertices.shape
+    (4, 3)
+    """
+    if hasattr(mesh, "points") and hasattr(mesh, "cells"):
+        return _stylized_meshio(mesh, cubeness, pinned, options)
+    if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+        raise CubicCraftError(
+            "the mesh must have vertices and faces, as those of trimesh, or points and cells, as"
+            f" those of meshio, which a {type(mesh).__name__} does not"
+        )
+    given, made = _any(mesh), _any(deepcopy(mesh))
+    made.vertices = stylize(given.vertices, given.faces, cubeness, pinned, **options).positions
+    return made
+
+
+def with_turned_normals(
+    point_data: dict[str, NDArray[Any]], rotations: FloatArray
+) -> dict[str, NDArray[Any]]:
+    """Return data of points, as meshio names it, with normals that fit the new shape."""
+    turned = dict(point_data)
+    if all(name in point_data for name in _NORMALS):
+        columns = [point_data[name] for name in _NORMALS]
+        normals = np.einsum("nij,nj->ni", rotations, np.stack(columns, axis=1))
+        turned.update(
+            (name, column.astype(old.dtype))
+            for name, column, old in zip(_NORMALS, normals.T, columns, strict=True)
+        )
+    for name, data in point_data.items():
+        if name.lower() in ("normal", "normals") and data.shape == (len(rotations), 3):
+            turned[name] = np.einsum("nij,nj->ni", rotations, data).astype(data.dtype)
+    return turned
+
+
+def _any(mesh: object) -> Any:
+    return mesh
+
+
+def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: Options) -> M:
+    given, made = _any(mesh), _any(deepcopy(mesh))
+    faces: list[NDArray[Any]] = []
+    for block in given.cells:
+        if block.type in _FACES and len(block.data):
+            faces.append(check_mesh(given.points, block.data)[1])
+        elif block.dim > 1 and block.type not in _FACES:
+            raise CubicCraftError(
+                f"the mesh has cells of the type {block.type}; give a surface of triangles, quads"
+                " and polygons"
+            )
+    triangles = np.concatenate(faces) if faces else np.empty((0, 3), int)
+    result = stylize(given.points, triangles, cubeness, pinned, **options)
+    points = np.asarray(given.points)
+    made.points = result.positions.astype(points.dtype if points.dtype.kind == "f" else float)
+    made.point_data = with_turned_normals(given.point_data, result.rotations)
+    return made

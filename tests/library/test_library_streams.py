@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command with several inputs, with standard input and output, and where it must not write."""
+
+import subprocess
+import sys
+
+import meshio
+import numpy as np
+import pytest
+from command import COMMAND, QUICK, cubic_craft, quick, refused
+
+from cubic_craft.command_line.standard_streams import format_of
+from scripts.benchmark.shapes import blob
+
+V, F = blob(1)
+EXPECTED = quick(V, F).positions
+ENDINGS = (".obj", ".ply", ".stl", ".off", ".vtk", ".vtu")
+
+
+def save(path):
+    meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(path)
+    return path.name
+
+
+def piped(content, *arguments, code=0):
+    words = [COMMAND, *arguments, *QUICK]
+    done = subprocess.run(words, input=content, capture_output=True, check=False)
+    assert done.returncode == code, done.stderr
+    return done.stdout, done.stderr.decode().splitlines()
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_what_comes_is_known_by_its_content(ending, tmp_path):
+    save(tmp_path / f"blob{ending}")
+    nameless = (tmp_path / f"blob{ending}").rename(tmp_path / "blob")
+    assert format_of(nameless) == ending
+
+
+def test_pipes_pass_meshes_on(tmp_path):
+    save(tmp_path / "blob.ply")
+    out, lines = piped((tmp_path / "blob.ply").read_bytes(), "-", "-")
+    assert out.startswith(b"ply") and len(lines) == 1 and lines[0].startswith("cubic-craft: -: 42")
+    (tmp_path / "out.ply").write_bytes(out)
+    assert np.allclose(meshio.read(tmp_path / "out.ply").points, EXPECTED)
+    out, lines = piped((tmp_path / "blob.ply").read_bytes(), "-", "-", "--format", "obj", "--quiet")
+    assert out.count(b"\nv ") + out.startswith(b"v ") == len(V) and lines == []
+
+
+def test_what_is_wrong_with_standard_input_is_said():
+    for content, words in (
+        (b"", "the file is empty"),
+        (b"hello", "no faces"),
+        (b"ply", "no .ply file"),
+    ):
+        out, lines = piped(content, "-", "-", code=2)
+        assert not out and len(lines) == 1
+        assert lines[0].startswith("cubic-craft: error: standard input: ") and words in lines[0]
+
+
+def test_several_inputs_go_to_a_folder(tmp_path):
+    names = [save(tmp_path / f"{name}.ply") for name in "ab"]
+    (tmp_path / "cut.ply").write_text("ply\n")
+    (tmp_path / "out").mkdir()
+    words = [COMMAND, "a.ply", "cut.ply", "b.ply", "out", *QUICK]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    lines = done.stderr.splitlines()
+    assert done.returncode == 2 and len(lines) == 3, done.stderr
+    assert lines[1].startswith("cubic-craft: error: cut.ply: ")
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
+    assert np.allclose(meshio.read(tmp_path / "out" / "b.ply").points, EXPECTED)
+
+
+def test_a_quiet_run_says_nothing(tmp_path):
+    assert cubic_craft(save(tmp_path / "a.ply"), "b.ply", "--quiet", *QUICK, folder=tmp_path) == []
+
+
+def test_inputs_that_would_be_lost_are_refused(tmp_path):
+    (tmp_path / "other").mkdir()
+    save(tmp_path / "a.ply")
+    save(tmp_path / "other" / "a.ply")
+    assert "this is the input" in refused("a.ply", "other/a.ply", ".", folder=tmp_path)
+    (tmp_path / "out").mkdir()
+    assert "two inputs have this name" in refused("a.ply", "other/a.ply", "out", folder=tmp_path)
+    assert "is no folder" in refused("a.ply", "other/a.ply", "b.ply", folder=tmp_path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it needs rights for links")
+def test_links_and_what_is_protected_stay(tmp_path):
+    save(tmp_path / "a.obj")
+    (tmp_path / "old.obj").write_text("precious")
+    (tmp_path / "link.obj").symlink_to("old.obj")
+    assert "link.obj: this is a link" in refused("a.obj", "link.obj", folder=tmp_path)
+    (tmp_path / "old.obj").chmod(0o444)
+    assert "old.obj: this file is write-protected" in refused("a.obj", "old.obj", folder=tmp_path)
+    assert (tmp_path / "link.obj").is_symlink()
+    assert (tmp_path / "old.obj").read_text() == "precious"
