@@ -84,7 +84,7 @@ def _jobs(options: Namespace) -> list[tuple[str, str]]:
     elif Path(output).is_dir():
         jobs = [(source, str(Path(output) / Path(source).name)) for source in inputs]
     else:
-        raise InputError(f"{output}: is no folder, which several results need; create it")
+        raise InputError(f"{output}: is not a folder, which several results need; create it")
     written: set[str] = set()
     for source, target in jobs:
         if len(jobs) > 1 and source == STANDARD:

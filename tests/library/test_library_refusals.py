@@ -78,7 +78,7 @@ FILES = {
     "two_corners.obj": (TRIANGLE.replace("f 1 2 3", "f 1 2"), "at least 3 corners"),
     "digits.obj": (TRIANGLE.replace("f 1", f"f {DIGITS}"), f"there is no vertex {DIGITS}"),
     "too_large.obj": (TRIANGLE.replace("1 0 0", "-1e308 0 0"), "which is too large"),
-    "corner.obj": (TRIANGLE.replace("f 1", "f x"), "'x' is no corner"),
+    "corner.obj": (TRIANGLE.replace("f 1", "f x"), "'x' is not a corner"),
     "huge.obj": (TRIANGLE.replace("f 1 2 3", "v 1e999 1 0\nf 1 2 4 3"), "not finite"),
     "binary.obj": ("\x00\x01\x02", "no faces"),
     "empty.ply": ("", "the file is empty"),

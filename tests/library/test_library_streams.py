@@ -81,7 +81,7 @@ def test_inputs_that_would_be_lost_are_refused(tmp_path):
     assert "this is the input" in refused("a.ply", "other/a.ply", ".", folder=tmp_path)
     (tmp_path / "out").mkdir()
     assert "two inputs have this name" in refused("a.ply", "other/a.ply", "out", folder=tmp_path)
-    assert "is no folder" in refused("a.ply", "other/a.ply", "b.ply", folder=tmp_path)
+    assert "is not a folder" in refused("a.ply", "other/a.ply", "b.ply", folder=tmp_path)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it needs rights for links")
