@@ -2,12 +2,9 @@
 """Load what a first run needs, in short pieces, before anybody waits for it."""
 
 from collections.abc import Iterator
-from importlib import import_module
-from importlib.util import find_spec
 
 from .aliases import Device
-
-_IMPORTED_LATE = ("scipy.sparse", "scipy.sparse.linalg", "scipy.spatial", "cholespy")
+from .optional_packages import optional_package
 
 
 def loading_steps(device: Device = "auto") -> Iterator[None]:
@@ -41,10 +38,14 @@ def loading_steps(device: Device = "auto") -> Iterator[None]:
 
 
 def _import_packages():
-    for package in _IMPORTED_LATE:
-        if find_spec(package.partition(".")[0]) is not None:
-            import_module(package)
-            yield
+    import scipy.sparse.linalg
+
+    yield
+    import scipy.spatial  # noqa: F401
+
+    yield
+    optional_package("cholespy")
+    yield
 
 
 def _start_engine(device):
