@@ -33,15 +33,16 @@ pytestmark = [
 def browse(tmp_path):
     """Return a function that opens an address and gives what Chromium prints."""
 
-    def run(address, *options):
+    def opened(address, *options):
         command = [
             *(BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"),
             *("--allow-file-access-from-files", f"--user-data-dir={tmp_path}"),
             *("--virtual-time-budget=60000", *options, address),
         ]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        run = subprocess.run(command, capture_output=True, text=True, check=True, timeout=180)
+        return run.stdout
 
-    return run
+    return opened
 
 
 def on_phone(*pages):
