@@ -23,7 +23,8 @@ from .styles.polytope import Polytope
 
 M = TypeVar("M")
 
-_FACES = ("triangle", "quad", "polygon")
+FACES = ("triangle", "quad", "polygon")
+"""meshio's names of the cells of a surface"""
 _NORMALS = ("nx", "ny", "nz")
 
 
@@ -127,9 +128,9 @@ def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: O
     given, made = _any(mesh), _any(deepcopy(mesh))
     faces: list[NDArray[Any]] = []
     for block in given.cells:
-        if block.type in _FACES and len(block.data):
+        if block.type in FACES and len(block.data):
             faces.append(check_mesh(given.points, block.data)[1])
-        elif block.dim > 1 and block.type not in _FACES:
+        elif block.dim > 1 and block.type not in FACES:
             raise CubicCraftError(
                 f"the mesh has cells of the type {block.type}; give a surface of triangles, quads"
                 " and polygons"

@@ -17,17 +17,16 @@ from .inputs import instance, vertex_mask, vertex_numbers
 from .proxy import Links
 from .rest import RestMesh
 from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
-from .values import described, is_same
+from .values import Stored, described
 
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, in a ring beside held vertices that is left free:
 it moves by less than this length."""
 MOST_STRETCH = 4.0
 """How often larger or smaller the area around a vertex may be in a pose that the weights suit."""
-_MADE_ANEW = ("global_step", "coarse")
 
 
-class Setup:
+class Setup(Stored):
     """A rest mesh, its pinned vertices and the factorisation for both.
 
     It can be pickled, and is factorized anew where it is read.
@@ -74,6 +73,8 @@ class Setup:
     (array([0]), array([ True]))
     """
 
+    _made_anew = ("global_step", "coarse")  # factorizations, which cannot be stored
+
     def __init__(
         self,
         rest: RestMesh,
@@ -101,14 +102,8 @@ class Setup:
         self.global_step = GlobalStep(rest, self.pinned)
         self.hold_fields: HoldFields | None = None
 
-    def __copy__(self):
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        return other
-
     def __getstate__(self) -> dict[str, Any]:
-        """Leave out the factorisations, which cannot be stored: they are made anew."""
-        state = {name: x for name, x in self.__dict__.items() if name not in _MADE_ANEW}
+        state = super().__getstate__()
         state["hold_fields"] = None if self.hold_fields is None else self.hold_fields.weights
         return state
 
@@ -117,13 +112,6 @@ class Setup:
         self.global_step = GlobalStep(self.rest, self.pinned)
         if state["hold_fields"] is not None:
             self.__dict__.update(self.with_holds(state["hold_fields"]).__dict__)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Setup):
-            return NotImplemented
-        return is_same(*(sorted(x.__getstate__().items()) for x in (self, other)))
-
-    __hash__ = object.__hash__  # it is one of many uses of the same arrays
 
     def __repr__(self) -> str:
         pins, holds = len(self.pinned_input), self.hold_fields

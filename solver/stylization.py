@@ -24,13 +24,12 @@ from .styles.admm import AdmmOptions
 from .styles.polytope import Polytope
 from .styles.polytopes import polytopes
 from .symmetry import Mirror
-from .values import described, is_same
+from .values import Stored, described
 
-_MADE_ANEW = ("_local", "_motion", "_constraints", "_acceleration")
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
 
 
-class Stylization:
+class Stylization(Stored):
     """The state of one run: call `step` repeatedly and read `positions`.
 
     One that is pickled goes on from its shape where it is read, without its momentum.
@@ -115,6 +114,9 @@ class Stylization:
     (3, (4, 3))
     """
 
+    # what lies on the device: it is made anew from the positions and rotations
+    _made_anew = ("_local", "_motion", "_constraints", "_acceleration")
+
     def __init__(
         self,
         setup: Setup,
@@ -194,14 +196,8 @@ class Stylization:
         self._motion = self._local.motion(self.setup, U, constraints)
         self._acceleration = self._momentum()
 
-    def __copy__(self):
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        return other
-
     def __getstate__(self) -> dict[str, Any]:
-        """Leave out what lies on the device: it is made anew from the positions and rotations."""
-        state = {name: x for name, x in self.__dict__.items() if name not in _MADE_ANEW}
+        state = super().__getstate__()
         return {**state, "positions": self.positions, "rotations": self.rotations}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -209,13 +205,6 @@ class Stylization:
         self.__dict__.update(state)
         self._begin(U.copy())
         self._local.start_from(R)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Stylization):
-            return NotImplemented
-        return is_same(*(sorted(x.__getstate__().items()) for x in (self, other)))
-
-    __hash__ = object.__hash__  # its state changes
 
     def __repr__(self) -> str:
         values = [("setup", self.setup), ("iteration", self.iteration), ("energy", self.energy)]

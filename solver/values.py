@@ -7,7 +7,7 @@ values, and print thousands of numbers.
 
 from collections.abc import Iterable
 from dataclasses import fields
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -41,6 +41,31 @@ class Value:
     def __repr__(self) -> str:
         shown = [(each.name, getattr(self, each.name)) for each in fields(self) if each.repr]  # pyright: ignore[reportArgumentType]
         return described(type(self), shown)
+
+
+class Stored:
+    """A base of what leaves out of its stored state what is made anew where that is read.
+
+    A copy shares all of it instead. Two are equal if their stored states are.
+    """
+
+    _made_anew: ClassVar[tuple[str, ...]]
+    """names of what is left out"""
+
+    def __copy__(self) -> Self:
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: x for name, x in self.__dict__.items() if name not in self._made_anew}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, type(self)):
+            return NotImplemented
+        return is_same(*(sorted(x.__getstate__().items()) for x in (self, other)))
+
+    __hash__ = object.__hash__  # it may change, and is one of many uses of the same arrays
 
 
 def is_same(one: Any, other: Any) -> bool:

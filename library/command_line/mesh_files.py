@@ -19,7 +19,7 @@ from typing import Any
 import meshio
 import numpy as np
 
-from solver.meshes import with_turned_normals
+from solver.meshes import FACES, with_turned_normals
 
 from .decompression import within_memory
 from .errors import InputError
@@ -32,7 +32,6 @@ from .vtk_file import read_vtk, with_quoted_names
 
 __all__ = ("MeshFile", "read", "write")
 
-_FACES = ("triangle", "quad", "polygon")
 _GLTF = (".glb", ".gltf")
 _LARGEST = 1e75  # the fourth power is finite
 
@@ -73,7 +72,7 @@ def read(path: Path) -> MeshFile:
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     mesh = _read_with_meshio(path)
-    faces = [block.data for block in mesh.cells if block.type in _FACES]
+    faces = [block.data for block in mesh.cells if block.type in FACES]
     _check_kind(path, mesh)
     points = np.array(mesh.points, dtype=np.float64)
     _check_size(path, points)
@@ -166,7 +165,7 @@ def _check_kind(path: Path, mesh: Any) -> None:
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3:
         raise InputError(f"{path}: its points are not in space; export it with three coordinates")
     for block in mesh.cells:
-        if block.dim == 3 or (block.dim == 2 and block.type not in _FACES):
+        if block.dim == 3 or (block.dim == 2 and block.type not in FACES):
             raise InputError(
                 f"{path}: has cells of the type {block.type}; give a surface of triangles, quads "
                 "and polygons"

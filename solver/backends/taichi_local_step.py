@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import CubicCraftError
 from ..global_step.motion import Motion
 from ..styles.admm import admm_rotations
 from ..styles.cube import CUBE
@@ -87,8 +86,6 @@ class TaichiLocalStep:
         normals = rest.normals if normals is None else normals
         self._wanted, self.device = device, runtime.device
         precision = precision or ("f64" if runtime.has_f64 else "f32")
-        if precision not in ("f64", "f32"):
-            raise CubicCraftError(f'the precision must be f64 or f32, not "{precision}"')
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         # The newer LLVM of Quadrants makes vectors of a third of them only: there one vertex after

@@ -90,7 +90,7 @@ def limbs_of_shape(V, skin, links, part):
     if len(directions):
         piece, directions = _without_short(piece, directions, skeleton, width, distance)
         piece = _without_trunks(piece, len(directions), skeleton.graph, width)
-        piece, directions = _cut(piece, directions, skeleton, direction, confidence, width)
+        piece, directions = _cut(piece, directions, skeleton, confidence)
     if not len(directions):
         return no_limbs(len(V))
     shares = np.zeros((len(piece), len(directions)))
@@ -244,7 +244,7 @@ def _without_trunks(piece, count, graph, width):
     return result
 
 
-def _cut(piece, directions, skeleton, direction, confidence, width):
+def _cut(piece, directions, skeleton, confidence):
     """Return pieces (m,) and directions (s,3) of which those that bend are cut into short ones.
 
     The less of a limb a node is, the more it lies like its whole piece: where a neck begins, what
@@ -260,10 +260,9 @@ def _cut(piece, directions, skeleton, direction, confidence, width):
         count = max(round(length / (CUT * skeleton.thickness[rows].mean())), 1)
         place = np.minimum((along - begin) * (count / max(length, 1e-12)), count - 1).astype(int)
         share = confidence[rows]
-        own = _tangents(skeleton.place[rows], place, share, count, axis)[place]
-        own = share[:, None] * own + (1.0 - share)[:, None] * axis
-        sums = np.stack([np.bincount(place, x, count) for x in own.T], axis=1)
-        sums[np.bincount(place, minlength=count) == 0] = axis
+        limb, all_of_it = (np.bincount(place, x, count)[:, None] for x in (share, None))
+        own = _tangents(skeleton.place[rows], place, share, count, axis)
+        sums = np.where(all_of_it > 0, limb * own + (all_of_it - limb) * axis, axis)
         pieces = sums / np.linalg.norm(sums, axis=1)[:, None]
         if len(rows) < OF_NODES * count or (pieces @ axis > BEND).all():
             pieces, place = axis[None], np.zeros(len(rows), dtype=int)
