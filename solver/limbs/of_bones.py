@@ -196,6 +196,7 @@ def _confidence(bones):
         is_part = is_foot[bone] or (
             confidence[parent] > own[bone]
             and bones.widths[bone] <= THICKER * bones.widths[parent]
+            and bones.directions[bone] @ bones.directions[parent] > GOES_ON
             and _is_end(bone, bones)
         )
         if is_part:

@@ -89,6 +89,17 @@ def test_a_head_stays_trunk_and_a_hand_goes_with_its_arm():
     np.testing.assert_allclose(limbs.present, [TILTED, TILTED], atol=1e-12)
 
 
+def test_arms_of_a_slim_figure_are_no_hands_of_its_spine():
+    """Its spine is as long and thin as a limb; shoulders go aside from it, and lead to the arms."""
+    spine = ((0, 0, 0), Z, 0.2, -1)
+    shoulders = [(Z, (x, 0, 0.95), 0.12, 0) for x in (0.3, -0.3)]
+    arm = ((0.3, 0, 0.95), (0.8, 0, 0.45), 0.08, 1)
+    own, limbs = shares(spine, *shoulders, arm)
+    assert own[0] > 0.9 and own[3] > 0.9
+    for bone, direction in ((0, Z), (3, TILTED)):
+        np.testing.assert_allclose(abs(limbs.carried[bone] @ limbs.directions[bone] @ direction), 1)
+
+
 def test_a_foot_keeps_the_frame_of_the_object():
     leg = np.array([0.3, 0.0, -1.0]) / np.hypot(0.3, 1.0)
     foot = 3 * leg - 0.7 * Y - 0.2 * Z
