@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import details
 from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
-from .contacts.crossings import crossings
+from .contacts.crossings import CrossingTriangles
 from .inputs import instance, real_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings
 from .memory import check_memory
@@ -237,11 +237,9 @@ class RestMesh(Value):
         return number[self.triangles]
 
     @cached_property
-    def crossing_at_rest(self) -> BoolArray:
-        """(k,) bool array, the triangles of the input that cross others at rest."""
-        is_crossing = np.zeros(len(self.shown), dtype=bool)
-        is_crossing[crossings(self.V, self.shown).ravel()] = True
-        return is_crossing
+    def crosses_at_rest(self) -> CrossingTriangles:
+        """Which triangles of the input cross others at rest."""
+        return CrossingTriangles(self.V, self.shown)
 
     def linked(self, links: Links) -> "RestMesh":
         """Return the mesh with further links, which change nothing in what covers what."""

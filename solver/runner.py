@@ -39,7 +39,7 @@ _log = logging.getLogger(__name__)
 Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
 OnIteration: TypeAlias = Callable[[Stylization], object]
 
-OF_ROUND = 4
+OF_ROUND = 8
 LEAST_ROUND = 10
 """A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""

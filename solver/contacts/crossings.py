@@ -12,20 +12,22 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from ..algebra import cross, dot
-from .overlaps import blocks_of_overlaps
+from .overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""
 _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is left
 
 
-def crossings(V, F):
+def crossings(V, F, is_asked=None):
     """Find the pairs of triangles that cross.
 
     Parameters
     ----------
     V : (n,3) float array
     F : (m,3) int array
+    is_asked : (m,) bool array, optional
+        Pairs of two others are left out, which takes little time if few are asked for.
 
     Returns
     -------
@@ -34,22 +36,53 @@ def crossings(V, F):
     """
     V = np.asarray(V, dtype=np.float64)
     F = np.asarray(F)
-    used = np.flatnonzero(np.isfinite(V[F]).all(axis=(1, 2)))
-    if len(used) < 2:
+    used = np.flatnonzero(np.isfinite(V).all(axis=1)[F].all(axis=1))
+    if len(used) < 2 or not (is_asked is None or is_asked[used].any()):
         return np.empty((0, 2), np.intp)
-    low, high = V[F[used]].min(axis=(0, 1)), V[F[used]].max(axis=(0, 1))
-    size = float((high - low).max())
+    low, high = _boxes(V, F[used])
+    origin = low.min(axis=0)
+    size = float((high.max(axis=0) - origin).max())
     if not size > 0.0:
         return np.empty((0, 2), np.intp)
-    planes = _Planes((V - low) / size, F[used])
+    V, low, high = ((x - origin) / size for x in (V, low, high))
+    if is_asked is not None:
+        is_near = near(low, high, is_asked[used])
+        used, low, high = used[is_near], low[is_near], high[is_near]
+    planes = _Planes(V, F[used])
 
     def crossing(block):
         return planes.crossing(*planes.apart(*block))
 
     with ThreadPoolExecutor(2) as beside:
-        found = list(beside.map(crossing, blocks_of_overlaps(*planes.boxes)))
+        found = list(beside.map(crossing, blocks_of_overlaps(low, high)))
     pairs = np.sort(used[np.concatenate([np.empty((0, 2), np.intp), *found])], axis=1)
+    if is_asked is not None:
+        pairs = pairs[is_asked[pairs].any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])]
+
+
+class CrossingTriangles:
+    """Which triangles cross others; found out where it is asked for.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+    F : (m,3) int array
+    """
+
+    def __init__(self, V, F):
+        self._V, self._F = V, F
+        self._is_known, self._is_crossing = np.zeros((2, len(F)), dtype=bool)
+
+    def __call__(self, triangles):
+        """Return which of some triangles (...) cross others."""
+        is_asked = np.zeros(len(self._F), dtype=bool)
+        is_asked[triangles] = True
+        is_asked &= ~self._is_known
+        if is_asked.any():
+            self._is_crossing[crossings(self._V, self._F, is_asked).ravel()] = True
+            self._is_known |= is_asked
+        return self._is_crossing[triangles]
 
 
 class Watched:
@@ -66,26 +99,35 @@ class Watched:
         Triangles that move; pairs of two others are not watched.
     reach : float
         How far each coordinate may go from V.
+    counts : callable
+        Maps pairs of triangles (k,2) to a mask (k,) of those that are to be watched.
     """
 
-    def __init__(self, V, F, is_moved, reach):
-        planes = _Planes(V, F)
-        low, high = planes.boxes
+    def __init__(self, V, F, is_moved, reach, counts):
+        low, high = _boxes(V, F)
         margin = reach * is_moved[:, None]
         low, high = low - margin, high + margin
         origin = low.min(axis=0)
         size = (high.max(axis=0) - origin).max()
-        pairs = [np.empty((2, 0), np.int32)]
-        for block in blocks_of_overlaps((low - origin) / size, (high - origin) / size):
-            i, j = planes.apart(*block)
-            is_watched = is_moved[i] | is_moved[j]
-            pairs.append(np.stack([i[is_watched], j[is_watched]]))
-        self._used, place = np.unique(np.concatenate(pairs, axis=1), return_inverse=True)
+        low, high = (low - origin) / size, (high - origin) / size
+        used = np.flatnonzero(near(low, high, is_moved))
+        planes = _Planes(V, F[used])
+        found = [planes.apart(*block) for block in blocks_of_overlaps(low[used], high[used])]
+        pairs = used[np.concatenate([np.empty((2, 0), np.intp), *map(np.stack, found)], axis=1)]
+        pairs = pairs[:, is_moved[pairs].any(axis=0)]
+        self._used, place = np.unique(pairs[:, counts(pairs.T)], return_inverse=True)
         self._F, self._pairs = F[self._used], place.reshape(2, -1)
 
     def crossings(self, V):
         """Return which of these pairs cross at other positions, as triangles (k,2)."""
         return self._used[_Planes(V, self._F).crossing(*self._pairs)]
+
+
+def _boxes(V, F):
+    """Return the lower and the upper corners (m,3) of the boxes around triangles."""
+    places = np.ascontiguousarray(V.T)
+    a, b, c = (places.take(corner, axis=1) for corner in F.T)
+    return np.minimum(np.minimum(a, b), c).T, np.maximum(np.maximum(a, b), c).T
 
 
 class _Planes:
@@ -96,7 +138,6 @@ class _Planes:
         self.F = np.ascontiguousarray(F.T, dtype=np.int32)
         self.corners = [list(places.take(corner, axis=1)) for corner in self.F]
         a, b, c = (np.array(corner) for corner in self.corners)
-        self.boxes = np.minimum(np.minimum(a, b), c).T, np.maximum(np.maximum(a, b), c).T
         normal = np.array(cross(*(b - a), *(c - a)))
         normal /= np.maximum(np.sqrt(dot(*normal, *normal)), 1e-300)
         self.normal, self.offset = list(normal), dot(*normal, *a)

@@ -3,11 +3,12 @@
 
 At the end of a run, triangles that cross and did not cross at rest are found. Without any, that is
 all. A few are pushed apart. Otherwise links are made across the gaps that are closed, the global
-step is factorized anew, and the iteration goes on from where it is; up to four times. The links
-only add a term to the energy, so it falls in every step of a round.
+step is factorized anew, and the iteration goes on from where it is; up to four times, but not for
+the few that a round has left and pushing does not part: another round hardly does. The links only
+add a term to the energy, so it falls in every step of a round.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from .push import pushed
 
 ROUNDS = 4
 FEW = 1.0 / 2000.0
-"""of the triangles: so few are pushed apart first, and only if that fails there is a round"""
+"""of the triangles: so few are pushed apart first, and only if that fails there is a first round"""
 FEWEST = 40
 """triangles that are few on any mesh, however coarse: to push them apart takes less than a round"""
 HELPED = 0.5
@@ -64,7 +65,8 @@ class KeepApart:
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
         U, R = stylization.positions, stylization.rotations
-        now = self._now = self._state(U.copy(), R.copy())
+        pairs = self._new(U)
+        now = self._now = _State(self._count(pairs), pairs, U.copy(), R.copy())
         self._keep(now)
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
@@ -74,7 +76,7 @@ class KeepApart:
         if now.count > max(FEW * len(self._shown), FEWEST):
             return True
         self._push(now, stylization)
-        return self._best.count > 0
+        return self._best.count > 0 and not self._rounds
 
     def renewed(self, stylization):
         """Return a Stylization with links against what crosses, from the same state.
@@ -112,11 +114,13 @@ class KeepApart:
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
         U = pushed(V, state.U, shown, state.pairs, self._counts, is_free, impose)
-        self._keep(replace(self._state(U, state.R), is_pushed=True))
+        is_moved = (U != state.U).any(axis=1)[shown].any(axis=1)
+        pairs = state.pairs[~is_moved[state.pairs].any(axis=1)]
+        pairs = np.concatenate([pairs, self._new(U, is_moved)])
+        self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
 
-    def _state(self, U, R):
-        pairs = self._new(U)
-        return _State(len(np.unique(self._triangles(pairs))), pairs, U, R)
+    def _count(self, pairs):
+        return len(np.unique(self._triangles(pairs)))
 
     def _keep(self, state):
         if self._best is None or state.count < self._best.count:
@@ -128,18 +132,16 @@ class KeepApart:
         is_linked[links.vertices[links.coefficients != 0.0]] = True
         return is_linked[self._shown].any(axis=1)[pairs].all(axis=1).mean()
 
-    def _new(self, U):
+    def _new(self, U, is_asked=None):
         """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
-        pairs = crossings(U, self._shown)
+        pairs = crossings(U, self._shown, is_asked)
         return pairs[self._counts(pairs)]
 
     def _counts(self, pairs):
         """Return which pairs (k,2) count: not those of triangles that both crossed at rest."""
-        if not len(pairs):
-            return np.zeros(0, dtype=bool)
-        return ~self._rest.crossing_at_rest[pairs].all(axis=1)
+        return ~self._rest.crosses_at_rest(pairs).all(axis=1)
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""
         triangles = pairs.ravel()
-        return triangles[~self._rest.crossing_at_rest[triangles]]
+        return triangles[~self._rest.crosses_at_rest(triangles)]

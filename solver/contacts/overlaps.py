@@ -18,6 +18,7 @@ MOST = 4000
 """boxes in a cell that cannot be split: more lie on top of each other, and are not compared"""
 
 _PER_BOX = 4.0  # cells for each box, to begin with
+_COARSE = 6  # the finest level at which is looked for what lies near some boxes
 _GAIN = 0.8  # of the comparisons; a split that saves less is none
 _BLOCK = 1 << 16  # boxes that are compared at once
 _ALL_AXES = np.uint8(7)
@@ -36,8 +37,7 @@ def blocks_of_overlaps(low, high):
     first, second : (k,) int arrays
         Places in it: pairs that overlap, each of them in one block only.
     """
-    steps = float(1 << BITS) - 1.0
-    low, high = ((corner.T * steps).astype(np.int32, order="C") for corner in (low, high))
+    low, high = _on_grid(low), _on_grid(high)
     for cells in _leaves(low, high):
         start, end = cells.bounds
         at = 0
@@ -45,6 +45,29 @@ def blocks_of_overlaps(low, high):
             stop = max(int(np.searchsorted(end, start[at] + _BLOCK, "right")), at + 1)
             yield _compared(low, high, cells, start[at], end[at:stop])
             at = stop
+
+
+def near(low, high, is_chosen):
+    """Return a mask (m,) of boxes: all that overlap a chosen one, and others close by.
+
+    low, high : (m,3) float arrays
+        Corners of the boxes, from 0 to 1.
+    is_chosen : (m,) bool array
+    """
+    low, high = _on_grid(low), _on_grid(high)
+    chosen = low[:, is_chosen], high[:, is_chosen]
+    level = min(_first_level(*chosen), _COARSE)
+    low, high, *chosen = (corner >> BITS - level for corner in (low, high, *chosen))
+    side = (1 << level) + 1
+    before = np.zeros((side, side, side), dtype=np.int32)
+    before[tuple(_entries(*chosen)[1] + 1)] = 1
+    for axis in range(3):  # cells of chosen boxes below each corner of the grid
+        np.cumsum(before, axis=axis, out=before)
+    count = np.zeros(low.shape[1], dtype=np.int32)
+    for corner in np.ndindex(2, 2, 2):
+        x, y, z = (end[1] + 1 if up else end[0] for up, *end in zip(corner, low, high, strict=True))
+        count += before[x, y, z] * (-1 if sum(corner) % 2 == 0 else 1)
+    return count > 0
 
 
 class _Cells:
@@ -83,6 +106,11 @@ class _Cells:
         other.level, other.box, other.corner = self.level, self.box[rows], self.corner[:, rows]
         other.bounds = begin[:-1], begin[1:]
         return other
+
+
+def _on_grid(corner):
+    """Return corners (m,3) in steps of the grid, as (3,m)."""
+    return (corner.T * (float(1 << BITS) - 1.0)).astype(np.int32, order="C")
 
 
 def _leaves(low, high):

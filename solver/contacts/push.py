@@ -21,7 +21,7 @@ REACH = 3e-3
 _RINGS = 2  # of triangles around those that cross, as others may come to cross
 
 
-def pushed(V, U, triangles, pairs, is_new, is_free, impose):
+def pushed(V, U, triangles, pairs, counts, is_free, impose):
     """Return positions (n,3) in which no more triangles cross than in U.
 
     Parameters
@@ -31,15 +31,15 @@ def pushed(V, U, triangles, pairs, is_new, is_free, impose):
     triangles : (m,3) int array
     pairs : (k,2) int array
         Those of them that newly cross.
-    is_new : callable
-        Maps pairs of triangles (k,2) to a mask (k,) of those that count.
+    counts : callable
+        Maps pairs of triangles (k,2) to a mask (k,) of those that count as crossing.
     is_free : (n,) bool array
         Vertices that may move.
     impose : callable
         Moves positions (n,3) in place so that they satisfy all constraints.
     """
     start, best, fewest = U, U, len(pairs)
-    watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH)
+    watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH, counts)
     for _ in range(STEPS):
         if not fewest:
             break
@@ -48,7 +48,6 @@ def pushed(V, U, triangles, pairs, is_new, is_free, impose):
         )
         impose(U)
         pairs = watched.crossings(U)
-        pairs = pairs[is_new(pairs)]
         if len(pairs) < fewest:
             best, fewest = U, len(pairs)
     return best

@@ -23,7 +23,7 @@ from ..rotation_fit import fit_rotations
 class AdmmOptions:
     """Tolerances and penalty of the ADMM. Penalties are in units of the vertex area."""
 
-    max_iterations: int = 100
+    max_iterations: int = 25
     trial: int = 4
     """iterations after which a rotation will do that is better than the one before: the next local
     step goes on from there, and by then the others have moved"""

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from solver.contacts import overlaps
-from solver.contacts.crossings import Watched, crossings
+from solver.contacts.crossings import CrossingTriangles, Watched, crossings
 
 
 def soup(count, size, spread=0.3, seed=0):
@@ -68,13 +68,35 @@ def test_what_is_watched_has_the_crossings_that_a_new_search_finds():
     V, F = soup(800, 0.05)
     rng = np.random.default_rng(1)
     is_moved = rng.random(len(F)) < 0.3
-    watched = Watched(V, F, is_moved, 0.02)
+    watched = Watched(V, F, is_moved, 0.02, lambda pairs: np.ones(len(pairs), dtype=bool))
     moves = rng.uniform(-0.02, 0.02, V.shape) * np.repeat(is_moved, 3)[:, None]
     found = np.sort(watched.crossings(V + moves), axis=1)
     expected = crossings(V + moves, F)
     expected = expected[is_moved[expected].any(axis=1)]
     assert len(expected) > 50
     np.testing.assert_array_equal(found[np.lexsort(found.T[::-1])], expected)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.3])
+@pytest.mark.parametrize("spread", [0.02, 0.6])
+def test_some_triangles_have_the_crossings_that_all_have(share, spread):
+    V, F = soup(800, spread)
+    F = np.concatenate([F, [[0, 4, 8]]])  # a large one
+    is_asked = np.random.default_rng(2).random(len(F)) < share
+    expected = crossings(V, F)
+    np.testing.assert_array_equal(
+        crossings(V, F, is_asked), expected[is_asked[expected].any(axis=1)]
+    )
+
+
+def test_which_triangles_cross_is_found_where_it_is_asked_for():
+    V, F = soup(800, 0.05)
+    is_crossing = np.zeros(len(F), dtype=bool)
+    is_crossing[crossings(V, F).ravel()] = True
+    crosses = CrossingTriangles(V, F)
+    for triangles in np.random.default_rng(3).integers(len(F), size=(5, 40, 2)):
+        np.testing.assert_array_equal(crosses(triangles), is_crossing[triangles])
+    assert 0 < is_crossing.sum() < len(F)
 
 
 def test_twice_it_has_the_same_bits_in_any_order_of_the_triangles():
