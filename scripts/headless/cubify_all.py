@@ -68,9 +68,7 @@ def cubify_all(
         for users in by_mesh.values()
     ]
     # All checks of all objects come first, so that a refusal costs no solve.
-    problems = [
-        extension.pipeline.prepare(group) for group in extension.member.assemblies(members)
-    ]
+    problems = [extension.pipeline.prepare(group) for group in extension.member.assemblies(members)]
     found = {}
     for problem in problems:
         solutions = [

@@ -240,7 +240,10 @@ def add_capture():
 
 def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache, counted, part):
     settings_of = part("settings.properties").settings_of
-    capture_of, note_of = part("read.normal_capture").capture_of, part("read.normal_capture").note_of
+    capture_of, note_of = (
+        part("read.normal_capture").capture_of,
+        part("read.normal_capture").note_of,
+    )
     monkey, ball = add_capture()
 
     def look():
