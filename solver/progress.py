@@ -27,13 +27,16 @@ class Progress:
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Progress, Setup, Stylization, rest_mesh
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
-    >>> stylization.step()
-    >>> Progress(max_iterations=100, tolerance=1e-3).update(stylization)
-    0.01
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import Progress, Setup, Stylization, rest_mesh, run
+    >>> z, a = np.linspace(-1, 1, 400), 2.4 * np.arange(400)  # a ball
+    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
+    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> progress, shown = Progress(max_iterations=1000, tolerance=1e-3), []
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, device="numpy")
+    >>> _ = run(stylization, on_iteration=lambda state: shown.append(progress.update(state)))
+    >>> [f"{fraction:.1f}" for fraction in shown[:: len(shown) // 4]]
+    0
     """
 
     def __init__(self, max_iterations: int, tolerance: float):

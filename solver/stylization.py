@@ -104,14 +104,16 @@ class Stylization(Stored):
     Examples
     --------
     >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
+    >>> z, a = np.linspace(-1, 1, 400), 2.4 * np.arange(400)  # a ball
+    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
+    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, device="numpy")
     >>> for _ in range(3):
     ...     stylization.step()
-    >>> stylization.iteration, stylization.positions.shape
-    (3, (4, 3))
+    ...     print(f"energy {stylization.energy.total:.2f}, moved {stylization.distance:.2f}")
+    0
     """
 
     # what lies on the device: it is made anew from the positions and rotations
