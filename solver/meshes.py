@@ -54,7 +54,7 @@ class Options(TypedDict, total=False):
 def stylize_mesh(
     mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Unpack[Options]
 ) -> M:
-    """Return the cubic version of a mesh of trimesh or meshio, with everything that it has.
+    """Return the cubic version of a mesh of trimesh or meshio.
 
     Colors, UVs, materials and other data stay. Normals of points that meshio has read turn with the
     surface; trimesh computes its own anew.
@@ -70,16 +70,16 @@ def stylize_mesh(
     Returns
     -------
     trimesh.Trimesh or meshio.Mesh
-        As the mesh.
+        A new mesh of the same type.
 
     Raises
     ------
     CubicCraftError
-        It is no such mesh or no surface, or as for `stylize`.
+        The mesh is of another type or has no faces, or as for `stylize`.
 
     See Also
     --------
-    stylize : For arrays; also tells the energy, and whether it has converged.
+    stylize : For arrays; also returns the energy and whether the run has converged.
 
     Examples
     --------

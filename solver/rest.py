@@ -189,7 +189,7 @@ class RestMesh(Value):
 
     @cached_property
     def limbs(self) -> Limbs:
-        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes are none.
+        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes have none.
 
         They are the same in all poses, so that no frame of an animation jumps.
         """
@@ -256,7 +256,7 @@ class RestMesh(Value):
     def posed(self, input_positions: ArrayLike) -> "RestMesh":
         """Return the same mesh in another pose, with all weights and links of this one.
 
-        Its Laplacian is the same, so what has been factorised can be reused.
+        Its Laplacian is the same, so what has been factorized can be reused.
 
         Parameters
         ----------

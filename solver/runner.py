@@ -49,7 +49,7 @@ that is less: what it changes lies near what crosses, and settles soon. Never mo
 class Result(Value):
     """The result of a run.
 
-    Results compare bit for bit, but for the times that they took.
+    Two results are equal if they agree bit for bit, apart from the times that they took.
 
     See Also
     --------
@@ -86,7 +86,7 @@ class Result(Value):
     solve_seconds: float = field(compare=False)
     """time of the iterations"""
     crossings: int | None = None
-    """number of triangles that cross others and did not at rest; None where nobody has looked"""
+    """number of triangles that cross others and did not at rest; None if not looked for"""
     crossing_vertices: IntArray | None = None
     """(k,) int vertices of these triangles"""
 
@@ -142,7 +142,7 @@ def stylize(
     progress : bool
         Whether to show a progress bar on standard error.
     proxy : ProxyOptions
-        How to prepare the surface: weld it, refine it, and link it to its neighbours and its
+        How to prepare the surface: weld it, refine it, and link it to its neighbors and its
         opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
         defaults of the extension.
     orientation, targets, form, form_of, capture, capture_strength, capture_of, limbs
@@ -166,7 +166,7 @@ def stylize(
 
     Notes
     -----
-    Minimises the energy of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
+    Minimizes the energy of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
     38(6), 2019.
 
     Examples

@@ -27,9 +27,9 @@ MOST_STRETCH = 4.0
 
 
 class Setup(Stored):
-    """A rest mesh, its pinned vertices and the factorisation for both.
+    """A rest mesh, its pinned vertices and the factorization for both.
 
-    It can be pickled, and is factorized anew where it is read.
+    It can be pickled, and is factorized anew when it is unpickled.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ class Setup(Stored):
     def posed(self, input_positions: ArrayLike) -> "Setup":
         """Return the same setup in another pose of the mesh.
 
-        The factorisation is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
+        The factorization is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
         that they have in that pose.
 
         Parameters
@@ -166,7 +166,7 @@ class Setup(Stored):
     def with_holds(self, weights: Sequence[ArrayLike]) -> "Setup":
         """Return the same setup with groups of vertices that keep their place, see `holds.py`.
 
-        The factorisation is reused. A Stylization is given the goal of each group.
+        The factorization is reused. A Stylization is given the goal of each group.
 
         Parameters
         ----------

@@ -32,7 +32,7 @@ _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from
 class Stylization(Stored):
     """The state of one run: call `step` repeatedly and read `positions`.
 
-    One that is pickled goes on from its shape where it is read, without its momentum.
+    A pickled one continues from its shape when it is unpickled, without its momentum.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ class Stylization(Stored):
     form_of : (N,) numpy int array, optional
         Which of several forms each vertex of the input has.
     capture : NormalCapture or sequence of NormalCaptures, optional
-        Which way the normals should face, in the frame of the form; by default it says nothing.
+        How the normals should turn, in the frame of the form; by default they are free.
     capture_strength : float or (N,) numpy array
-        Weight mu of that, per vertex of the input, beside the cubeness.
+        Weight mu of the capture, per vertex of the input, in addition to the cubeness.
     capture_of : (N,) numpy int array, optional
         Which of several captures each vertex of the input has.
     targets : (N,3) numpy array, optional
@@ -70,8 +70,8 @@ class Stylization(Stored):
     hold_matrices : sequence of (4,4) numpy arrays
         Maps of the groups of `Setup.with_holds`, in the units of the input.
     limbs : KnownLimbs, optional
-        Of the vertices of the input for which it is known which way they lie, as from bones. Those
-        of the others are found from the shape. Only with `ProxyOptions.keep_pose`.
+        Limbs that are known for some vertices of the input, as from bones. Those of the others are
+        found from the shape. Only with `ProxyOptions.keep_pose`.
     drawn : (n,3) numpy array, optional
         Normals of the solved vertices that the cubic term sees; by default those of `rest`.
 

@@ -50,7 +50,7 @@ def local_step_class(device: Device = "auto", precision: Precision | None = None
 
 
 def problem_with_engine() -> str:
-    """Return why the device "auto" means "numpy" at present, "" while it does not."""
+    """Return why the device "auto" means "numpy" at present, or "" if it does not."""
     return _problem
 
 

@@ -7,13 +7,13 @@ the surface: with the rotation T_i of the surroundings of a vertex from pose v t
 
     u'_i = v'_i + T_i (u_i - v_i),    R'_i = T_i R_i T_i'
 
-with a share f forgotten, that is with (1 - f)(u_i - v_i) and the rotation between R_i and the
-identity. What is never forgotten accumulates: a thin coat that turns to and fro is left with a
+with a share f dropped, that is with (1 - f)(u_i - v_i) and the rotation between R_i and the
+identity. What is never dropped accumulates: a thin coat that turns to and fro is left with a
 pleat where its corners were, and a sheet that falls over a ball stays flat.
 
 Even so, a minimum can vanish, and the shape then falls into the next one; `steadiness` spreads that
 over several frames. A few steps for each frame are nearly enough to converge, as they begin near
-the end. They cost little: the factorisation is that of the first pose, see `RestMesh.posed`.
+the end. They cost little: the factorization is that of the first pose, see `RestMesh.posed`.
 """
 
 from collections.abc import Iterator
@@ -93,7 +93,8 @@ class FrameSequence:
     state : SequenceState, optional
         Of an earlier sequence from the same first frame, which continues.
     forgotten : float
-        The share f; 0 for a mesh that does not move, of which then only the style changes.
+        Share f of the deformation that is dropped from frame to frame; 0 for a mesh that does not
+        move while its style changes.
 
     Attributes
     ----------
