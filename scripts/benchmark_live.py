@@ -84,36 +84,9 @@ def page(rows):
         "time from a change of the slider until the mesh shows it: first the ticks alone, then",
         "with Blender's own drawing, which is done in software here. The rates of outer",
         "iterations, restarts included, are those with drawing and those within the ticks",
-        f"alone. The set-up at the start is left out. Times on a shared machine with {os.cpu_count()}",
-        "cores, without a GPU.",
-        "",
-        "| mesh | vertices | mode | median | worst |",
-        "|---|---|---|---|---|",
-    ]
-    for row in strokes:
-        mode = {"OBJECT": "Object", "EDIT": "Edit"}[row["mode"]]
-        delays = (
-            f"{1000 * statistics.median(row['delays']):.0f} ms | {1000 * max(row['delays']):.0f} ms"
-        )
-        lines.append(f"| {row['mesh']} | {row['vertices']:,} | {mode} | {delays} |")
-    return "\n".join([*lines, ""])
-
-
-def page(rows):
-    """Return the page."""
-    lines = [
-        "# How fluid Live is",
-        "",
-        "Written by `make bench-live`: ten seconds of dragging the cubeness slider back and forth in a",
-        "real window of Blender 4.3 with Taichi, so that the run restarts all the time. All settings but",
-        "cubeness are the artist's defaults: solidity 0.1, parts kept together, coarse meshes refined,",
-        "rotation kept. The monkey, subdivided once, is a mesh that is refined.",
-        "",
-        "A tick is the work of Live between two turns of Blender's main loop. The delay is the time from a",
-        "change of the slider until the mesh shows it: first the ticks alone, then with Blender's own",
-        "drawing, which is done in software here. The rates of outer iterations, restarts included, are",
-        "those with drawing and those within the ticks alone. The set-up at the start is left out. Times on"
-        f" a shared machine with {os.cpu_count()} cores, without a GPU.",
+        "alone. The set-up at the start is left out. Times on a shared machine with"
+        f" {os.cpu_count()} cores,",
+        "without a GPU.",
         "",
         "| mesh | vertices | ticks | per second | median | 95 % | worst"
         " | delay, ticks alone: median | worst | with drawing: median"
