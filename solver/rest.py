@@ -370,11 +370,11 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
     >>> from solver import ProxyOptions, rest_mesh
-    >>> z, a = np.linspace(-1, 1, 400), 2.4 * np.arange(400)  # a ball
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
     >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
     >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
-    (400, True)
+    (700, True)
     """
     input_positions, F = check_mesh(V, F)
     instance(proxy, "proxy", ProxyOptions)

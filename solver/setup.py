@@ -72,14 +72,14 @@ class Setup(Stored):
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh, run
-    >>> z, a = np.linspace(-1, 1, 400), 2.4 * np.arange(400)  # a ball
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
     >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
     >>> is_lower = V[:, 2] < 0
     >>> setup = Setup(rest_mesh(V, F), pinned=is_lower)
     >>> moved = np.linalg.norm(run(Stylization(setup, 0.6, device="numpy")).positions - V, axis=1)
     >>> f"{moved[is_lower].max():.2f} below, {moved[~is_lower].max():.2f} above"
-    0
+    '0.00 below, 0.35 above'
     """
 
     _made_anew = ("global_step", "coarse")  # factorizations, which cannot be stored
