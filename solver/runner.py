@@ -145,10 +145,32 @@ def stylize(
         How to prepare the surface: weld it, refine it, and link it to its neighbors and its
         opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
         defaults of the extension.
-    orientation, targets, form, form_of, capture, capture_strength, capture_of, limbs
-        See `Stylization`.
-    keep_rotation, device, precision, admm, is_accelerated
-        See `Stylization`.
+    orientation : (3,3) or (n,3,3) numpy array, optional
+        See `Stylization`, also for all that follow.
+    targets : (n,3) numpy array, optional
+        Where the pinned vertices go; by default they stay.
+    form : Polytope or sequence of Polytopes, optional
+        What a ball would become; by default the cube.
+    form_of : (n,) numpy int array, optional
+        Which of several forms each vertex has.
+    capture : NormalCapture or sequence of NormalCaptures, optional
+        How the normals should turn.
+    capture_strength : float or (n,) numpy array
+        How strongly they do.
+    capture_of : (n,) numpy int array, optional
+        Which of several captures each vertex has.
+    limbs : KnownLimbs, optional
+        Limbs that are known, as from bones.
+    keep_rotation : bool
+        Whether each component keeps its orientation.
+    device : {"auto", "cpu", "gpu", "numpy"}
+        What computes.
+    precision : {"f64", "f32"}, optional
+        Of the local step in Taichi.
+    admm : AdmmOptions, optional
+        Where the exact local step is not used.
+    is_accelerated : bool
+        False for the plain iteration.
 
     Returns
     -------
