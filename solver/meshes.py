@@ -88,8 +88,9 @@ def stylize_mesh(
     >>> from scipy.spatial import ConvexHull
     >>> from solver import stylize_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> mesh = SimpleNamespace(vertices=V, faces=F)  # instead of a trimesh.Trimesh
     >>> cubic = stylize_mesh(mesh, 0.6, keep_rotation=True, device="numpy")
     >>> round(float(np.linalg.norm(cubic.vertices - V, axis=1).max()), 2)  # the largest movement

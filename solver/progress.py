@@ -30,8 +30,9 @@ class Progress:
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Progress, Setup, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> progress, shown = Progress(max_iterations=1000, tolerance=1e-3), []
     >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, keep_rotation=True, device="numpy")
     >>> _ = run(stylization, on_iteration=lambda state: shown.append(progress.update(state)))

@@ -371,8 +371,9 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     >>> from scipy.spatial import ConvexHull
     >>> from solver import ProxyOptions, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
     (700, True)
     """

@@ -61,8 +61,9 @@ class Result(Value):
     >>> from scipy.spatial import ConvexHull
     >>> from solver import stylize
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
     >>> result.reason, result.device, result.positions.shape, result.rotations.shape
     ('converged', 'numpy', (700, 3), (700, 3, 3))
@@ -165,7 +166,7 @@ def stylize(
         Whether each component keeps its orientation.
     device : {"auto", "cpu", "gpu", "numpy"}
         What computes.
-    precision : {"f64", "f32"}, optional
+    precision : "f64" or "f32", optional
         Of the local step in Taichi.
     admm : AdmmOptions, optional
         Where the exact local step is not used.
@@ -199,8 +200,9 @@ def stylize(
     >>> from scipy.spatial import ConvexHull
     >>> from solver import stylize, triangle_areas_and_normals
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
     >>> for positions in (V, result.positions):
     ...     areas, normals = triangle_areas_and_normals(positions, F)
@@ -272,8 +274,9 @@ def run(
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> for cubeness in (0.0, 0.1, 0.6):
     ...     result = run(Stylization(setup, cubeness, keep_rotation=True, device="numpy"))
@@ -330,8 +333,9 @@ class Run:
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Run, Setup, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> run = Run(Stylization(setup, 0.6, keep_rotation=True, device="numpy"))
     >>> for _ in range(4):

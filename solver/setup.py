@@ -73,8 +73,9 @@ class Setup(Stored):
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> is_lower = V[:, 2] < 0
     >>> setup = Setup(rest_mesh(V, F), pinned=is_lower)
     >>> moved = np.linalg.norm(run(Stylization(setup, 0.6, device="numpy")).positions - V, axis=1)

@@ -57,7 +57,7 @@ class Stylization(Stored):
     device : {"auto", "cpu", "gpu", "numpy"}
         On a GPU, the arrays stay there. If the engine is reset during the run, every method that
         needs them raises a CubicCraftError.
-    precision : {"f64", "f32"}, optional
+    precision : "f64" or "f32", optional
         Of the local step in Taichi; by default the highest that the device supports.
     admm : AdmmOptions, optional
     is_accelerated : bool
@@ -107,8 +107,9 @@ class Stylization(Stored):
     >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> stylization = Stylization(setup, 0.6, keep_rotation=True, device="numpy")
     >>> for _ in range(3):

@@ -31,7 +31,7 @@ def local_step_class(device: Device = "auto", precision: Precision | None = None
     device : {"auto", "cpu", "gpu", "numpy"}
         "cpu" and "gpu" are those of Taichi or Quadrants; "auto" is "cpu" where that works, else
         "numpy": see `problem_with_engine`.
-    precision : {"f64", "f32"}, optional
+    precision : "f64" or "f32", optional
         Of their kernels; by default the best that the device has. NumPy is always f64.
 
     Raises

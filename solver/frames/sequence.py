@@ -54,8 +54,9 @@ class SequenceState(NamedTuple):
     >>> from scipy.spatial import ConvexHull
     >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> stopped = FrameSequence(setup.rest)
     >>> first = stopped.solve(Stylization(setup, 0.6, keep_rotation=True, device="numpy"))
@@ -115,8 +116,9 @@ class FrameSequence:
     >>> from scipy.spatial import ConvexHull
     >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> sequence, shown = FrameSequence(setup.rest), []
     >>> for height in (1.0, 1.05, 1.1):

@@ -51,8 +51,9 @@ def pose_frames(
     >>> from scipy.spatial import ConvexHull
     >>> from solver import pose_frames
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([np.sqrt(1 - z**2) * np.cos(a), np.sqrt(1 - z**2) * np.sin(a), z], axis=1)
-    >>> F = np.array([f if np.linalg.det(V[f]) > 0 else f[::-1] for f in ConvexHull(V).simplices])
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
     >>> limb = V * [0.2, 0.2, 1] @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
     >>> up = pose_frames(limb, F)[350].T @ [0, 0, 1]  # in the middle
