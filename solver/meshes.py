@@ -64,8 +64,12 @@ def stylize_mesh(
     mesh : trimesh.Trimesh or meshio.Mesh
         It is not changed. Lines and points of meshio stay where they are, unless they belong to the
         surface.
-    cubeness, pinned, **options
+    cubeness : float or (n,) numpy array
         As for `stylize`.
+    pinned : (k,) numpy int array or (n,) numpy bool array
+        As for `stylize`.
+    **options
+        All other arguments of `stylize`.
 
     Returns
     -------

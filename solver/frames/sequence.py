@@ -170,7 +170,9 @@ class FrameSequence:
         ----------
         stylization : Stylization
             A new one, of the first mesh or a pose of it.
-        max_iterations, tolerance
+        max_iterations : int
+            Of the first frame, as for `Run`.
+        tolerance : float
             Of the first frame, as for `Run`.
 
         Raises
