@@ -5,7 +5,7 @@ from . import handle_gizmos, hidden_source, job, live, presets
 from .animation import properties as animation_properties
 from .environment import ahead
 from .handles import properties as handles_properties
-from .run import object_cache
+from .read import object_cache
 from .send import properties as send_properties
 from .settings import form_pictures, group_renames, properties, region_properties
 from .ui import (

@@ -10,7 +10,7 @@ import bpy
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.run.picked_directions import picked_directions
+from ..cubic_craft_addon.read.picked_directions import picked_directions
 from ..cubic_craft_addon.settings.direction_text import write_directions
 from ..solver import CubicCraftError
 from ._shared.active_handle import poll_mesh

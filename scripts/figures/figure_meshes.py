@@ -173,8 +173,8 @@ class FigureMeshes:
         with self._bar.task(f"{name}, cubeness {settings.cubeness:g}") as task:
             try:
                 member = self.extension.member.read_member(model.object, settings)
-                prepared = self.extension.assembly.prepare([member])
-                (solution,) = self.extension.pipeline.solve(prepared)
+                problem = self.extension.pipeline.prepare([member])
+                (solution,) = self.extension.pipeline.solve(problem)
             except self.extension.solver.CubicCraftError as error:
                 raise InputError(f"{model.path or name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")

@@ -26,9 +26,9 @@ class Sculpture:
     users: list[bpy.types.Object]
     """the first of them was solved"""
     member: Any
-    """cubic_craft_addon.run.member.Member"""
-    prepared: Any
-    """cubic_craft_addon.run.assembly.Prepared of all that was solved at once with it"""
+    """cubic_craft_addon.read.member.Member"""
+    problem: Any
+    """solver.pieces.problem.Problem of all that was solved at once with it"""
     solutions: list[Any]
     """cubic_craft_addon.run.pipeline.Solution, one per cubeness"""
 
@@ -68,28 +68,28 @@ def cubify_all(
         for users in by_mesh.values()
     ]
     # All checks of all objects come first, so that a refusal costs no solve.
-    all_prepared = [
-        extension.assembly.prepare(group) for group in extension.assembly.assemblies(members)
+    problems = [
+        extension.pipeline.prepare(group) for group in extension.member.assemblies(members)
     ]
     found = {}
-    for prepared in all_prepared:
+    for problem in problems:
         solutions = [
-            _solve(prepared.with_cubeness(cubeness), extension, bar)
+            _solve(extension.pipeline.with_cubeness(problem, cubeness), extension, bar)
             for cubeness in options.cubeness
         ]
-        for member, own in zip(prepared.members, zip(*solutions, strict=True), strict=True):
-            found[member.uid] = (member, prepared, list(own))
+        for member, own in zip(problem.pieces, zip(*solutions, strict=True), strict=True):
+            found[member.uid] = (member, problem, list(own))
     return [Sculpture(users, *found[users[0].session_uid]) for users in by_mesh.values()]
 
 
-def _solve(prepared: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, ...]:
+def _solve(problem: Any, extension: Extension, bar: ProgressBar) -> tuple[Any, ...]:
     """Return the Solution of each member."""
-    settings, members = prepared.settings, prepared.members
+    settings, members = extension.pipeline.settings_of_all(problem), problem.pieces
     progress = extension.solver.Progress(settings.max_iterations, settings.tolerance)
     name = members[0].name if len(members) == 1 else f"{len(members)} objects together"
     with bar.task(f"{name}, cubeness {settings.cubeness!r}") as task:
         solutions = extension.pipeline.solve(
-            prepared, lambda state: task.advance_to(progress.update(state))
+            problem, lambda state: task.advance_to(progress.update(state))
         )
         task.finish(_summary(solutions[0]))
     return solutions

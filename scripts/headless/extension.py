@@ -21,16 +21,15 @@ class Extension:
     """The rooms of the loaded extension that the scripts use."""
 
     def __init__(self, root: Path) -> None:
-        self.assembly = _room("cubic_craft_addon.run.assembly")
         self.bake = _room("cubic_craft_addon.animation.bake")
         self.exchange = _room("cubic_craft_addon.animation.exchange")
         self.parts = _room("cubic_craft_addon.animation.parts")
         self.pipeline = _room("cubic_craft_addon.run.pipeline")
-        self.form = _room("cubic_craft_addon.run.form")
+        self.form = _room("cubic_craft_addon.read.form")
         self.form_pictures = _room("cubic_craft_addon.settings.form_pictures")
         self.forms = _room("cubic_craft_addon.settings.forms")
         self.handles = _room("cubic_craft_addon.handles")
-        self.member = _room("cubic_craft_addon.run.member")
+        self.member = _room("cubic_craft_addon.read.member")
         self.mesh_bridge = _room("cubic_craft_addon.mesh_bridge")
         self.named_forms = _room("solver.styles.forms")
         self.presets = _room("cubic_craft_addon.presets.files")
