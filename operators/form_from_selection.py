@@ -24,8 +24,8 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
     bl_idname = "cubic_craft.form_from_selection"
     bl_label = "Directions from Selection"
     bl_description = (
-        "Make the faces that are selected in Edit Mode the sides of the form: similar ones count as"
-        " one, and where they leave a side open, those opposite are added"
+        "Make the faces that are selected in Edit Mode the sides of the form. Similar directions"
+        " count as one; where the form would be open, the opposite ones are added"
     )
     bl_options = {"REGISTER", "UNDO"}
 

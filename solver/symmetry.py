@@ -112,7 +112,7 @@ def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
 
     See Also
     --------
-    Mirror : Holds the result.
+    Mirror : Contains the result.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A piece of plain arrays, for who has no Blender object to read it from."""
+"""A piece of plain arrays, for callers without an object in Blender."""
 
 from collections.abc import Sequence
 
@@ -45,7 +45,7 @@ def piece_of(
     V : (n,3) array
         Rest positions, in the coordinates of the object.
     F : (m,3) int array, or faces with more corners
-        Triangles, or what is split into them.
+        Triangles. Polygons are split into triangles.
     style : Style, optional
         What it is turned toward; by default a cube of cubeness 0.4 along the axes of the world.
     name : str
@@ -53,20 +53,23 @@ def piece_of(
     matrix : (4,4) array, optional
         From the coordinates of the object to those of the world.
     mirrors : sequence of Reflection
-        What is added to a half, one after the other; solved with it, and not returned.
+        Reflections that complete a half, one after the other. The images are solved with it, and
+        not returned.
     symmetry : sequence of bool
         About which axes of the object the mesh itself stays symmetric.
     handles : sequence of HandlePose
     handle_of : (n,) int array, optional
         Number of the handle that each vertex belongs to, or -1.
     hold_rest : bool
-        Whether what is far from moved handles keeps its place.
+        Whether regions far from moved handles keep their place.
     regions : sequence of Style
     region_shares : (n,1+k) array, optional
         Shares of the object's own style and of each region; each row adds up to 1.
     map_weights : (n,) array, optional
         Factors of the cubeness.
-    capture, capture_strength
+    capture : NormalCapture, optional
+        See `Stylization`.
+    capture_strength : float
         See `Stylization`.
 
     Raises
@@ -76,7 +79,7 @@ def piece_of(
 
     See Also
     --------
-    join_pieces : What is done with pieces.
+    join_pieces : Joins pieces, to solve them together.
 
     Examples
     --------

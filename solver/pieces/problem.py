@@ -36,12 +36,16 @@ class Problem(Generic[P]):
     Examples
     --------
     >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import join_pieces, piece_of
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> problem = join_pieces([piece_of(V, F, name="one"), piece_of(V + 3.0, F, name="other")])
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> pieces = [piece_of(V, F, name="head"), piece_of(0.2 * V - [0, 1, 0], F, name="eye")]
+    >>> problem = join_pieces(pieces)
     >>> problem.name, problem.vertices, problem.components
-    ('"one" and "other"', 8, 2)
+    ('"head" and "eye"', 1400, 2)
     """
 
     pieces: tuple[P, ...]
@@ -197,15 +201,27 @@ def join_pieces(
 
     Examples
     --------
+    A head becomes cubic. By default the eye in its face stays where it was; with the links of
+    `ProxyOptions` it goes along with the face:
+
     >>> import numpy as np
-    >>> from solver import Style, join_pieces, piece_of, run
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> problem = join_pieces([piece_of(V, F, Style(0.4)), piece_of(V + 3.0, F, Style(0.0))])
-    >>> result = run(problem.stylization(device="numpy"))
-    >>> one, other = problem.split(result.positions, result.rotations)
-    >>> one[0].shape, bool(np.allclose(other[0], V + 3.0, atol=1e-5))
-    ((4, 3), True)
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import PAPER, ProxyOptions, Style, join_pieces, piece_of, run
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> place = np.eye(4)
+    >>> place[:3, 3] = 0, -1, 0
+    >>> head = piece_of(V, F, Style(0.6), name="head")
+    >>> eye = piece_of(0.2 * V, F, Style(0.0), name="eye", matrix=place)
+    >>> for proxy in (PAPER, ProxyOptions()):
+    ...     problem = join_pieces([head, eye], proxy)
+    ...     result = run(problem.stylization(device="numpy"))
+    ...     _, (positions, _) = problem.split(result.positions, result.rotations)
+    ...     print(f"{np.linalg.norm((positions - 0.2 * V).mean(axis=0)):.2f}")
+    0.00
+    0.20
     """
     from ..setup import Setup
 
