@@ -64,6 +64,15 @@ def times_as_long(case, program="defaults", beside="paper"):
     return median_of(case, program, "seconds") / median_of(case, beside, "seconds")
 
 
+def times_as_long_to(case, gap):
+    """Return the same up to a gap, each of its own energy; None where one ends before."""
+    there = [
+        median_seconds_to(case, program, energy_at_gap(gap, *case["bounds"][program]))
+        for program in ("defaults", "paper")
+    ]
+    return there[0] / there[1] if all(there) else None
+
+
 def ticks_per_second(case):
     """Return how often Live could show something new with the defaults; None if not measured."""
     return len(case["ticks"]) / sum(case["ticks"]) if case["ticks"] else None
