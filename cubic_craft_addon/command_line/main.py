@@ -9,10 +9,10 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import NamedTuple
 
+from ...solver.console.errors import InputError
 from .batch.run import run_batch
 from .options.arguments import parse
 from .options.checks import refuse_empty
-from .process.errors import InputError
 from .process.interruption import before_ending, end_on_signals, end_with_input
 from .process.one_line import one_line
 from .process.output_files import remove_left_behind, replacing, written

@@ -7,12 +7,12 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...solver.console.errors import InputError
 from ...solver.errors import CubicCraftError
 from ..environment.engine_notes import new_engine_warnings
 from .picture.gallery import build_gallery
 from .picture.render import render
 from .picture.studio import furnish
-from .process.errors import InputError
 from .process.output_files import numbered, per_cubeness
 from .process.progress import ProgressBar
 from .reading.form_object import FormMesh, make_form, read_form

@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the command; they mean what they do in ``scripts/headless_render.py``."""
+"""The options of the command; they mean what they do in ``blender -c cubic_craft``."""
 
 import argparse
-from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, NoReturn
+from typing import Any
 
-from .errors import InputError
+from solver.console.errors import InputError
+from solver.console.options import FORMS, OneLineParser, number
+
 from .formats import FORMATS
 
-__all__ = ("FORMS", "parse")
+__all__ = ("parse",)
 
-FORMS = (
-    *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
-    *("rhombic", "prism", "pyramid", "cylinder", "cone"),
-)
 DEFAULTS = {
     "solidity": (0.1, 0.0),
     "keep_pose": ("on", "off"),
@@ -62,13 +59,6 @@ Exit codes: 0 all outputs are written, 2 one is not, with a line that says why, 
 """
 
 
-class _Parser(argparse.ArgumentParser):
-    """An ArgumentParser whose errors are one line."""
-
-    def error(self, message: str) -> NoReturn:
-        raise InputError(message.removeprefix("argument "))
-
-
 def parse(arguments: list[str]) -> argparse.Namespace:
     """Read the command line.
 
@@ -94,7 +84,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
+    parser = OneLineParser(
         prog="cubic-craft",
         usage="cubic-craft [options] INPUT [INPUT ...] OUTPUT",
         description="Turn a mesh into a cubic sculpture.",
@@ -107,41 +97,27 @@ def _parser() -> argparse.ArgumentParser:
         parser.add_argument(name, help=HELP[name], **how)
 
     add("paths", nargs="+", metavar="INPUT ... OUTPUT")
-    add("--cubeness", type=_number(0, 10), default=0.4, metavar="L")
+    add("--cubeness", type=number(0, 10), default=0.4, metavar="L")
     add("--form", choices=FORMS, default="cube")
-    add("--form-sides", type=_number(3, 64, int), default=6, metavar="N")
-    weights, degrees = _number(0, 10), _number(-36000, 36000)
+    add("--form-sides", type=number(3, 64, int), default=6, metavar="N")
+    weights, degrees = number(0, 10), number(-36000, 36000)
     add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
     add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
-    add("--solidity", type=_number(0, 10), metavar="S")
+    add("--solidity", type=number(0, 10), metavar="S")
     add("--keep-pose", choices=("on", "off"))
-    add("--detail", type=_number(0, 1), metavar="SIZE")
+    add("--detail", type=number(0, 1), metavar="SIZE")
     add("--keep-apart", choices=("on", "off"))
     add("--together", choices=("off", "parts"))
     add("--refine", choices=("auto", "off"))
     add("--rotation", choices=("keep", "free"))
     add("--paper", action="store_true")
-    add("--max-iterations", type=_number(1, 1_000_000, int), default=1000, metavar="N")
-    add("--tolerance", type=_number(1e-12, 1), default=1e-3, metavar="T")
+    add("--max-iterations", type=number(1, 1_000_000, int), default=1000, metavar="N")
+    add("--tolerance", type=number(1e-12, 1), default=1e-3, metavar="T")
     add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
     add("--format", choices=[suffix.removeprefix(".") for suffix in FORMATS])
     add("--quiet", action="store_true")
     parser.add_argument("--version", action="version", version=_version())
     return parser
-
-
-def _number(low: float, high: float, kind: type = float) -> Callable[[str], float]:
-    def number(text: str) -> float:
-        try:
-            value = kind(text)
-        except ValueError:
-            what = "a number" if kind is float else "a whole number"
-            raise argparse.ArgumentTypeError(f"{text!r} is not {what}") from None
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")
-        return value
-
-    return number
 
 
 def _version() -> str:

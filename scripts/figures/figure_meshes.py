@@ -19,7 +19,6 @@ from mathutils import Euler, Matrix
 from cubic_craft.cubic_craft_addon.command_line.options.handles_file import read_handles
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import YAW, Group, extent_of
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface
-from cubic_craft.cubic_craft_addon.command_line.process.errors import InputError
 from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
 from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded, load
 from cubic_craft.cubic_craft_addon.command_line.solving.pose import handles_of_all
@@ -29,6 +28,7 @@ from cubic_craft.cubic_craft_addon.run.assembly import prepare
 from cubic_craft.cubic_craft_addon.run.member import read_member
 from cubic_craft.cubic_craft_addon.run.pipeline import solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
+from cubic_craft.solver.console.errors import InputError
 from cubic_craft.solver.errors import CubicCraftError
 
 from . import shapes

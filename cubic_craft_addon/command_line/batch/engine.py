@@ -14,8 +14,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from ....solver.console.errors import InputError
 from ...environment.package import ROOT_PACKAGE
-from ..process.errors import InputError
 from ..process.interruption import before_ending
 from ..process.watched_process import end_processes
 from .plan import Job

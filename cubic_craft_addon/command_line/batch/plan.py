@@ -7,7 +7,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import NamedTuple
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.output_files import written
 from .sources import Source
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.one_line import one_line
 from ..process.output_files import check_writable, replacing, write_json
 from ..process.progress import ProgressBar

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from pathlib import Path, PurePath
 from typing import NamedTuple
 
+from ....solver.console.errors import InputError
 from ..options.formats import READABLE, listing
-from ..process.errors import InputError
 
 __all__ = ("Source", "find_sources")
 

@@ -18,7 +18,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.lock import alone_at
 from ..process.output_files import remove_left_behind
 from ..process.threads import thread_variables

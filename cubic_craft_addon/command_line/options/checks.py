@@ -4,7 +4,7 @@
 from argparse import Namespace
 from pathlib import Path
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.output_files import check_writable, numbered, per_cubeness
 from ..trust.places import refuse_special
 from .formats import ANIMATED, KEEP_VERTICES, LOSE_VERTICES, READABLE, listing

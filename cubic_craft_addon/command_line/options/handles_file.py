@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 
 __all__ = ("GivenHandle", "read_handles")
 

@@ -14,8 +14,8 @@ import bpy
 import numpy as np
 from mathutils import Euler, Matrix, Vector
 
+from ....solver.console.errors import InputError
 from ... import mesh_bridge
-from ..process.errors import InputError
 from ..reading.mesh_arrays import positions_of, read
 from ..solving.cubify_all import Sculpture
 from ..writing.detached import detached_copy

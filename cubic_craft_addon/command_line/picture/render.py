@@ -9,7 +9,7 @@ from pathlib import Path
 
 import bpy
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.output_files import replacing
 from ..process.quiet import captured
 from ..reading.blender_operator import reason

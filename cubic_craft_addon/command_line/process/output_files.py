@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from .errors import InputError
+from ....solver.console.errors import InputError
 
 __all__ = (
     "check_writable",

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 
 __all__ = ("operator", "reason")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 
 __all__ = ("refuse_infinite",)
 

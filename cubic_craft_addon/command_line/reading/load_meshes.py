@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.quiet import captured
 from ..trust.before_reading import readable
 from ..trust.opened import check_opened, checked_before_evaluation

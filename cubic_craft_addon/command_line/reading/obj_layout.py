@@ -15,7 +15,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
+from ....solver.console.obj_lines import vertex_of
 from .far_away import middle_if_far
 from .mesh_arrays import positions_of
 from .obj_copy import file_named
@@ -112,13 +113,10 @@ def match_objects(layout: ObjLayout, objects: list[bpy.types.Object]) -> None:
 def _indices(words: list[bytes], count: int) -> Iterator[int]:
     """Vertex indices, from 0, of the corners "v/vt/vn" of a face or line."""
     for word in words:
-        try:
-            number = int(word.partition(b"/")[0])
-        except ValueError:
-            continue
-        index = number - 1 if number > 0 else count + number
-        if number and 0 <= index < count:
-            yield index
+        with contextlib.suppress(ValueError):
+            index = vertex_of(word, count)
+            if 0 <= index < count:
+                yield index
 
 
 def _positions(coordinates: list[list[bytes]], path: Path) -> np.ndarray:

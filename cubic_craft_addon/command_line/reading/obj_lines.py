@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lines of an .obj file, as bytes.
-
-Names in it may be in any encoding, also in one where the last byte of a letter is that of a
-backslash, and comments may hold paths. Neither is continued on the next line, as numbers are.
-"""
+"""The lines of an .obj file, and whether Blender reads them in the same way."""
 
 import codecs
 from collections.abc import Iterator
 from pathlib import Path
 
-__all__ = ("ObjLines",)
+from ....solver.console.obj_lines import WITH_NAMES, logical_lines
 
-WITH_NAMES = (b"o", b"g", b"usemtl", b"mtllib", b"usemap", b"maplib", b"shadow_obj", b"trace_obj")
+__all__ = ("ObjLines",)
 
 
 class ObjLines:
@@ -33,23 +29,13 @@ class ObjLines:
         self.is_plain = True
 
     def __iter__(self) -> Iterator[tuple[bytes, bytes]]:
-        pending = b""
-        for raw in self._raw_lines():
-            line = (pending + raw).strip()
-            pending = b""
+        for line in map(bytes.strip, logical_lines(self._raw_lines())):
             keyword, *rest = line.split(None, 1) or [b""]
-            has_name = keyword in WITH_NAMES
-            if line.endswith(b"\\"):
-                self.is_plain = False
-            if not has_name:
-                line = line.partition(b"#")[0].rstrip()
-                if line.endswith(b"\\"):
-                    pending = line[:-1] + b" "
-                    continue
-                keyword, *rest = line.split(None, 1) or [b""]
+            if keyword not in WITH_NAMES:
+                keyword, *rest = line.partition(b"#")[0].split(None, 1) or [b""]
             elif not _is_utf8(line):
                 self.encoding, self.is_plain = "latin-1", False
-            yield keyword, rest[0] if rest else b""
+            yield keyword, rest[0].rstrip() if rest else b""
 
     def _raw_lines(self) -> Iterator[bytes]:
         with self._path.open("rb") as file:
@@ -60,7 +46,9 @@ class ObjLines:
             for line in file:
                 parts = line.splitlines()
                 self.is_plain &= len(parts) <= 1  # some end their lines in a carriage return alone
-                yield from parts
+                for part in parts:
+                    self.is_plain &= not part.rstrip().endswith(b"\\")
+                    yield part
 
 
 def _is_utf8(line: bytes) -> bool:

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ....solver import Progress
+from ....solver.console.errors import InputError
 from ...handles import Handle
 from ...run.assembly import Prepared, assemblies, prepare
 from ...run.member import Member, read_member
@@ -16,7 +17,6 @@ from ...run.pipeline import Solution, shape_of, solve
 from ...settings.region import Region
 from ...settings.values import Settings
 from ..options.region_option import region_of
-from ..process.errors import InputError
 from ..process.progress import ProgressBar
 from ..reading.load_meshes import Loaded
 from .pose import groups_of, handles_of_all, start_of

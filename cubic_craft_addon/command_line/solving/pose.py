@@ -8,11 +8,11 @@ import bpy
 import numpy as np
 from mathutils import Euler, Matrix, Vector
 
+from ....solver.console.errors import InputError
 from ... import mesh_bridge
 from ...handles import Handle
 from ..options.formats import RENUMBER_VERTICES
 from ..options.handles_file import GivenHandle
-from ..process.errors import InputError
 from ..reading.load_meshes import Loaded
 from ..reading.mesh_arrays import positions_of
 

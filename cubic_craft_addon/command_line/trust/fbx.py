@@ -10,7 +10,7 @@ import os
 import re
 from pathlib import Path
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from .places import is_special
 
 __all__ = ("check_fbx",)

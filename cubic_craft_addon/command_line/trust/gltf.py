@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from .places import refuse_outside
 
 __all__ = ("check_gltf",)

@@ -4,7 +4,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 
 __all__ = ("refuse_links", "refuse_links_in")
 

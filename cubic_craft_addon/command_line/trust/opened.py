@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from .places import is_inside
 
 __all__ = ("check_opened", "checked_before_evaluation", "with_all_paths")

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from ..process.one_line import one_line
 
 __all__ = ("is_inside", "is_special", "refuse_outside", "refuse_special", "say_left_out")

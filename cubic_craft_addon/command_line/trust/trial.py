@@ -25,7 +25,7 @@ def try_to_read(path: Path, importer: str) -> None:
     """
     import bpy
 
-    from ..process.errors import InputError
+    from ....solver.console.errors import InputError
     from ..process.interruption import before_ending
 
     blender, own = bpy.app.binary_path, str(Path(__file__).resolve())

@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from ..process.errors import InputError
+from ....solver.console.errors import InputError
 from .places import is_inside
 from .usd_crate import MAGIC, tokens
 

@@ -13,8 +13,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ....solver.console.errors import InputError
 from ...run import pipeline
-from ..process.errors import InputError
 from ..process.output_files import replacing
 from ..process.quiet import captured
 from ..reading.blender_operator import operator, reason
