@@ -11,19 +11,17 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 from ....solver.console.errors import InputError
-from ...environment.package import ROOT_PACKAGE
 from ..process.interruption import before_ending
 from ..process.watched_process import end_processes
+from .elsewhere import PLACE, work_elsewhere
 from .plan import Job
 from .task import FAILED, Batch, do
 
 __all__ = ("results_of", "workers_for")
 
-ROOT = str(Path(__file__).resolve().parents[3])
 SECONDS_TO_ANSWER = 10
 WITHOUT_PAGES = {f"distributed.{who}.http.routes": [] for who in ("scheduler", "worker")}
 HERE_ONLY = {
@@ -94,45 +92,12 @@ def results_of(
         return
     from distributed import as_completed
 
-    work, waiting = _work_of_a_worker(), {}
+    work, waiting = work_elsewhere(), {}
     for number, job in enumerate(jobs):
-        order, key = (
-            (ROOT, ROOT_PACKAGE, tuple(job), tuple(batch)),
-            f"{job.label}-{number}-{batch.name}",
-        )
+        order, key = (PLACE, tuple(job), tuple(batch)), f"{job.label}-{number}-{batch.name}"
         waiting[client.submit(work, *order, key=key)] = job
     for future, result in as_completed(waiting, with_results=True, raise_errors=False):
         if future.status != "finished":  # its workers died one after the other, or all is lost
             error = result[1] if isinstance(result, tuple) else result
             result = {"status": FAILED, "error": f"no worker could do it: {error}"}
         yield waiting[future], result
-
-
-def _work_of_a_worker() -> Callable[[str, str, tuple, tuple], dict[str, Any]]:
-    """Return what a worker calls.
-
-    A function in a function is sent as its code. The scheduler of a cluster looks into what it is
-    sent, and need not have these modules.
-    """
-
-    def work(root: str, package: str, job: tuple, batch: tuple) -> dict[str, Any]:
-        import importlib
-        import sys
-        import types
-
-        from distributed import get_worker
-
-        if package not in sys.modules:  # elsewhere, where no Blender has loaded the extension
-            sys.modules[package] = types.ModuleType(package)
-            sys.modules[package].__path__ = [root]
-        batches = f"{package}.cubic_craft_addon.command_line.batch"
-        task = importlib.import_module(f"{batches}.task")
-        plan = importlib.import_module(f"{batches}.plan")
-        tasks, key = get_worker().state.tasks, get_worker().get_current_task()
-
-        def is_wanted() -> bool:
-            return key in tasks and tasks[key].state != "cancelled"  # as when the batch is gone
-
-        return task.do(plan.Job(*job), task.Batch(*batch), is_wanted)
-
-    return work

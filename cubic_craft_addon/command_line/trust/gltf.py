@@ -6,9 +6,9 @@ are, whether it has their content or not.
 """
 
 import json
+import re
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote
 
 from ....solver.console.errors import InputError
 from .places import refuse_outside
@@ -41,7 +41,7 @@ def check_gltf(path: Path) -> None:
         parts = [part for kind in ("buffers", "images") for part in content.get(kind, [])]
         uris = [part["uri"] for part in parts if part.get("uri") is not None]
         bytes_said = sum(map(_bytes_said, content.get("accessors", [])))
-        files = [unquote(uri) for uri in uris if not (uri[:5] == "data:" and _INLINE in uri)]
+        files = [_unquoted(uri) for uri in uris if not (uri[:5] == "data:" and _INLINE in uri)]
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
         raise InputError(f"{path}: cannot be read (makes no sense); export it again") from error
     refuse_outside(path, files)
@@ -52,6 +52,13 @@ def check_gltf(path: Path) -> None:
             f"{path}: cannot be read (its arrays would take {bytes_said:,} bytes, but its files "
             f"have {size:,}); export it again"
         )
+
+
+def _unquoted(uri: str) -> str:
+    """Return a path in which letters may be written as %20."""
+    parts = re.split(r"((?:%[0-9a-fA-F]{2})+)", uri)
+    parts[1::2] = (bytes.fromhex(x.replace("%", "")).decode(errors="replace") for x in parts[1::2])
+    return "".join(parts)
 
 
 def _json_of(path: Path) -> bytes:
