@@ -28,6 +28,7 @@ bpy.utils.register_cli_command = lambda name, function: (
 bpy.ops.extensions.package_install_files(
     filepath=sys.argv[1], repo="user_default", enable_on_install=True
 )
+bpy.context.preferences.filepaths.use_scripts_auto_execute = True  # as some artists have it
 sys.stdout.flush()
 code = commands["cubic_craft"](sys.argv[2:])
 assert "bl_ext.user_default.cubic_craft" in bpy.context.preferences.addons
@@ -36,6 +37,19 @@ folder.cleanup()
 sys.stdout.flush()
 sys.stderr.flush()
 os._exit(code)  # Blender 4.2 crashes while it is freed
+"""
+
+
+WITH_DRIVER = """
+import os, sys
+import bpy
+
+bpy.ops.mesh.primitive_cube_add()
+driver = bpy.context.object.driver_add("location", 0).driver
+driver.type, driver.expression = "SCRIPTED", "__import__('pathlib').Path('ran').touch() or 0"
+bpy.ops.wm.save_as_mainfile(filepath="driver.blend")
+bpy.ops.wm.open_mainfile(filepath="driver.blend", use_scripts=True)
+os._exit(0)
 """
 
 
@@ -78,6 +92,14 @@ def test_what_is_wrong_is_one_line_and_a_code(call, tmp_path):
     refused = call("broken.obj", *QUICK)
     assert refused.returncode == 2
     assert refused.stderr.startswith("cubic_craft: error: broken.obj: vertex 1")
+
+
+def test_nothing_in_a_file_runs_whatever_the_preferences_allow(call, tmp_path):
+    subprocess.run([sys.executable, "-c", WITH_DRIVER], cwd=tmp_path, check=True)
+    (tmp_path / "ran").unlink()  # as Blender itself would run it
+    done = call("driver.blend", *QUICK, "--no-render", "--save-mesh", "b.obj")
+    assert done.returncode == 0, done.stderr
+    assert not (tmp_path / "ran").exists()
 
 
 def test_help_names_it_and_shows_what_matters(call):
