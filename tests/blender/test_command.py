@@ -41,14 +41,15 @@ os._exit(code)  # Blender 4.2 crashes while it is freed
 
 
 WITH_DRIVER = """
-import os, sys
+import os
 import bpy
 
 bpy.ops.mesh.primitive_cube_add()
 driver = bpy.context.object.driver_add("location", 0).driver
 driver.type, driver.expression = "SCRIPTED", "__import__('pathlib').Path('ran').touch() or 0"
-bpy.ops.wm.save_as_mainfile(filepath="driver.blend")
-bpy.ops.wm.open_mainfile(filepath="driver.blend", use_scripts=True)
+path = os.path.abspath("driver.blend")  # Blender 4.2 asks the shell where it is
+bpy.ops.wm.save_as_mainfile(filepath=path)
+bpy.ops.wm.open_mainfile(filepath=path, use_scripts=True)
 os._exit(0)
 """
 
