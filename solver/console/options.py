@@ -25,16 +25,13 @@ class OneLineParser(argparse.ArgumentParser):
         raise InputError(message.removeprefix("argument "))
 
 
-def number(
-    low: float, high: float, kind: type = float, files: tuple[str, ...] = ()
-) -> Callable[[str], float]:
+def number(low: float, high: float, kind: type = float) -> Callable[[str], float]:
     """Return the type of an option with a number.
 
     Parameters
     ----------
     low, high : the least and the largest
     kind : float or int
-    files : suffixes of inputs, one of which may have been taken for a further number
     """
 
     def checked(text: str) -> float:
@@ -42,7 +39,9 @@ def number(
             value = kind(text)
         except ValueError:
             what = "a number" if kind is float else "a whole number"
-            hint = " (put the input file first)" if Path(text).suffix in files else ""
+            # An option with any count of numbers takes a file behind them for one.
+            is_file = Path(text).suffix[1:].isalpha()
+            hint = " (put the input file first)" if is_file else ""
             raise argparse.ArgumentTypeError(f"{text!r} is not {what}{hint}") from None
         if not low <= value <= high:
             raise argparse.ArgumentTypeError(f"{text} is not between {low} and {high}")

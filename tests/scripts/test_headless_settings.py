@@ -9,8 +9,11 @@ from pathlib import Path
 
 import pytest
 from headless import PATIENCE
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import OF_FILE
+from scripts.cubic_craft.cubic_craft_addon.settings.forms import FORMS
 
 from solver import PAPER, ProxyOptions
+from solver.console import options
 
 GIVEN = {
     "": ProxyOptions(),
@@ -46,6 +49,11 @@ with registered():
 sys.stdout.flush()
 os._exit(0)  # Blender 4.2 crashes while it is freed
 """
+
+
+def test_the_forms_are_those_of_the_panel():
+    of_panel = [name.lower() for name, *_ in FORMS]
+    assert sorted(of_panel) == sorted([*options.FORMS, *OF_FILE, "faces"])
 
 
 @pytest.fixture(scope="module")

@@ -5,38 +5,23 @@ import argparse
 import json
 import shlex
 import sys
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
 from ....solver.console.errors import InputError
-from ....solver.console.options import FORMS, OneLineParser
-from ....solver.console.options import number as number_between
+from ....solver.console.method_options import DEFAULTS as OF_METHOD
+from ....solver.console.method_options import Adder, add_form, add_kept, add_solver
+from ....solver.console.options import FORMS, OneLineParser, number
 from .checks import check_batch, check_single
-from .formats import READABLE
 from .handles_file import read_handles
 from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG
 from .region_option import region_option
 
 __all__ = ("parse",)
 
-_number = partial(number_between, files=READABLE)
-_Adder = Callable[..., None]
-"""takes the name of an option, and what `ArgumentParser.add_argument` does besides its help"""
-
 OF_FILE = ("object", "directions")
 """forms that are made from a file"""
-DEFAULTS = {
-    "solidity": (0.1, 0.0),
-    "keep_pose": ("on", "off"),
-    "detail": (0.05, 0.0),
-    "keep_apart": ("on", "off"),
-    "together": ("selection", "off"),
-    "refine": ("auto", "off"),
-    "rotation": ("keep", "free"),
-    "hold_rest": ("on", "off"),
-}
+DEFAULTS = {**OF_METHOD, "together": ("selection", "off"), "hold_rest": ("on", "off")}
 """name: by default, with ``--paper``"""
 
 
@@ -100,7 +85,7 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
         add_help=False,
     )
 
-    def adder(group: argparse._ActionsContainer) -> _Adder:
+    def adder(group: argparse._ActionsContainer) -> Adder:
         def add(name: str, **how: Any) -> None:
             is_shown = is_whole or name in COMMON
             group.add_argument(name, help=HELP.get(name) if is_shown else argparse.SUPPRESS, **how)
@@ -115,9 +100,9 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
     _add_outputs(adder(parser.add_argument_group("what is written")))
     _add_batch(adder(parser.add_argument_group("several files")))
     _add_picture(adder(parser.add_argument_group("the picture")))
-    add("--timeout", type=_number(1, 1e8), metavar="SECONDS")
-    add("--memory", type=_number(0.001, 1e6), metavar="GB")
-    add("--threads", type=_number(1, 1024, int), metavar="N")
+    add("--timeout", type=number(1, 1e8), metavar="SECONDS")
+    add("--memory", type=number(0.001, 1e6), metavar="GB")
+    add("--threads", type=number(1, 1024, int), metavar="N")
     add("--options", default="", metavar="TEXT")
     add("--worker", default="", metavar="KEY:BATCH")
     add("--limited", action="store_true")
@@ -128,37 +113,26 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
     return parser
 
 
-def _add_method(add: _Adder) -> None:
-    degrees = _number(-36000, 36000)
-    add("--cubeness", nargs="+", type=_number(0, 10), default=[0.4], metavar="L")
+def _add_method(add: Adder) -> None:
+    add("--cubeness", nargs="+", type=number(0, 10), default=[0.4], metavar="L")
     add("--form", choices=(*FORMS, *OF_FILE, "faces"), default="cube")
-    add("--form-sides", type=_number(3, 64, int), default=6, metavar="N")
-    weights = _number(0, 10)
-    add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
+    add_form(add)
     add("--form-object", type=Path, metavar="FILE")
     add("--form-directions", default="", metavar="VECTORS")
     region = region_option([name for name in FORMS if name != "box"])
     add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
     add("--capture", type=Path, metavar="FILE")
-    add("--capture-strength", type=_number(0, 10), default=0.4, metavar="X")
-    add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--capture-strength", type=number(0, 10), default=0.4, metavar="X")
     add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")
     add("--handles", dest="handles_file", type=Path, metavar="FILE.json")
     add("--map", default="", metavar="GROUP")
-    add("--max-iterations", type=_number(1, 1_000_000, int), default=1000, metavar="N")
-    add("--tolerance", type=_number(1e-12, 1), default=1e-3, metavar="T")
-    add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+    add_solver(add)
 
 
-def _add_shape(add: _Adder) -> None:
-    add("--solidity", type=_number(0, 10), metavar="S")
-    add("--keep-pose", choices=("on", "off"))
-    add("--detail", type=_number(0, 1), metavar="SIZE")
-    add("--keep-apart", choices=("on", "off"))
+def _add_shape(add: Adder) -> None:
+    add_kept(add)
     add("--together", choices=("off", "parts", "selection"))
-    add("--refine", choices=("auto", "off"))
-    add("--rotation", choices=("keep", "free"))
     add("--symmetry", type=_axes, default="", metavar="AXES")
     add("--floor", action="store_true")
     add("--with-modifiers", action="store_true")
@@ -166,35 +140,35 @@ def _add_shape(add: _Adder) -> None:
     add("--paper", action="store_true")
 
 
-def _add_outputs(add: _Adder) -> None:
+def _add_outputs(add: Adder) -> None:
     add("--output", type=Path, metavar="PICTURE.png")
     add("--no-render", action="store_true")
     add("--save-mesh", metavar="FILE")
     add("--bake", type=Path, metavar="FILE")
-    frame = _number(-1048574, 1048574, int)
+    frame = number(-1048574, 1048574, int)
     add("--frames", nargs=2, type=frame, metavar=("A", "B"))
-    add("--part", nargs=2, type=_number(1, 10000, int), metavar=("K", "N"))
+    add("--part", nargs=2, type=number(1, 10000, int), metavar=("K", "N"))
     add("--report", type=Path, metavar="FILE.json")
     add("--error-file", type=Path, metavar="FILE")
 
 
-def _add_batch(add: _Adder) -> None:
+def _add_batch(add: Adder) -> None:
     add("--output-folder", type=Path, metavar="DIR")
     add("--recursive", action="store_true")
-    add("--only", type=_number(1, 1_000_000, int), metavar="K")
-    add("--jobs", type=_number(1, 1024, int), metavar="N")
+    add("--only", type=number(1, 1_000_000, int), metavar="K")
+    add("--jobs", type=number(1, 1024, int), metavar="N")
     add("--scheduler", metavar="ADDRESS")
     add("--force", action="store_true")
 
 
-def _add_picture(add: _Adder) -> None:
-    degrees = _number(-36000, 36000)
-    size = _number(16, 16384, int)
+def _add_picture(add: Adder) -> None:
+    degrees = number(-36000, 36000)
+    size = number(16, 16384, int)
     add("--engine", choices=("cycles", "workbench"), default="cycles")
-    add("--samples", type=_number(1, 65536, int), default=16, metavar="N")
+    add("--samples", type=number(1, 65536, int), default=16, metavar="N")
     add("--resolution", nargs=2, type=size, default=[1600, 540], metavar=("W", "H"))
     add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
-    add("--turntable", type=_number(1, 9999, int), default=0, metavar="FRAMES")
+    add("--turntable", type=number(1, 9999, int), default=0, metavar="FRAMES")
 
 
 def _words(text: str) -> list[str]:

@@ -3,6 +3,7 @@
 
 import argparse
 
+from ....solver.console.method_options import HELP as OF_METHOD
 from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
 
 __all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
@@ -14,6 +15,7 @@ COMMON = (
 """what --help shows; --help-all shows all"""
 
 HELP = {
+    **OF_METHOD,
     "inputs": f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
     "files, or folders of them",
     "--object": "this mesh object only (default: all that are shown and rendered)",
@@ -24,10 +26,6 @@ HELP = {
     "--worker": argparse.SUPPRESS,
     "--limited": argparse.SUPPRESS,
     "--verbose": "show Blender's own messages",
-    "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
-    "--form": "what a ball would become (default: cube)",
-    "--form-sides": "of a prism or pyramid (default: 6)",
-    "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     "--form-object": "for --form object the file whose convex hull is the form, for directions the "
     "one whose faces are, about the origin of its scene",
     "--region": "a vertex group with a form and a cubeness of its own, such as head:octahedron:0.8 "
@@ -39,24 +37,13 @@ HELP = {
     "--form-directions": "for --form faces the directions of its sides, three numbers for each: "
     '"0 0 1, 1 0 0"; where they leave a side open, those opposite are added',
     "--orientation": "Euler angles of the form in degrees, as in the panel",
-    "--space": "what they are relative to: the axes of the scene that the file is read into, where "
-    "Z is up, or those of each object (default: world)",
+    "--space": "what --orientation is relative to: the axes of the scene that the file is read "
+    "into, where Z is up, or those of each object (default: world)",
     "--pin": "vertex groups that stay in place",
     "--handles": "parts of the mesh that are held or moved, see below",
     "--map": "vertex group that scales the cubeness",
-    "--tolerance": "(default: 0.001)",
-    "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
-    "(default: 0.1)",
-    "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "
-    "(default: on)",
-    "--detail": "features smaller than this share of the largest extent ride along instead of "
-    "being flattened; 0 flattens all (default: 0.05)",
-    "--keep-apart": "whether surfaces that do not cross are kept from crossing (default: on)",
     "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
     "file do (default: selection)",
-    "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
-    "--rotation": "whether each part is held in its orientation, or may turn as a whole "
-    "(default: keep)",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
     "stay so",
     "--floor": "what stands on the ground keeps its height",
