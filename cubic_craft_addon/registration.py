@@ -6,7 +6,7 @@ from .animation import properties as animation_properties
 from .command_line import blender_command
 from .environment import ahead
 from .handles import properties as handles_properties
-from .run import object_cache
+from .read import object_cache
 from .send import properties as send_properties
 from .settings import form_pictures, group_renames, properties, region_properties
 from .ui import (

@@ -7,8 +7,8 @@ from mathutils import Matrix
 from .. import solver
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.run.member import read_shape
-from ..cubic_craft_addon.run.object_frame import angles_of, axes_of_angles, placement_alone
+from ..cubic_craft_addon.read.member import read_shape
+from ..cubic_craft_addon.read.object_frame import angles_of, axes_of_angles, placement_alone
 from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
 from ..solver.mesh.unit_box import unit_box
@@ -60,9 +60,9 @@ def _best_angles(obj, settings, shape):
     placement = placement_alone(obj, settings)
     V = placement.place(shape.original)
     areas, normals = solver.triangle_areas_and_normals(unit_box(V).to_unit(V), shape.triangles)
-    if placement.form is None:
+    if placement.style.form is None:
         return angles_of(obj, settings, solver.auto_orient(normals, areas))
     # In the axes of the angles, so that a mirrored object has its normals as they are seen.
     seen = normals @ axes_of_angles(obj, settings).T
-    axes = solver.auto_orient(seen, areas, placement.form).T
+    axes = solver.auto_orient(seen, areas, placement.style.form).T
     return Matrix(axes.tolist()).to_euler()

@@ -81,15 +81,15 @@ class CUBIC_CRAFT_OT_bake_process(_BakeOperator, bpy.types.Operator):
     bl_label = "Bake Process"
     bl_description = (
         "Make new objects that become cubic within the frames, at an even speed, from what the"
-        " selected objects look like now. As shape keys, the way can be dialled by their"
-        " Evaluation Time"
+        " selected objects look like now. With shape keys, their Evaluation Time shows any"
+        " moment of it"
     )
     bl_options = {"UNDO"}
     is_process = True
 
     process_from: StringProperty(
         name="From",
-        description="Name of the object with whose settings it begins; the original without one",
+        description="Name of the object whose settings it begins with; empty for the original",
         options={"SKIP_SAVE"},
     )
 

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty
 
 from ..cubic_craft_addon import hidden_source, mesh_bridge
-from ..cubic_craft_addon.run.facets import flat_facets
+from ..cubic_craft_addon.measure.facets import flat_facets
 from ._shared.originals import for_each_original
 from ._shared.selection import poll_any_usable, poll_meshes, selected_meshes
 from ._shared.unexpected_errors import reporting

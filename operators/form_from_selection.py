@@ -10,7 +10,7 @@ import bpy
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.run.picked_directions import picked_directions
+from ..cubic_craft_addon.read.picked_directions import picked_directions
 from ..cubic_craft_addon.settings.direction_text import write_directions
 from ..solver import CubicCraftError
 from ._shared.active_handle import poll_mesh
@@ -24,8 +24,8 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
     bl_idname = "cubic_craft.form_from_selection"
     bl_label = "Directions from Selection"
     bl_description = (
-        "Make the faces that are selected in Edit Mode the sides of the form: similar ones count as"
-        " one, and where they leave a side open, those opposite are added"
+        "Make the faces that are selected in Edit Mode the sides of the form. Similar directions"
+        " count as one; where the form would be open, the opposite ones are added"
     )
     bl_options = {"REGISTER", "UNDO"}
 

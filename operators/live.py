@@ -20,7 +20,7 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
     bl_label = "Live"
     bl_description = (
         "Watch the selected meshes become cubic while you change the settings. Enter or this"
-        " button confirms; so does whatever else you turn to, a mode or another mesh. Esc cancels"
+        " button confirms, and so does switching to another mode or mesh. Esc cancels"
     )
     bl_options = {"UNDO"}
 

@@ -20,7 +20,7 @@ class CUBIC_CRAFT_OT_region_add(bpy.types.Operator):
     bl_label = "Add Region"
     bl_description = (
         "Give the active vertex group, or the first one that is not a region yet, a form, an"
-        " orientation and a cubeness of its own; at first those of the object"
+        " orientation and a cubeness of its own. They begin as those of the object"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -5,7 +5,7 @@ import bpy
 
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.environment.requirements import check_requirements
-from ..cubic_craft_addon.run.crossing_faces import crossing_faces
+from ..cubic_craft_addon.measure.crossing_faces import crossing_faces
 from ..solver import CubicCraftError
 from ._shared.selection import poll_any_usable, poll_meshes, report_all, selected_meshes
 from ._shared.unexpected_errors import reporting

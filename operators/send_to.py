@@ -29,7 +29,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
     bl_description = (
         "Write the selected meshes to a file for game engines (glTF), other programs (FBX) or 3D"
         " printers (STL). The order of vertices and the vertex groups can be found in it again;"
-        " nothing of the scene changes"
+        " the scene does not change"
     )
     bl_options = {"REGISTER"}
 
@@ -46,8 +46,8 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
     filter_glob: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
     modifiers: BoolProperty(
         name="Apply Modifiers",
-        description="Write the mesh as its modifiers show it, with the armature as bones. Not for"
-        " meshes with shape keys, which would be lost",
+        description="Write the mesh as its modifiers show it, with the armature as bones. Meshes"
+        " with shape keys are written without modifiers, which would remove the keys",
         default=True,
     )
     animation: BoolProperty(

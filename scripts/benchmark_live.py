@@ -74,16 +74,19 @@ def page(rows):
     lines = [
         "# How fluid Live is",
         "",
-        "Written by `make bench-live`: Blender 4.3 with Taichi, ten seconds of dragging the",
-        "cubeness slider back and forth in the real window, so that the run restarts all the time.",
-        "All settings but cubeness are the artist's defaults: solidity 0.1, parts kept together,",
-        "coarse meshes refined, rotation kept. The monkey, subdivided once, is such a mesh.",
-        "A tick is what Live does between two turns of Blender's main loop; the delay is what",
-        "passes from a change of the slider until the mesh shows it. Blender's own drawing (in",
-        "software, here) is left out of the ticks and of the first delay, and is in the second.",
-        "It is in the first rate of outer iterations (restarts included), and not in the second.",
-        "The set-up at the start is not in it. Times on a shared machine with"
-        f" {os.cpu_count()} cores and no GPU.",
+        "Written by `make bench-live`: ten seconds of dragging the cubeness slider back and",
+        "forth in a real window of Blender 4.3 with Taichi, so that the run restarts all the",
+        "time. All settings but cubeness are the artist's defaults: solidity 0.1, parts kept",
+        "together, coarse meshes refined, rotation kept. The monkey, subdivided once, is a mesh",
+        "that is refined.",
+        "",
+        "A tick is the work of Live between two turns of Blender's main loop. The delay is the",
+        "time from a change of the slider until the mesh shows it: first the ticks alone, then",
+        "with Blender's own drawing, which is done in software here. The rates of outer",
+        "iterations, restarts included, are those with drawing and those within the ticks",
+        "alone. The set-up at the start is left out. Times on a shared machine with"
+        f" {os.cpu_count()} cores,",
+        "without a GPU.",
         "",
         "| mesh | vertices | ticks | per second | median | 95 % | worst"
         " | delay, ticks alone: median | worst | with drawing: median"

@@ -35,6 +35,13 @@ if TYPE_CHECKING:
     from .meshes import stylize_mesh as stylize_mesh
     from .normal_capture import NormalCapture as NormalCapture
     from .orientation.auto_orientation import auto_orient as auto_orient
+    from .pieces.from_mesh import piece_of as piece_of
+    from .pieces.handle_pose import HandlePose as HandlePose
+    from .pieces.piece import Piece as Piece
+    from .pieces.problem import Problem as Problem
+    from .pieces.problem import join_pieces as join_pieces
+    from .pieces.reflection import Reflection as Reflection
+    from .pieces.reflection import flip as flip
     from .progress import Progress as Progress
     from .proxy.options import PAPER as PAPER
     from .proxy.options import ProxyOptions as ProxyOptions
@@ -47,6 +54,7 @@ if TYPE_CHECKING:
     from .runner import stylize as stylize
     from .setup import Setup as Setup
     from .stop_rule import StopRule as StopRule
+    from .styles.blending import Style as Style
     from .styles.cube import nearest_to_identity as nearest_to_identity
     from .stylization import Stylization as Stylization
     from .symmetry import MATCHING as MATCHING

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The energy that is minimised, in its two parts."""
+"""The energy that is minimized, in its two parts."""
 
 from dataclasses import dataclass
 
@@ -26,5 +26,5 @@ class Energy:
 
     @property
     def total(self) -> float:
-        """The energy that is minimised."""
+        """The energy that is minimized."""
         return self.arap + self.cubic

@@ -8,15 +8,15 @@ from .optional_packages import optional_package
 
 
 def loading_steps(device: Device = "auto") -> Iterator[None]:
-    """Import packages, start the engine and load its kernels, and stop after each of these.
+    """Import packages, start the engine and load its kernels, one step at a time.
 
-    Whoever calls it does something else between two steps, such as drawing. What is missing or does
-    not work is left to the run that needs it, which says so.
+    The caller can do something else between two steps, such as drawing. What is missing or does
+    not work is left to the run that needs it, which reports it.
 
     Parameters
     ----------
     device : {"auto", "cpu", "gpu", "numpy"}
-        That the run is going to have.
+        The device of the run to come.
 
     Yields
     ------

@@ -54,7 +54,7 @@ class Options(TypedDict, total=False):
 def stylize_mesh(
     mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Unpack[Options]
 ) -> M:
-    """Return the cubic version of a mesh of trimesh or meshio, with everything that it has.
+    """Return the cubic version of a mesh of trimesh or meshio.
 
     Colors, UVs, materials and other data stay. Normals of points that meshio has read turn with the
     surface; trimesh computes its own anew.
@@ -64,31 +64,41 @@ def stylize_mesh(
     mesh : trimesh.Trimesh or meshio.Mesh
         It is not changed. Lines and points of meshio stay where they are, unless they belong to the
         surface.
-    cubeness, pinned, **options
+    cubeness : float or (n,) numpy array
         As for `stylize`.
+    pinned : (k,) numpy int array or (n,) numpy bool array
+        As for `stylize`.
+    **options
+        All other arguments of `stylize`.
 
     Returns
     -------
     trimesh.Trimesh or meshio.Mesh
-        As the mesh.
+        A new mesh of the same type.
 
     Raises
     ------
     CubicCraftError
-        It is no such mesh or no surface, or as for `stylize`.
+        The mesh is of another type or has no faces, or as for `stylize`.
 
     See Also
     --------
-    stylize : For arrays; also tells the energy, and whether it has converged.
+    stylize : For arrays; also returns the energy and whether the run has converged.
 
     Examples
     --------
     >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import stylize_mesh
-    >>> V, F = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3]]
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> mesh = SimpleNamespace(vertices=V, faces=F)  # instead of a trimesh.Trimesh
-    >>> stylize_mesh(mesh, 0.4, device="numpy").vertices.shape
-    (4, 3)
+    >>> cubic = stylize_mesh(mesh, 0.6, keep_rotation=True, device="numpy")
+    >>> round(float(np.linalg.norm(cubic.vertices - V, axis=1).max()), 2)  # the largest movement
+    0.25
     """
     if hasattr(mesh, "points") and hasattr(mesh, "cells"):
         return _stylized_meshio(mesh, cubeness, pinned, options)

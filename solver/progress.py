@@ -27,13 +27,17 @@ class Progress:
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import Progress, Setup, Stylization, rest_mesh
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
-    >>> stylization.step()
-    >>> Progress(max_iterations=100, tolerance=1e-3).update(stylization)
-    0.01
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import Progress, Setup, Stylization, rest_mesh, run
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> progress, shown = Progress(max_iterations=1000, tolerance=1e-3), []
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, keep_rotation=True, device="numpy")
+    >>> _ = run(stylization, on_iteration=lambda state: shown.append(progress.update(state)))
+    >>> [f"{shown[done - 1]:.2f}" for done in (1, 5, 10, 20)]  # iterations
+    ['0.00', '0.30', '0.51', '0.78']
     """
 
     def __init__(self, max_iterations: int, tolerance: float):

@@ -189,7 +189,7 @@ class RestMesh(Value):
 
     @cached_property
     def limbs(self) -> Limbs:
-        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes are none.
+        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes have none.
 
         They are the same in all poses, so that no frame of an animation jumps.
         """
@@ -256,7 +256,7 @@ class RestMesh(Value):
     def posed(self, input_positions: ArrayLike) -> "RestMesh":
         """Return the same mesh in another pose, with all weights and links of this one.
 
-        Its Laplacian is the same, so what has been factorised can be reused.
+        Its Laplacian is the same, so what has been factorized can be reused.
 
         Parameters
         ----------
@@ -365,10 +365,17 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
 
     Examples
     --------
+    A coarse ball is solved as it is, or on a finer copy, as the extension does:
+
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import ProxyOptions, rest_mesh
-    >>> V, F = [[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]]
-    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 3
-    (3, True)
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
+    (700, True)
     """
     input_positions, F = check_mesh(V, F)
     instance(proxy, "proxy", ProxyOptions)

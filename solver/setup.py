@@ -27,9 +27,9 @@ MOST_STRETCH = 4.0
 
 
 class Setup(Stored):
-    """A rest mesh, its pinned vertices and the factorisation for both.
+    """A rest mesh, its pinned vertices and the factorization for both.
 
-    It can be pickled, and is factorized anew where it is read.
+    It can be pickled, and is factorized anew when it is unpickled.
 
     Parameters
     ----------
@@ -67,10 +67,20 @@ class Setup(Stored):
 
     Examples
     --------
-    >>> from solver import Setup, rest_mesh
-    >>> setup = Setup(rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]]), pinned=[0])
-    >>> setup.pinned, setup.has_pin
-    (array([0]), array([ True]))
+    The lower half of a ball is pinned, and the upper half becomes cubic:
+
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import Setup, Stylization, rest_mesh, run
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> is_lower = V[:, 2] < 0
+    >>> setup = Setup(rest_mesh(V, F), pinned=is_lower)
+    >>> moved = np.linalg.norm(run(Stylization(setup, 0.6, device="numpy")).positions - V, axis=1)
+    >>> f"{moved[is_lower].max():.2f} below, {moved[~is_lower].max():.2f} above"
+    '0.00 below, 0.35 above'
     """
 
     _made_anew = ("global_step", "coarse")  # factorizations, which cannot be stored
@@ -130,7 +140,7 @@ class Setup(Stored):
     def posed(self, input_positions: ArrayLike) -> "Setup":
         """Return the same setup in another pose of the mesh.
 
-        The factorisation is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
+        The factorization is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
         that they have in that pose.
 
         Parameters
@@ -157,7 +167,7 @@ class Setup(Stored):
     def with_holds(self, weights: Sequence[ArrayLike]) -> "Setup":
         """Return the same setup with groups of vertices that keep their place, see `holds.py`.
 
-        The factorisation is reused. A Stylization is given the goal of each group.
+        The factorization is reused. A Stylization is given the goal of each group.
 
         Parameters
         ----------

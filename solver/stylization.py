@@ -32,7 +32,7 @@ _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from
 class Stylization(Stored):
     """The state of one run: call `step` repeatedly and read `positions`.
 
-    One that is pickled goes on from its shape where it is read, without its momentum.
+    A pickled one continues from its shape when it is unpickled, without its momentum.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ class Stylization(Stored):
     form_of : (N,) numpy int array, optional
         Which of several forms each vertex of the input has.
     capture : NormalCapture or sequence of NormalCaptures, optional
-        Which way the normals should face, in the frame of the form; by default it says nothing.
+        How the normals should turn, in the frame of the form; by default they are free.
     capture_strength : float or (N,) numpy array
-        Weight mu of that, per vertex of the input, beside the cubeness.
+        Weight mu of the capture, per vertex of the input, in addition to the cubeness.
     capture_of : (N,) numpy int array, optional
         Which of several captures each vertex of the input has.
     targets : (N,3) numpy array, optional
@@ -57,7 +57,7 @@ class Stylization(Stored):
     device : {"auto", "cpu", "gpu", "numpy"}
         On a GPU, the arrays stay there. If the engine is reset during the run, every method that
         needs them raises a CubicCraftError.
-    precision : {"f64", "f32"}, optional
+    precision : "f64" or "f32", optional
         Of the local step in Taichi; by default the highest that the device supports.
     admm : AdmmOptions, optional
     is_accelerated : bool
@@ -70,8 +70,8 @@ class Stylization(Stored):
     hold_matrices : sequence of (4,4) numpy arrays
         Maps of the groups of `Setup.with_holds`, in the units of the input.
     limbs : KnownLimbs, optional
-        Of the vertices of the input for which it is known which way they lie, as from bones. Those
-        of the others are found from the shape. Only with `ProxyOptions.keep_pose`.
+        Limbs that are known for some vertices of the input, as from bones. Those of the others are
+        found from the shape. Only with `ProxyOptions.keep_pose`.
     drawn : (n,3) numpy array, optional
         Normals of the solved vertices that the cubic term sees; by default those of `rest`.
 
@@ -104,14 +104,20 @@ class Stylization(Stored):
     Examples
     --------
     >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import Setup, Stylization, rest_mesh
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy")
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> setup = Setup(rest_mesh(V, F))
+    >>> stylization = Stylization(setup, 0.6, keep_rotation=True, device="numpy")
     >>> for _ in range(3):
     ...     stylization.step()
-    >>> stylization.iteration, stylization.positions.shape
-    (3, (4, 3))
+    ...     print(f"energy {stylization.energy.total:.2f}, moved {stylization.distance:.2f}")
+    energy 2.75, moved 0.02
+    energy 2.56, moved 0.06
+    energy 2.48, moved 0.09
     """
 
     # what lies on the device: it is made anew from the positions and rotations

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from .aliases import BoolArray, FloatArray, IntArray
 from .rotation_fit import svd_rotations
@@ -113,7 +112,7 @@ def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
 
     See Also
     --------
-    Mirror : Holds the result.
+    Mirror : Contains the result.
 
     Examples
     --------
@@ -123,6 +122,8 @@ def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
     >>> partners(V, V * [-1, 1, 1], tolerance=1e-3)
     array([ 1,  0,  2, -1])
     """
+    from scipy.spatial import KDTree  # here, because few need it
+
     places, first, place, count = np.unique(
         V, axis=0, return_index=True, return_inverse=True, return_counts=True
     )

@@ -14,11 +14,11 @@ import numpy as np
 from ... import solver
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..read.bones import read_pose
+from ..read.member import Member, ShapeRead, placed, read_member
+from ..read.normal_capture import strength_of
+from ..read.object_frame import placements
 from ..run import pipeline
-from ..run.assembly import Prepared, prepare
-from ..run.bones import read_pose
-from ..run.member import Member, Shape, read_member
-from ..run.object_frame import placements
 from ..run.up_to_date import what_matters
 from ..settings.values import Settings
 from .on_the_way import on_the_way
@@ -103,7 +103,7 @@ class AnimatedGroup:
         members = [
             read_member(one.new, one.settings(overrides), rigged=one.source) for one in objects
         ]
-        self._first: Prepared = prepare(members)
+        self._first = pipeline.prepare(members)
         self._is_process = is_process
         self._sequence = self._continued(None)
         self.moment = ""
@@ -125,7 +125,7 @@ class AnimatedGroup:
     @property
     def about(self):
         """What the frames depend on, as values for JSON."""
-        members = self._first.members
+        members = self._first.pieces
         start = self._start
         return {
             "objects": [one.source.name for one in self.objects],
@@ -225,13 +225,13 @@ class AnimatedGroup:
     def _read(self, share):
         members = [
             self._posed(one, first, share)
-            for one, first in zip(self.objects, self._first.members, strict=True)
+            for one, first in zip(self.objects, self._first.pieces, strict=True)
         ]
         return members, _digest([_moment(member) for member in members])
 
     def _solve(self, members):
-        posed = self._first.posed(members)
-        sequence, settings = self._sequence, posed.settings
+        posed = self._first.posed(placed(members))
+        sequence, settings = self._sequence, pipeline.settings_of_all(posed)
         is_first = sequence.state is None
         try:
             stylization = pipeline.stylization_of(
@@ -272,18 +272,25 @@ class AnimatedGroup:
             raise CubicCraftError(
                 f'"{one.source.name}" is scaled flat, and cannot be kept together'
             )
-        shape = Shape(points, first.shape.triangles)
+        shape = ShapeRead(points, first.shape.triangles)
         bones = first.bones and first.bones.in_pose(read_pose(one.source, first.bones.places))
         return replace(
-            first, shape=shape, settings=settings, alone=alone, in_world=in_world, bones=bones
+            first,
+            shape=shape,
+            settings=settings,
+            handles=settings.handles,
+            capture_strength=strength_of(settings),
+            alone=alone,
+            in_world=in_world,
+            bones=bones,
         )
 
 
 def _moment(member: Member):
     """Return all that the result of a frame depends on."""
-    placed = member.alone.key, member.in_world and member.in_world.key
+    places = member.alone.key, member.in_world and member.in_world.key
     pose = member.bones and member.bones.pose
-    return what_matters(member.settings), placed, _digest_of_array(member.shape.original), pose
+    return what_matters(member.settings), places, _digest_of_array(member.shape.original), pose
 
 
 def _digest(values) -> str:

@@ -15,11 +15,12 @@ import bpy
 
 from ... import solver
 from ...solver import CubicCraftError
+from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
 from ..environment.lock import BusyError
 from ..job.job import Step
-from ..run.assembly import assemblies
-from ..run.object_frame import Placement, placements
+from ..read.member import assemblies
+from ..read.object_frame import placements
 from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
 from .even_speed import even_places, largest_steps, resampled

@@ -43,7 +43,7 @@ class BakeProperties:
 
     use_range: BoolProperty(
         name="Own Range",
-        description="Bake frames other than those of the scene",
+        description="Bake from Start to End, instead of the frames of the scene",
         default=False,
         options=set(),
     )
@@ -89,8 +89,8 @@ class CubicCraftAnimation(BakeProperties, bpy.types.PropertyGroup):
 
     process_from: PointerProperty(
         name="From",
-        description="Object with whose settings Bake Process begins; without one, it begins with"
-        " the original",
+        description="Object whose settings Bake Process begins with. If empty, it begins with the"
+        " original",
         type=bpy.types.Object,
         poll=_is_mesh,
         options=set(),

@@ -5,6 +5,6 @@
 ``properties`` is saved with the objects.
 """
 
-from .handle import IDENTITY, THRESHOLD, Handle, handle_of, targets
+from .handle import IDENTITY, THRESHOLD, Handle, handle_of
 
-__all__ = ("IDENTITY", "THRESHOLD", "Handle", "handle_of", "targets")
+__all__ = ("IDENTITY", "THRESHOLD", "Handle", "handle_of")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles: the held vertices and their targets."""
+"""Handles: which vertices they hold, and how."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,15 +8,17 @@ import bpy
 import numpy as np
 
 from ...solver.errors import CubicCraftError
+from ...solver.pieces.handle_pose import IDENTITY, HandlePose
 from .. import mesh_bridge
+
+__all__ = ("IDENTITY", "THRESHOLD", "Handle", "handle_of")
 
 THRESHOLD = 0.5
 """default of the minimum weight that makes a vertex part of a handle"""
-IDENTITY = tuple(np.eye(4).ravel().tolist())
 
 
 @dataclass(frozen=True)
-class Handle:
+class Handle(HandlePose):
     """A set of vertices that is held in place or moved as a whole, and the rest follows."""
 
     group: str = ""
@@ -24,20 +26,11 @@ class Handle:
     vertices: tuple[int, ...] | None = None
     """instead of the group: indices of vertices"""
     threshold: float = THRESHOLD
-    matrix: tuple[float, ...] = IDENTITY
-    """4x4, row by row: affine map of original positions, in object space"""
-    is_cubic: bool = False
-    """whether only its position and rotation are held, and its surface becomes cubic"""
 
     @property
     def members(self):
         """Everything that determines which vertices belong to it and how they are held."""
         return self.group, self.vertices, self.threshold, self.is_cubic
-
-    @property
-    def is_moved(self):
-        """Whether it moves its vertices."""
-        return self.matrix != IDENTITY
 
 
 def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
@@ -66,26 +59,3 @@ def _holds(obj, handle, weights, count):
             f'a handle of "{obj.name}" lists vertex {vertices.max()}, but there are only {count}'
         )
     return vertices
-
-
-def targets(original: np.ndarray, holder: np.ndarray, handles: Sequence[Handle]) -> np.ndarray:
-    """Return the targets of the vertices by the handles.
-
-    Parameters
-    ----------
-    original : (n,3) float32 array
-    holder : (n,) int array
-        From `handle_of`.
-    handles : sequence of Handle
-
-    Returns
-    -------
-    (n,3) float64 array; free vertices and those of handles that do not move keep their bits
-    """
-    result = original.astype(np.float64)
-    for number, handle in enumerate(handles):
-        if handle.matrix != IDENTITY:
-            matrix = np.reshape(handle.matrix, (4, 4))
-            held = holder == number
-            result[held] = result[held] @ matrix[:3, :3].T + matrix[:3, 3]
-    return result

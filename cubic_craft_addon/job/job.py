@@ -17,9 +17,8 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
-from ..run.assembly import assemblies
+from ..read.member import ShapeRead, assemblies
 from ..run.failures import UNEXPECTED
-from ..run.member import Shape
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task, plan, write_all
 from ..settings.overrides import SettingsOverrides
@@ -65,7 +64,7 @@ class Job:
             raise
         self._groups = assemblies(self._tasks)
         self._joined = {t.uid for group in self._groups if len(group) > 1 for t in group}
-        self._shapes: dict[int, Shape] = {}
+        self._shapes: dict[int, ShapeRead] = {}
 
     def _make_seen(self, sources: list[bpy.types.Object]) -> list[bpy.types.Object]:
         """Return new objects made from the visible meshes of others, and the problems."""
@@ -206,7 +205,7 @@ class Job:
             is_same = now.key_in_world == task.key_in_world
         start = task.settings.start
         original = mesh_bridge.original_positions(task.mesh, start)
-        shape = Shape(original, mesh_bridge.triangles(task.mesh, original), start)
+        shape = ShapeRead(original, mesh_bridge.triangles(task.mesh, original), start)
         if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
             return ""
         return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'

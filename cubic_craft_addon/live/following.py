@@ -83,4 +83,4 @@ def _runs_of(meshes):
 
 
 def _seconds(run):
-    return run.prepared.seconds if run.prepared is not None else 0.0
+    return run.problem.seconds if run.problem is not None else 0.0

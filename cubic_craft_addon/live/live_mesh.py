@@ -10,7 +10,7 @@ import bpy
 
 from ... import solver
 from .. import mesh_bridge
-from ..run.member import Member, read_shape
+from ..read.member import Member, read_shape
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
 

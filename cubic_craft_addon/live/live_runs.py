@@ -46,7 +46,7 @@ class LiveRuns:
                 run.stop()
             return
         known = {mesh.object_uid: mesh.member for mesh in meshes if mesh.member}
-        earlier = [run.prepared for run in self._runs.values() if run.prepared]
+        earlier = [run.problem for run in self._runs.values() if run.problem]
         before, self._runs = self._runs, {}
         for uids, tasks in groups.items():
             run = self._runs[uids] = before.get(uids) or StepwiseRun()

@@ -9,7 +9,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..run.assembly import assemblies
+from ..read.member import assemblies
 from ..run.tasks import Task, plan
 from ..settings.overrides import SettingsOverrides
 from . import properties

@@ -22,7 +22,7 @@ def preset_property() -> Any:
     """Return the declaration of the property, for a group that has the settings."""
     return EnumProperty(
         name="Preset",
-        description="Look of the result: how cubic, how solid, and what holds together",
+        description="Look of the result: how cubic, how solid, and what stays together",
         items=_items_of,
         get=_get,
         set=_set,

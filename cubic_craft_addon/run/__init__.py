@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From objects and settings to results: read, prepare, solve, write.
+"""From objects and settings to results: read, solve, write.
 
-``tasks`` lists what to solve, ``member`` reads one object, ``assembly`` factorises what is solved
-together, ``fields`` has the settings of each vertex, and ``pipeline`` solves and writes.
+``tasks`` lists what to solve and writes all results, ``pipeline`` has one problem solved, and
+``stepwise_run`` does so phase by phase.
 """

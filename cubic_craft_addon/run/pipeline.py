@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pipeline of an assembly: mesh bridge -> solver -> mesh bridge.
+"""A problem from objects in Blender: solved, and its solutions written.
 
-`assembly.prepare` and `solve` change nothing, so that an exception or a cancellation loses nothing;
-only `write` makes changes.
+`solve` changes nothing, so that an exception or a cancellation loses nothing; only `write` makes
+changes.
 """
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import bpy
 import numpy as np
 
 from ... import solver
+from ...solver.pieces.problem import Problem, join_pieces
 from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
-from .assembly import Prepared
-from .fields import known_limbs, styles, targets
-from .floor import kept_on_floor
-from .normal_capture import captures
+from ..read.member import Member, placed
+from ..settings.values import Settings
 
 if TYPE_CHECKING:
     from ...solver.aliases import Device
+
+MemberProblem: TypeAlias = Problem[Member]
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,39 @@ class Solution:
         return self.setup_seconds + self.seconds + self.result.compile_seconds
 
 
-def start(prepared: Prepared) -> solver.Run:
+def prepare(members: Sequence[Member], earlier: Sequence[MemberProblem] = ()) -> MemberProblem:
+    """Join the members of an assembly, and factorize them.
+
+    Parameters
+    ----------
+    members : sequence of Member
+        A single member is solved in its own coordinates, several in world space.
+    earlier : sequence of Problem
+        Unchanged data is reused.
+
+    Raises
+    ------
+    CubicCraftError
+        They cannot be solved; the message names the objects.
+    """
+    return join_pieces(placed(members), members[0].settings.proxy, earlier)
+
+
+def settings_of_all(problem: MemberProblem) -> Settings:
+    """Return the settings of the first member, for those that all share."""
+    return problem.pieces[0].settings
+
+
+def with_cubeness(problem: MemberProblem, cubeness: float) -> MemberProblem:
+    """Return the same with another cubeness."""
+    members = [
+        member.with_settings(replace(member.settings, cubeness=cubeness))
+        for member in problem.pieces
+    ]
+    return replace(problem, pieces=tuple(members))
+
+
+def start(problem: MemberProblem) -> solver.Run:
     """Start a run from the original shapes, with the settings of the members.
 
     Raises
@@ -70,21 +103,21 @@ def start(prepared: Prepared) -> solver.Run:
     CubicCraftError
         A setting is invalid, or the device is not available.
     """
-    settings = prepared.settings
+    settings = settings_of_all(problem)
     try:
-        stylization = stylization_of(prepared)
+        stylization = stylization_of(problem)
         return solver.Run(stylization, settings.max_iterations, settings.tolerance)
     except solver.CubicCraftError as error:
-        raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
+        raise solver.CubicCraftError(f"{problem.name}: {error}") from error
 
 
-def go_on(prepared: Prepared, run: solver.Run) -> solver.Run:
+def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     """Return a Run that goes on from the present shape of another in a pose of the same objects.
 
     Parameters
     ----------
-    prepared : Prepared
-        From `Prepared.posed`, of what the other run was made for.
+    problem : Problem
+        From `Problem.posed`, of what the other run was made for.
     run : Run
 
     Raises
@@ -92,14 +125,12 @@ def go_on(prepared: Prepared, run: solver.Run) -> solver.Run:
     CubicCraftError
         As `start`, without the name.
     """
-    settings = prepared.settings
-    stylization = run.stylization.moved(
-        prepared.setup, targets(prepared), [hold.matrix for hold in prepared.holds]
-    )
+    settings = settings_of_all(problem)
+    stylization = run.stylization.moved(problem.setup, problem.targets, problem.hold_matrices)
     return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
 
 
-def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver.Stylization:
+def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> solver.Stylization:
     """Return a new Stylization with the settings of the members.
 
     Raises
@@ -108,26 +139,16 @@ def stylization_of(prepared: Prepared, *, is_accelerated: bool = True) -> solver
         As `start`, without the name.
     """
     use_extension_folder()
-    settings = prepared.settings
-    style = styles(prepared)
-    return solver.Stylization(
-        prepared.setup,
-        style.cubeness,
-        style.orientation,
-        targets(prepared),
-        style.form,
-        style.form_of,
+    settings = settings_of_all(problem)
+    return problem.stylization(
         device=cast("Device", settings.device.lower()),
         keep_rotation=settings.rotation == "KEEP",
-        hold_matrices=[hold.matrix for hold in prepared.holds],
         is_accelerated=is_accelerated,
-        limbs=known_limbs(prepared),
-        **captures(prepared),
     )
 
 
 def solve(
-    prepared: Prepared, on_iteration: Callable[[solver.Stylization], bool] | None = None
+    problem: MemberProblem, on_iteration: Callable[[solver.Stylization], bool] | None = None
 ) -> tuple[Solution, ...]:
     """Run to the end, and return a Solution for each member.
 
@@ -138,49 +159,49 @@ def solve(
     CubicCraftError
         As `start`, and if the data of the run on a GPU is lost.
     """
-    run = start(prepared)
+    run = start(problem)
     try:
         run.complete(on_iteration)
-        return solutions_of(prepared, run)
+        return solutions_of(problem, run)
     except solver.CubicCraftError as error:
-        raise solver.CubicCraftError(f"{prepared.name}: {error}") from error
+        raise solver.CubicCraftError(f"{problem.name}: {error}") from error
 
 
-def intermediate_result(prepared: Prepared, run: solver.Run, with_rotations: bool):
+def intermediate_result(problem: MemberProblem, run: solver.Run, with_rotations: bool):
     """Return the current positions and rotations of a run, as in a Solution.
 
     One pair per member. The rotations take time, and are None unless requested.
     """
     if with_rotations:
-        return read_back(prepared, *run.placed())
-    return read_back(prepared, run.positions(), None)
+        return read_back(problem, *run.placed())
+    return read_back(problem, run.positions(), None)
 
 
-def solutions_of(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
+def solutions_of(problem: MemberProblem, run: solver.Run) -> tuple[Solution, ...]:
     """Return a Solution for each member; the run cannot be continued afterwards."""
-    return _solutions(prepared, run.result())
+    return _solutions(problem, run.result())
 
 
-def solutions_so_far(prepared: Prepared, run: solver.Run) -> tuple[Solution, ...]:
+def solutions_so_far(problem: MemberProblem, run: solver.Run) -> tuple[Solution, ...]:
     """Return the current shape as a Solution for each member; empty before the first iteration."""
     result = run.so_far()
-    return () if result is None else _solutions(prepared, result)
+    return () if result is None else _solutions(problem, result)
 
 
-def _solutions(prepared, result):
-    found = read_back(prepared, result.positions, result.rotations)
+def _solutions(problem, result):
+    found = read_back(problem, result.positions, result.rotations)
     return tuple(
         Solution(
             positions,
             rotations,
             result,
-            prepared.seconds,
-            prepared.vertices,
-            len(prepared.members),
+            problem.seconds,
+            problem.vertices,
+            len(problem.pieces),
             member.whole.matching,
             member.shape.start,
         )
-        for member, (positions, rotations) in zip(prepared.members, found, strict=True)
+        for member, (positions, rotations) in zip(problem.pieces, found, strict=True)
     )
 
 
@@ -230,23 +251,6 @@ def shape_of(obj: bpy.types.Object, solution: Solution) -> np.ndarray:
     )
 
 
-def read_back(prepared, positions, rotations):
+def read_back(problem: MemberProblem, positions, rotations):
     """Return the results of the solver, for each member in its object's coordinates."""
-    at_rest = prepared.setup.rest.input_positions
-    if prepared.settings.floor:
-        positions = kept_on_floor(prepared.setup, positions, prepared.placements[0].up)
-    is_held = np.zeros(len(at_rest), dtype=bool)
-    is_held[prepared.setup.pinned_input] = True
-    found = []
-    for member, placement, whole_part in prepared.parts():
-        part = slice(whole_part.start, whole_part.start + member.vertices)
-        own = placement.read_back(positions[part]).astype(np.float32)
-        # Held vertices must not move by rounding errors of the placement.
-        is_still = (positions[part] == at_rest[part]).all(axis=1) | prepared.is_idle
-        own[is_still] = member.shape.original[is_still]
-        turned = None if rotations is None else placement.read_rotations_back(rotations[part])
-        member.whole.symmetrize(own, is_held[part] | is_still)
-        if turned is not None:
-            member.whole.settle_rotations(turned, is_held[part])
-        found.append((own, turned))
-    return found
+    return problem.split(positions, rotations, keep_floor=settings_of_all(problem).floor)

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from ... import solver
+from ..read.member import Member
 from . import pipeline
-from .assembly import Prepared
 from .countdown import Countdown
-from .member import Member
+from .pipeline import MemberProblem
 from .tasks import Task, key_of, prepare_all
 
 _FIRST_SHOWN = 2  # iterations; the first one moves only handles
@@ -30,13 +30,13 @@ class StepwiseRun:
     ----------
     problems : list of str
         Reasons why there is no run, or why objects are excluded, for display.
-    prepared : Prepared or None
+    problem : Problem or None
     """
 
     def __init__(self):
         self.problems: list[str] = []
-        self.prepared: Prepared | None = None
-        self._posed: Prepared | None = None
+        self.problem: MemberProblem | None = None
+        self._posed: MemberProblem | None = None
         self._is_held = self._is_behind = False
         self._starts = 0
         self._solutions: dict[int, pipeline.Solution] | None = None
@@ -58,32 +58,32 @@ class StepwiseRun:
         return key_of(tasks) != self._key
 
     def restart(
-        self, tasks: Sequence[Task], known: Mapping[int, Member], earlier: Sequence[Prepared]
+        self, tasks: Sequence[Task], known: Mapping[int, Member], earlier: Sequence[MemberProblem]
     ) -> None:
         """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
         self.stop()
         self._key = key_of(tasks)
-        prepared, self.problems = prepare_all(tasks, known, earlier)
-        if prepared is not None:
-            self.prepared = prepared
+        problem, self.problems = prepare_all(tasks, known, earlier)
+        if problem is not None:
+            self.problem = problem
             self._start()
 
     def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
         """Restart if weights of relevant vertex groups have changed; return whether they have."""
-        before = self.prepared
+        before = self.problem
         if before is None or not any(_looks_at_weights(task) for task in tasks):
             return False
-        members = {member.uid: member for member in before.members}
+        members = {member.uid: member for member in before.pieces}
         now, problems = prepare_all(tasks, members, [before], weights_changed=True)
         if now is None:
             self._reset(problems)
             return True
-        if len(now.members) == len(before.members) and all(
-            map(_has_weights_of, now.members, before.members)
+        if len(now.pieces) == len(before.pieces) and all(
+            map(_has_weights_of, now.pieces, before.pieces)
         ):
             return False
         self._reset(problems)
-        self.prepared = now
+        self.problem = now
         self._start()
         return True
 
@@ -99,19 +99,19 @@ class StepwiseRun:
         Nothing is factorised anew, so the end is only near that of Cubify; see `renew`. False if
         this is not possible: the run has hardly begun, or the weights have changed too much.
         """
-        if self.prepared is None or self._run is None or self._run.is_on_coarser_mesh:
+        if self.problem is None or self._run is None or self._run.is_on_coarser_mesh:
             return False
         members = []
-        for member in self.prepared.members:
+        for member in self.problem.pieces:
             original = originals.get(member.uid, member.shape.original)
             members.append(replace(member, shape=replace(member.shape, original=original)))
-        posed = self.prepared.posed(members)
-        if not self.prepared.setup.serves(posed.setup):
+        posed = self.problem.posed(members)
+        if not self.problem.setup.serves(posed.setup):
             return False
         try:
             run = pipeline.go_on(posed, self._run)
         except solver.CubicCraftError as error:
-            self.problems = [f"{self.prepared.name}: {error}"]
+            self.problems = [f"{self.problem.name}: {error}"]
             return False
         self._reset(self.problems)
         self._posed, self._run = posed, run
@@ -123,7 +123,7 @@ class StepwiseRun:
 
         If nothing has changed, it goes on as before; `known` as for `tasks.prepare_all`.
         """
-        before, was_followed = self.prepared, self._posed is not None
+        before, was_followed = self.problem, self._posed is not None
         now, problems = prepare_all(tasks, known, [before] if before else [])
         self._is_held = False
         is_same = before is not None and now is not None and _has_members_of(now, before)
@@ -131,17 +131,17 @@ class StepwiseRun:
             return
         is_like = before is not None and now is not None and _has_vertices_of(now, before)
         self._reset(problems)
-        self._key, self.prepared = key_of(tasks), now
+        self._key, self.problem = key_of(tasks), now
         if now is not None:
             self._start()
             self._is_behind = is_like
 
     def _start(self):
-        assert self.prepared is not None
+        assert self.problem is not None
         self._starts += 1
-        settings = self.prepared.settings
+        settings = pipeline.settings_of_all(self.problem)
         try:
-            self._run = pipeline.start(self.prepared)
+            self._run = pipeline.start(self.problem)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
             self._countdown = Countdown(keeps_apart=settings.keep_apart)
         except solver.CubicCraftError as error:
@@ -160,11 +160,11 @@ class StepwiseRun:
     def forget(self) -> None:
         """Release all arrays."""
         self.stop()
-        self.prepared = None
+        self.problem = None
 
     def member_of(self, uid: int) -> Member | None:
         """Return the data read from an object, None if it does not take part."""
-        members = self.prepared.members if self.prepared else ()
+        members = self.problem.pieces if self.problem else ()
         return next((member for member in members if member.uid == uid), None)
 
     # -- work --------------------------------------------------------------------------------------
@@ -188,16 +188,16 @@ class StepwiseRun:
 
     def advance(self) -> None:
         """Do one phase of the solver. If it cannot continue, `problems` has the reason."""
-        assert self._run is not None and self.prepared is not None
+        assert self._run is not None and self.problem is not None
         try:
             if self._run.reason is None:
                 self._run.advance()
             else:
-                solutions = pipeline.solutions_of(self.prepared, self._run)
-                uids = [member.uid for member in self.prepared.members]
+                solutions = pipeline.solutions_of(self.problem, self._run)
+                uids = [member.uid for member in self.problem.pieces]
                 self._solutions = dict(zip(uids, solutions, strict=True))
         except solver.CubicCraftError as error:
-            self._reset([f"{self.prepared.name}: {error}"])
+            self._reset([f"{self.problem.name}: {error}"])
 
     @property
     def iteration(self):
@@ -243,25 +243,25 @@ class StepwiseRun:
             return self._solutions.get(uid)
         if self._state is None:
             return None
-        assert self._run is not None and self.prepared is not None
+        assert self._run is not None and self.problem is not None
         if self._so_far is None or self._so_far[0] != self._state:
-            found = pipeline.solutions_so_far(self._posed or self.prepared, self._run)
-            uids = [member.uid for member in self.prepared.members]
+            found = pipeline.solutions_so_far(self._posed or self.problem, self._run)
+            uids = [member.uid for member in self.problem.pieces]
             self._so_far = self._state, dict(zip(uids, found, strict=False))
         return self._so_far[1].get(uid)
 
     @property
     def outcome(self):
         """The numbers of a `LastRun`, as values for JSON, while there is something to show."""
-        assert self._run is not None and self.prepared is not None
+        assert self._run is not None and self.problem is not None
         energy = self._run.energy
         return {
-            "vertices": int(self.prepared.vertices),
-            "objects": len(self.prepared.members),
+            "vertices": int(self.problem.vertices),
+            "objects": len(self.problem.pieces),
             "iterations": int(self._run.iterations),
             "energy": 0.0 if energy is None else max(float(energy.total), 0.0),
             "converged": self._run.reason == "converged",
-            "seconds": float(self.prepared.seconds + self._run.seconds),
+            "seconds": float(self.problem.seconds + self._run.seconds),
             "device": self._run.stylization.device,
         }
 
@@ -281,15 +281,15 @@ class StepwiseRun:
 
         The rotations take time, and may be None unless requested.
         """
-        assert self._run is not None and self.prepared is not None
+        assert self._run is not None and self.problem is not None
         if self._solutions is not None:
             solution = self._solutions.get(uid)
             return solution and (solution.positions, solution.rotations)
         moment = (self.moment, with_rotations)
         if moment != self._intermediate_moment:
-            prepared = self._posed or self.prepared
-            found = pipeline.intermediate_result(prepared, self._run, with_rotations)
-            members = self.prepared.members
+            problem = self._posed or self.problem
+            found = pipeline.intermediate_result(problem, self._run, with_rotations)
+            members = self.problem.pieces
             self._intermediate = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._intermediate_moment = moment
         return self._intermediate.get(uid)
@@ -304,12 +304,12 @@ def _looks_at_weights(task):
 def _has_members_of(now, before):
     return _has_vertices_of(now, before) and all(
         one.shape.is_like(two.shape) and _has_weights_of(one, two)
-        for one, two in zip(now.members, before.members, strict=True)
+        for one, two in zip(now.pieces, before.pieces, strict=True)
     )
 
 
 def _has_vertices_of(now, before):
-    counts = [[(m.uid, m.vertices) for m in prepared.members] for prepared in (now, before)]
+    counts = [[(m.uid, m.vertices) for m in problem.pieces] for problem in (now, before)]
     return counts[0] == counts[1]
 
 

@@ -18,17 +18,16 @@ from ..environment.engine_notes import look_at_engine
 from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
 from ..mesh_bridge import LastRun
+from ..read.bones import bone_places
+from ..read.member import Member, read_member
+from ..read.object_frame import placements
+from ..read.reflections import modifier_reflections
 from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept
 from . import pipeline
-from .assembly import Prepared, prepare
-from .bones import bone_places
 from .failures import UNEXPECTED, in_words
 from .hair import hair_left_behind
-from .member import Member, read_member
-from .object_frame import placements
 from .up_to_date import what_matters
-from .whole import modifier_reflections
 
 _log = logging.getLogger(__name__)
 
@@ -108,7 +107,7 @@ class Task:
             and self.bones == other.bones
             and (not self.settings.floor or np.allclose(one.up, two.up))
             and np.allclose(one.linear, two.linear)
-            and np.allclose(one.orientation, two.orientation)
+            and np.allclose(one.style.orientation, two.style.orientation)
         )
 
 
@@ -155,10 +154,10 @@ def key_of(tasks: Sequence[Task]) -> tuple:
 def prepare_all(
     tasks: Sequence[Task],
     known: Mapping[int, Member] | None = None,
-    earlier: Sequence[Prepared] = (),
+    earlier: Sequence[pipeline.MemberProblem] = (),
     *,
     weights_changed: bool = False,
-) -> tuple[Prepared | None, list[str]]:
+) -> tuple[pipeline.MemberProblem | None, list[str]]:
     """Read and factorise an assembly, without the objects that cannot be used.
 
     Parameters
@@ -167,11 +166,11 @@ def prepare_all(
     known : mapping of int to Member, optional
         Data from earlier runs, by the ``session_uid`` of the object.
     earlier, weights_changed
-        As for `prepare` and `read_member`.
+        As for `pipeline.prepare` and `read_member`.
 
     Returns
     -------
-    prepared : Prepared or None
+    problem : Problem or None
     problems : list of str
     """
     members, problems = [], []
@@ -195,7 +194,7 @@ def prepare_all(
     if not members:
         return None, problems
     try:
-        return prepare(members, earlier), problems
+        return pipeline.prepare(members, earlier), problems
     except CubicCraftError as error:
         return None, [*problems, str(error)]
 

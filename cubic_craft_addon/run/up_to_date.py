@@ -11,11 +11,11 @@ import numpy as np
 from ...solver import CubicCraftError
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
+from ..read.form import form_of
+from ..read.normal_capture import has_capture, note_of
 from ..settings.forms import FORM_SETTINGS, OF_OBJECT, form_settings
 from ..settings.properties import settings_of
 from ..settings.values import Settings
-from .form import form_of
-from .normal_capture import has_capture, note_of
 
 # The device, what is chosen for each run, and what a new mesh was made of.
 _IGNORED = {"device", "start", "with_modifiers"}

@@ -16,7 +16,7 @@ import numpy as np
 from ...solver import CubicCraftError
 from .. import hidden_source, mesh_bridge
 from ..environment.file_names import file_stem
-from ..run.facets import flat_facets
+from ..measure.facets import flat_facets
 from . import low_poly
 from .bake import bake_normals, check_cycles
 from .map_material import MapMaterials

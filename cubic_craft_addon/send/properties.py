@@ -25,7 +25,7 @@ class NormalMapProperties:
 
     triangles: IntProperty(
         name="Triangles",
-        description="Number of triangles that the low-poly mesh has at most, about",
+        description="Largest number of triangles of the low-poly mesh, approximately",
         default=1000,
         min=12,
         max=10_000_000,

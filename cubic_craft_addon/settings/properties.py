@@ -73,7 +73,7 @@ _DEVICES = (
     ("AUTO", "Auto", "Taichi or Quadrants on the processor if it is installed, otherwise NumPy"),
     ("CPU", "CPU", "Taichi or Quadrants on the processor"),
     ("GPU", "GPU", "Taichi or Quadrants on the graphics card"),
-    ("NUMPY", "NumPy", "Without either: slower, but works everywhere"),
+    ("NUMPY", "NumPy", "Neither Taichi nor Quadrants: slower, but works everywhere"),
 )
 
 
@@ -135,7 +135,7 @@ class RunProperties:
     form_weights: form_properties.form_weights()
     capture_strength: FloatProperty(
         name="Strength",
-        description="How strongly the surface turns the way the normal capture shows, beside the"
+        description="How strongly the surface turns as the normal capture shows, in addition to the"
         " cubeness. You can type values beyond the slider, up to 10",
         default=Settings.capture_strength,
         min=0.0,
@@ -325,8 +325,8 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
     form_object: form_properties.form_object()
     capture_object: PointerProperty(
         name="Normal Capture",
-        description="Object whose normals show which way a surface should face that faces as the"
-        " object did when it was a ball",
+        description="Ball that you have shaped. Its normals show how the surfaces of the mesh turn:"
+        " each as the ball did where it faced the same direction",
         type=bpy.types.Object,
         poll=_may_be_capture,
     )

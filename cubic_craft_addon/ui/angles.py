@@ -13,8 +13,8 @@ from bpy.app.handlers import persistent
 from .. import live
 from ..environment import handlers
 from ..environment.requirements import check_requirements
-from ..run.angles import Angles, remaining_angles
-from ..run.object_frame import placement_alone
+from ..measure.angles import Angles, remaining_angles
+from ..read.object_frame import placement_alone
 from ..screen.kept import Kept
 
 _known: Kept[Angles] = Kept()

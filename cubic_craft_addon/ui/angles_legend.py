@@ -11,7 +11,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..run.angles import ALIGNED
+from ..measure.angles import ALIGNED
 from ..screen.text_fit import width_of
 
 TITLE = "Angle to the form"

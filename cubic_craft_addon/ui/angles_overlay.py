@@ -16,7 +16,7 @@ from mathutils import Matrix
 
 from ...solver import CubicCraftError
 from ..handles.owner import panel_object
-from ..run.angles import Angles
+from ..measure.angles import Angles
 from ..screen import glimpse
 from . import angles, angles_legend
 

@@ -16,8 +16,8 @@ from ...solver import CubicCraftError
 from ...solver.styles.forms import cube
 from .. import live
 from ..handles.owner import panel_object
-from ..run.form import form_of
-from ..run.object_frame import world_axes
+from ..read.form import form_of
+from ..read.object_frame import world_axes
 from ..screen import glimpse
 
 PROPERTY = "cubic_craft_overlay"

@@ -19,7 +19,7 @@ class CubicCraftPreferences(bpy.types.AddonPreferences):
 
     tab: StringProperty(
         name="Sidebar Tab",
-        description="Name of the sidebar tab that holds the panel",
+        description="Name of the sidebar tab that contains the panel",
         default=panel.DEFAULT_TAB,
         update=_move_panel,
     )

@@ -6,8 +6,9 @@ from functools import lru_cache
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.pieces.whole import Whole
 from .. import mesh_bridge
-from ..run.whole import Whole, modifier_reflections
+from ..read.reflections import modifier_reflections
 
 _MOST_VERTICES = 200_000
 """larger meshes are not counted, because that would slow down the panel"""

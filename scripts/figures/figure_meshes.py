@@ -24,9 +24,8 @@ from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loade
 from cubic_craft.cubic_craft_addon.command_line.solving.pose import handles_of_all
 from cubic_craft.cubic_craft_addon.command_line.writing.detached import detached_copy
 from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions
-from cubic_craft.cubic_craft_addon.run.assembly import prepare
-from cubic_craft.cubic_craft_addon.run.member import read_member
-from cubic_craft.cubic_craft_addon.run.pipeline import solve
+from cubic_craft.cubic_craft_addon.read.member import read_member
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 from cubic_craft.solver.console.errors import InputError
 from cubic_craft.solver.errors import CubicCraftError
@@ -178,8 +177,7 @@ class FigureMeshes:
         with self._bar.task(f"{name}, cubeness {settings.cubeness:g}") as task:
             try:
                 member = read_member(model.object, settings)
-                prepared = prepare([member])
-                (solution,) = solve(prepared)
+                (solution,) = solve(prepare([member]))
             except CubicCraftError as error:
                 raise InputError(f"{model.path or name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")

@@ -21,9 +21,8 @@ from preset_pictures.studio import Picture, render, set_up  # noqa: E402
 from cubic_craft import registered  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.assembly import prepare  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.member import read_member  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.pipeline import solve  # noqa: E402
+from cubic_craft.cubic_craft_addon.read.member import read_member  # noqa: E402
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve  # noqa: E402
 from cubic_craft.cubic_craft_addon.settings.values import Settings  # noqa: E402
 
 ICON = Picture(size=256, width=2.62, lift=0.06, largest_bytes=100_000)

@@ -19,9 +19,8 @@ from cubic_craft import registered  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
 from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions  # noqa: E402
 from cubic_craft.cubic_craft_addon.presets.files import INCLUDED_FOLDER, presets  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.assembly import prepare  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.member import read_member  # noqa: E402
-from cubic_craft.cubic_craft_addon.run.pipeline import solve  # noqa: E402
+from cubic_craft.cubic_craft_addon.read.member import read_member  # noqa: E402
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve  # noqa: E402
 from cubic_craft.cubic_craft_addon.settings.values import Settings  # noqa: E402
 from preset_pictures.studio import Picture, render, set_up  # noqa: E402
 

@@ -31,7 +31,7 @@ def local_step_class(device: Device = "auto", precision: Precision | None = None
     device : {"auto", "cpu", "gpu", "numpy"}
         "cpu" and "gpu" are those of Taichi or Quadrants; "auto" is "cpu" where that works, else
         "numpy": see `problem_with_engine`.
-    precision : {"f64", "f32"}, optional
+    precision : "f64" or "f32", optional
         Of their kernels; by default the best that the device has. NumPy is always f64.
 
     Raises
@@ -50,7 +50,7 @@ def local_step_class(device: Device = "auto", precision: Precision | None = None
 
 
 def problem_with_engine() -> str:
-    """Return why the device "auto" means "numpy" at present, "" while it does not."""
+    """Return why the device "auto" means "numpy" at present, or "" if it does not."""
     return _problem
 
 

@@ -7,13 +7,13 @@ the surface: with the rotation T_i of the surroundings of a vertex from pose v t
 
     u'_i = v'_i + T_i (u_i - v_i),    R'_i = T_i R_i T_i'
 
-with a share f forgotten, that is with (1 - f)(u_i - v_i) and the rotation between R_i and the
-identity. What is never forgotten accumulates: a thin coat that turns to and fro is left with a
+with a share f dropped, that is with (1 - f)(u_i - v_i) and the rotation between R_i and the
+identity. What is never dropped accumulates: a thin coat that turns to and fro is left with a
 pleat where its corners were, and a sheet that falls over a ball stays flat.
 
 Even so, a minimum can vanish, and the shape then falls into the next one; `steadiness` spreads that
 over several frames. A few steps for each frame are nearly enough to converge, as they begin near
-the end. They cost little: the factorisation is that of the first pose, see `RestMesh.posed`.
+the end. They cost little: the factorization is that of the first pose, see `RestMesh.posed`.
 """
 
 from collections.abc import Iterator
@@ -48,13 +48,23 @@ class SequenceState(NamedTuple):
 
     Examples
     --------
+    A sequence that was stopped continues from its state:
+
     >>> import numpy as np
-    >>> from solver import FrameSequence, SequenceState, Setup, Stylization, rest_mesh
-    >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0]], [[0, 1, 2]])
-    >>> first = FrameSequence(rest)
-    >>> _ = first.solve(Stylization(Setup(rest), 0.4, device="numpy"))
-    >>> FrameSequence(rest, first.state).state.positions.shape
-    (3, 3)
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> setup = Setup(rest_mesh(V, F))
+    >>> stopped = FrameSequence(setup.rest)
+    >>> first = stopped.solve(Stylization(setup, 0.6, keep_rotation=True, device="numpy"))
+    >>> pose = setup.posed(V * [1, 1, 1.1])
+    >>> frame = Stylization(pose, 0.6, keep_rotation=True, device="numpy")
+    >>> second = FrameSequence(setup.rest, stopped.state).solve(frame)
+    >>> second.iterations, round(float(np.abs(second.positions - first.positions).max()), 2)
+    (12, 0.11)
     """
 
     pose: FloatArray
@@ -86,7 +96,8 @@ class FrameSequence:
     state : SequenceState, optional
         Of an earlier sequence from the same first frame, which continues.
     forgotten : float
-        The share f; 0 for a mesh that does not move, of which then only the style changes.
+        Share f of the deformation that is dropped from frame to frame; 0 for a mesh that does not
+        move while its style changes.
 
     Attributes
     ----------
@@ -99,16 +110,23 @@ class FrameSequence:
 
     Examples
     --------
+    A ball that is drawn out by a tenth, frame by frame, and how far its cubic version moves:
+
     >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
-    >>> sequence = FrameSequence(setup.rest)
-    >>> first = sequence.solve(Stylization(setup, 0.4, device="numpy"))
-    >>> frame = Stylization(setup.posed(V * [1, 1, 1.1]), 0.4, device="numpy")
-    >>> sequence.solve(frame).iterations
-    12
+    >>> sequence, shown = FrameSequence(setup.rest), []
+    >>> for height in (1.0, 1.05, 1.1):
+    ...     pose = setup.posed(V * [1, 1, height])
+    ...     frame = Stylization(pose, 0.6, keep_rotation=True, device="numpy")
+    ...     shown.append(sequence.solve(frame).positions)
+    >>> [f"{np.linalg.norm(b - a, axis=1).max():.2f}" for a, b in zip(shown, shown[1:])]
+    ['0.05', '0.06']
     """
 
     def __init__(
@@ -152,7 +170,9 @@ class FrameSequence:
         ----------
         stylization : Stylization
             A new one, of the first mesh or a pose of it.
-        max_iterations, tolerance
+        max_iterations : int
+            Of the first frame, as for `Run`.
+        tolerance : float
             Of the first frame, as for `Run`.
 
         Raises

@@ -45,12 +45,20 @@ def pose_frames(
 
     Examples
     --------
+    A ball that is drawn out along a line 30 degrees from Z is a limb, and its form leans with it:
+
     >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
     >>> from solver import pose_frames
-    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> pose_frames(V, F).shape
-    (4, 3, 3)
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
+    >>> limb = V * [0.2, 0.2, 1] @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
+    >>> up = pose_frames(limb, F)[350].T @ [0, 0, 1]  # in the middle
+    >>> f"{np.degrees(np.arccos(up[2])):.0f} degrees"
+    '30 degrees'
     """
     setup = Setup(rest_mesh(V, F, proxy or ProxyOptions()))
     return Stylization(setup, 0.0, orientation, device="numpy", keep_rotation=True).orientations

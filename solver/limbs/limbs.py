@@ -83,7 +83,7 @@ class Limbs(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class KnownLimbs(Limbs):
-    """Limbs of which it is known, for some vertices, that they are so.
+    """Limbs that are known for some of the vertices, as from bones.
 
     See Also
     --------

@@ -62,7 +62,7 @@ def limbs_of_bones(
     V : (n,3) float array
         Rest positions.
     weights : (n,b) scipy csr_matrix
-        How much each bone moves each vertex, not normalised.
+        How much each bone moves each vertex, not normalized.
     heads, tails : (b,3) float arrays
         Ends of the bones in the same coordinates and in the rest pose.
     parents : (b,) int array
@@ -71,7 +71,7 @@ def limbs_of_bones(
     Returns
     -------
     KnownLimbs
-        Known where a bone moves a vertex. A bone that is in no limb has no shares.
+        Known where a bone moves a vertex. Bones outside limbs have no shares.
 
     Examples
     --------

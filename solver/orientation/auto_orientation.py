@@ -27,7 +27,7 @@ SMOOTHING = 1e-4
 def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = None) -> FloatArray:
     """Return the orientation whose axes best fit the normals.
 
-    It minimises ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
+    It minimizes ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
     and descent from the best of them. Of the 24 equivalent rotations of a cube, it returns the
     one nearest to the identity. Another form has its own cost, ``sum_i a_i h(Q n_i)``, and its own
     symmetries.

@@ -6,11 +6,12 @@ function of the Minkowski sum c_1 W_1 + c_2 W_2 (Schneider, Convex Bodies: The B
 Theory, section 1.7), another convex body, so the local step stays exact.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 
+from ..aliases import FloatArray
 from .forms import cube
 from .polytope import Polytope, minkowski_sum
 
@@ -27,13 +28,21 @@ class Style:
 
     See Also
     --------
-    blended : Where several overlap.
+    piece_of : An object with a style, and others in regions.
+
+    Examples
+    --------
+    >>> from solver import Style
+    >>> from solver.styles.forms import octahedron
+    >>> gem = Style(0.4, form=octahedron())
+    >>> len(gem.form.normals), Style(0.4).form is None
+    (8, True)
     """
 
     cubeness: float
-    orientation: np.ndarray
-    """(3,3), or (n,3,3) for each vertex of the mesh"""
-    form: Polytope | None
+    orientation: FloatArray = field(default_factory=lambda: np.eye(3))
+    """(3,3) rotation into the frame of the form, or (n,3,3) for each vertex of the mesh"""
+    form: Polytope | None = None
     """None for the cube"""
 
 

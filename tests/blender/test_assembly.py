@@ -238,15 +238,15 @@ def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
 
 
 def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkeypatch):
-    solver = importlib.import_module(f"{extension.__name__}.solver")
+    rest = importlib.import_module(f"{extension.__name__}.solver.rest")
     looked = []
-    rest_mesh = solver.rest_mesh
+    rest_mesh = rest.rest_mesh
 
     def counted(*arguments):
         looked.append(arguments)
         return rest_mesh(*arguments)
 
-    monkeypatch.setattr(solver, "rest_mesh", counted)
+    monkeypatch.setattr(rest, "rest_mesh", counted)
     session = begin(*trio)
     for name, value in (("cubeness", 0.7), ("solidity", 0.5), ("orientation", (0.1, 0.0, 0.2))):
         setattr(live.live_properties(), name, value)

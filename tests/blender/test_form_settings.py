@@ -52,7 +52,7 @@ def share_facing(obj, normals, angle=10.0):
 @pytest.fixture
 def body_of(part):
     """Return a function that returns the form of an object."""
-    settings_of, form_of = part("settings.properties").settings_of, part("run.form").form_of
+    settings_of, form_of = part("settings.properties").settings_of, part("read.form").form_of
     return lambda obj: form_of(settings_of(obj))
 
 
@@ -113,7 +113,7 @@ def test_directions_of_half_a_box_are_completed(body_of):
 def test_of_a_ball_few_directions_are_taken(part, body_of):
     monkey = add_monkey()
     monkey.cubic_craft.form, monkey.cubic_craft.form_object = "OBJECT", add_solid("ball")
-    assert 20 <= len(body_of(monkey).normals) <= part("run.form").MOST_DIRECTIONS
+    assert 20 <= len(body_of(monkey).normals) <= part("read.form").MOST_DIRECTIONS
 
 
 @pytest.mark.parametrize(

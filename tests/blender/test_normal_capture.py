@@ -35,7 +35,10 @@ def shape_ball(ball, power=8.0, stretch=(1.0, 1.0, 1.0)):
 @pytest.fixture
 def capture_of(part):
     """Return a function that returns the capture of an object."""
-    of, settings_of = part("run.normal_capture").capture_of, part("settings.properties").settings_of
+    of, settings_of = (
+        part("read.normal_capture").capture_of,
+        part("settings.properties").settings_of,
+    )
     return lambda obj: of(obj, settings_of(obj))
 
 
@@ -250,8 +253,8 @@ def test_what_is_solved_together_may_have_different_captures_or_none(part):
         ball.cubic_craft.cubeness, ball.cubic_craft.refine = 0.0, "OFF"
     bpy.context.view_layer.update()
     settings_of = part("settings.properties").settings_of
-    members = [part("run.member").read_member(ball, settings_of(ball)) for ball in balls]
-    prepared = part("run.assembly").prepare(members)
+    members = [part("read.member").read_member(ball, settings_of(ball)) for ball in balls]
+    prepared = part("run.pipeline").prepare(members)
     one, other, none = part("run.pipeline").solve(prepared)
     at_rest = position_of(balls[0].data)
     assert np.abs(none.positions - at_rest).max() < 0.02

@@ -360,14 +360,14 @@ OF_THE_PROXY = {"keep_pose": False, "detail": 0.125, "keep_apart": False}
 def test_each_option_of_the_proxy_reaches_the_solver(
     extension, live, begin, monkeypatch, way, name
 ):
-    tasks = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.tasks")
-    seen, prepare, value = [], tasks.prepare, OF_THE_PROXY[name]
+    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    seen, prepare, value = [], pipeline.prepare, OF_THE_PROXY[name]
 
     def watched(members, *arguments):
         seen.append(members[0].settings.proxy)
         return prepare(members, *arguments)
 
-    monkeypatch.setattr(tasks, "prepare", watched)
+    monkeypatch.setattr(pipeline, "prepare", watched)
     obj = add_monkey()
     if way == "Live":
         session = begin(obj)

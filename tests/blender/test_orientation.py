@@ -142,7 +142,7 @@ def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror)
     assert max(abs(angle) for angle in obj.cubic_craft.orientation) < 1.1
     room = f"{extension.__name__}.cubic_craft_addon"
     settings = importlib.import_module(f"{room}.settings.properties").settings_of(obj)
-    frame_of = importlib.import_module(f"{room}.run.object_frame").stretch_and_orientation
+    frame_of = importlib.import_module(f"{room}.read.object_frame").stretch_and_orientation
     stretch, Q = frame_of(obj, settings)
     corners = position_of(obj.data) @ stretch.T @ Q.T  # as the cube sees them
     np.testing.assert_allclose(np.abs(corners), np.abs(corners[0]) * np.ones((8, 3)), atol=1e-3)

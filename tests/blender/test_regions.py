@@ -66,7 +66,7 @@ def face_middles(obj):
 
 @pytest.mark.parametrize("weights", [upper, blended])
 def test_each_part_has_its_own_form(part, weights):
-    forms = part("run.form").forms
+    forms = part("read.form").forms
     ball = add_ball()
     heights = face_middles(ball)[:, 2]
     before = bits(ball)
@@ -183,7 +183,7 @@ def test_shares_never_add_up_to_more_than_all(extension):
         add_region(obj, name)
     addon = f"{extension.__name__}.cubic_craft_addon"
     settings = importlib.import_module(f"{addon}.settings.properties").settings_of(obj, handles=())
-    shares = importlib.import_module(f"{addon}.run.region_shares").region_shares(obj, settings)
+    shares = importlib.import_module(f"{addon}.read.region_shares").region_shares(obj, settings)
     assert shares is not None
     np.testing.assert_allclose(shares, np.tile([0.0, 0.5, 0.3, 0.2], (len(shares), 1)), atol=1e-6)
 

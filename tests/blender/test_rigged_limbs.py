@@ -102,7 +102,7 @@ def test_without_keep_pose_arms_swing_and_bones_are_not_read(figure, body, part,
     def fail(*_):
         raise AssertionError("bones were read")
 
-    for module in ("run.member", "run.tasks"):
+    for module in ("read.member", "run.tasks"):
         for name in ("bone_places", "read_bones"):
             monkeypatch.setattr(part(module), name, fail, raising=False)
     V = body["mesh"][0]
@@ -186,7 +186,7 @@ def test_moving_the_figure_with_its_rig_changes_nothing(figure, part):
     obj, rig = figure
     obj.parent = rig
     bpy.context.view_layer.update()
-    places = part("run.bones").bone_places
+    places = part("read.bones").bone_places
     before = places(obj)
     rig.location, rig.rotation_euler = (3.0, -2.0, 1.0), (0.1, 0.2, 0.3)
     bpy.context.view_layer.update()
@@ -233,7 +233,7 @@ def _shown(obj, frame):
 
 def test_whatever_is_wrong_with_a_rig_the_shape_tells_instead(figure, part):
     obj, rig = figure
-    places = part("run.bones").bone_places
+    places = part("read.bones").bone_places
     assert len(places(obj).groups) == len(all_bones())
     modifier = obj.modifiers["Armature"]
     modifier.use_vertex_groups = False
@@ -275,7 +275,7 @@ def test_a_broken_rig_is_no_reason_to_refuse(figure, fault):
         assert cubify(iterations=3) == {"FINISHED"}
     else:
         module = importlib.import_module(type(obj.cubic_craft).__module__.rsplit(".", 2)[0])
-        bones = importlib.import_module(f"{module.__name__}.run.bones")
+        bones = importlib.import_module(f"{module.__name__}.read.bones")
         assert len(bones.bone_places(obj).groups) == len(all_bones())
         bpy.ops.object.mode_set(mode="OBJECT")
 

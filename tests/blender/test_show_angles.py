@@ -86,7 +86,7 @@ def test_a_turned_cube_is_off_by_its_turn_until_the_form_is_turned_alike(angles_
 def test_the_sides_of_a_dodecahedron_lie_in_their_form(angles_now, part):
     obj = add_cube(rotation=(0.3, 0.2, 0.1))
     obj.cubic_craft.form, obj.cubic_craft.space = "DODECAHEDRON", "OBJECT"
-    body = part("run.form").form_of(part("settings.properties").settings_of(obj))
+    body = part("read.form").form_of(part("settings.properties").settings_of(obj))
     with bmesh_of(obj.data) as edited:
         edited.clear()
         for corner in body.vertices:
@@ -111,9 +111,9 @@ def test_the_angles_are_those_that_are_seen_in_the_world(angles_now, part, form,
     settings.form_weights = (1.0, 0.5, 0.7)
     angles = angles_now(obj)
     plain = part("settings.properties").settings_of(obj)
-    body = part("run.form").form_of(plain)
+    body = part("read.form").form_of(plain)
     sides = np.concatenate([np.eye(3), -np.eye(3)]) if body is None else body.normals
-    sides = sides @ part("run.object_frame").world_axes(obj, plain).T
+    sides = sides @ part("read.object_frame").world_axes(obj, plain).T
     world = np.array(obj.matrix_world)[:3, :3]
     a, b, c = (angles.corners @ world.T).astype(np.float64).swapaxes(0, 1)
     normals = np.cross(b - a, c - a) * np.sign(np.linalg.det(world))

@@ -11,9 +11,16 @@ import numpy as np
 from ....solver import Progress
 from ....solver.console.errors import InputError
 from ...handles import Handle
-from ...run.assembly import Prepared, assemblies, prepare
-from ...run.member import Member, read_member
-from ...run.pipeline import Solution, shape_of, solve
+from ...read.member import Member, assemblies, read_member
+from ...run.pipeline import (
+    MemberProblem,
+    Solution,
+    prepare,
+    settings_of_all,
+    shape_of,
+    solve,
+    with_cubeness,
+)
 from ...settings.region import Region
 from ...settings.values import Settings
 from ..options.region_option import region_of
@@ -31,7 +38,7 @@ class Sculpture:
     users: list[bpy.types.Object]
     """the first of them was solved"""
     member: Member
-    prepared: Prepared
+    problem: MemberProblem
     """all that was solved at once with it"""
     solutions: list[Solution]
     """one per cubeness"""
@@ -69,22 +76,22 @@ def cubify_all(loaded: Loaded, options: Namespace, bar: ProgressBar) -> list[Scu
         for users in by_mesh.values()
     ]
     # All checks of all objects come first, so that a refusal costs no solve.
-    all_prepared = [prepare(group) for group in assemblies(members)]
+    problems = [prepare(group) for group in assemblies(members)]
     found = {}
-    for prepared in all_prepared:
-        solutions = [_solve(prepared.with_cubeness(cubeness), bar) for cubeness in options.cubeness]
-        for member, own in zip(prepared.members, zip(*solutions, strict=True), strict=True):
-            found[member.uid] = (member, prepared, list(own))
+    for problem in problems:
+        solutions = [_solve(with_cubeness(problem, value), bar) for value in options.cubeness]
+        for member, own in zip(problem.pieces, zip(*solutions, strict=True), strict=True):
+            found[member.uid] = (member, problem, list(own))
     return [Sculpture(users, *found[users[0].session_uid]) for users in by_mesh.values()]
 
 
-def _solve(prepared: Prepared, bar: ProgressBar) -> tuple[Solution, ...]:
+def _solve(problem: MemberProblem, bar: ProgressBar) -> tuple[Solution, ...]:
     """Return the Solution of each member."""
-    settings, members = prepared.settings, prepared.members
+    settings, members = settings_of_all(problem), problem.pieces
     progress = Progress(settings.max_iterations, settings.tolerance)
     name = members[0].name if len(members) == 1 else f"{len(members)} objects together"
     with bar.task(f"{name}, cubeness {settings.cubeness!r}") as task:
-        solutions = solve(prepared, lambda state: task.advance_to(progress.update(state)))
+        solutions = solve(problem, lambda state: task.advance_to(progress.update(state)))
         task.finish(_summary(solutions[0]))
     return solutions
 

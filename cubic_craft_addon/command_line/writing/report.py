@@ -12,8 +12,7 @@ import bpy
 import numpy as np
 
 from ...environment.engine_notes import new_engine_warnings
-from ...run.assembly import Prepared
-from ...run.pipeline import Solution
+from ...run.pipeline import MemberProblem, Solution
 from ..process.output_files import write_json, written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
@@ -100,22 +99,22 @@ def _versions() -> dict[str, str | None]:
 
 
 def _object(sculpture: Sculpture, cubeness: list[float]) -> dict[str, Any]:
-    member, prepared = sculpture.member, sculpture.prepared
+    member, problem = sculpture.member, sculpture.problem
     return {
         "name": sculpture.object.name,
         "vertices": member.vertices,
         "triangles": member.triangles,
         "components": member.components,
         # What is solved at once has one energy, which is in the runs of each of them.
-        "solved_with": [other.name for other in prepared.members if other is not member],
+        "solved_with": [other.name for other in problem.pieces if other is not member],
         "runs": [
-            _run(value, solution, prepared)
+            _run(value, solution, problem)
             for value, solution in zip(cubeness, sculpture.solutions, strict=True)
         ],
     }
 
 
-def _run(cubeness: float, solution: Solution, prepared: Prepared) -> dict[str, Any]:
+def _run(cubeness: float, solution: Solution, problem: MemberProblem) -> dict[str, Any]:
     result = solution.result
     return {
         "cubeness": cubeness,
@@ -124,7 +123,7 @@ def _run(cubeness: float, solution: Solution, prepared: Prepared) -> dict[str, A
         "crossings": result.crossings,
         "energy": {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")},
         "seconds": {
-            "setup": prepared.seconds,
+            "setup": problem.seconds,
             "solve": solution.seconds,
             "compile": result.compile_seconds,
         },

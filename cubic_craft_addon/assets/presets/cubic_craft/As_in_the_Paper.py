@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # pyright: reportAttributeAccessIssue=false
-"""The energy of Liu and Jacobson, and nothing beside it."""
+"""Only the energy of Liu and Jacobson, as in their paper."""
 
 import bpy
 

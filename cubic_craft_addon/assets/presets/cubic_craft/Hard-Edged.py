@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # pyright: reportAttributeAccessIssue=false
-"""Flat sides and sharp edges everywhere, also on small parts."""
+"""Flat sides and sharp edges everywhere, even on small parts."""
 
 import bpy
 

@@ -3,18 +3,19 @@
 
 import numpy as np
 
-from .object_frame import Placement
+from ...solver.pieces.placement import Placement
+from ...solver.styles.blending import Style
 
 _LEAST_SHARE = 0.25
 """of a region: a triangle with less does not face its sides"""
 
 
-def form_directions(placement: Placement) -> np.ndarray:
+def form_directions(style: Style) -> np.ndarray:
     """Return the outward unit normals (k,3) of the sides of the form, where it is solved."""
-    axes = placement.orientation  # the rows of Q, which maps into the frame of the form
-    if placement.form is None:
+    axes = style.orientation  # the rows of Q, which maps into the frame of the form
+    if style.form is None:
         return np.concatenate([axes, -axes]) + 0.0
-    return placement.form.normals @ axes
+    return style.form.normals @ axes
 
 
 def directions_at(
@@ -34,8 +35,8 @@ def directions_at(
     counts : (m,k) bool array, or None if all count everywhere
     """
     if shares is None:
-        return form_directions(placement), None
-    found = [form_directions(place) for place in (placement, *placement.regions)]
+        return form_directions(placement.style), None
+    found = [form_directions(style) for style in placement.styles]
     part = np.repeat(np.arange(len(found)), [len(some) for some in found])
     is_there = shares[triangles].mean(axis=1) >= _LEAST_SHARE
     return np.concatenate(found), is_there[:, part]

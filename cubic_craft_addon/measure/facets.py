@@ -11,15 +11,16 @@ import numpy as np
 
 from ... import solver
 from ...solver import CubicCraftError
+from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
 from ..mesh_bridge import LastRun
+from ..read.object_frame import placement_alone
+from ..read.reflections import modifier_reflections
+from ..read.region_shares import region_shares
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 from .form_directions import directions_at
-from .object_frame import Placement, placement_alone
-from .region_shares import region_shares
-from .whole import modifier_reflections
 
 _IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
 _OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights", "form_directions")
@@ -111,7 +112,5 @@ def _walls(
     """
     size = float(np.ptp(points, axis=0).max())
     for reflection in modifier_reflections(obj):
-        apart = np.linalg.norm(reflection.image(points.astype(np.float64)) - points, axis=1)
-        normal = np.linalg.svd(np.eye(3) - np.reshape(reflection.linear, (3, 3)))[2][0]
-        is_inside = apart <= max(reflection.tolerance, _IN_PLANE * size)
-        yield is_inside, np.linalg.inv(placement.linear).T @ normal
+        is_inside = reflection.is_in_plane(points.astype(np.float64), _IN_PLANE * size)
+        yield is_inside, np.linalg.inv(placement.linear).T @ reflection.normal

@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Keep on Floor: parts that stand on the ground before Cubify also do so afterwards."""
 
-from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ... import solver
+from ..aliases import FloatArray
+
+if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
+    from ..setup import Setup
 
 _STANDING = 0.01
 """share of the total height that a standing part may begin above the lowest point"""
 
 
-def kept_on_floor(setup: solver.Setup, positions: np.ndarray, up: np.ndarray) -> np.ndarray:
+def kept_on_floor(setup: "Setup", positions: FloatArray, up: FloatArray) -> FloatArray:
     """Return positions (N,3) of a run, with each standing component moved back to its height.
 
     The lowest point of a component that begins where the whole does keeps its height. Other

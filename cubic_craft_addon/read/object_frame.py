@@ -4,7 +4,6 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import math
-from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -12,8 +11,9 @@ from mathutils import Euler, Matrix
 
 from ... import solver
 from ...solver import CubicCraftError
+from ...solver.pieces.placement import Placement
+from ...solver.styles.blending import Style
 from ...solver.styles.cube import proper
-from ...solver.styles.polytope import Polytope
 from ..settings.values import Settings
 from .form import form_of
 from .normal_capture import capture_of
@@ -22,98 +22,6 @@ from .rest_place import world_at_rest
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
 _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
 _SMALLEST_TURN = 1e-6  # radians; smaller rotations of the cube are ignored
-
-
-@dataclass(frozen=True)
-class Placement:
-    """The placement of an object in the coordinates in which it is solved.
-
-    If it is solved alone, these are its own coordinates, stretched by its scale, which do not
-    change while it is moved or rotated. Objects that are solved together use world space.
-    """
-
-    linear: np.ndarray
-    """(3,3) A of p = A v + t, invertible"""
-    offset: np.ndarray
-    """(3,) t"""
-    turn: np.ndarray
-    """(3,3) rotation or mirroring T of A = T S"""
-    stretch: np.ndarray
-    """(3,3) symmetric stretch S of A = T S, up to rounding"""
-    orientation: np.ndarray
-    """(3,3) rotation Q that maps the coordinates that it is solved in into the form's frame; for a
-    cube without a capture one of the 24 that are the same, else of a mirrored object a reflection
-    """
-    up: np.ndarray
-    """(3,) unit vector that points up in the world"""
-    form: Polytope | None
-    """None for the cube"""
-    capture: solver.NormalCapture | None = None
-    """which way normals should face, in the form's frame"""
-    regions: tuple[Placement, ...] = ()
-    """the same with the form and the orientation of each region"""
-
-    @property
-    def is_mirrored(self):
-        """Whether triangles are flipped there."""
-        return bool(np.linalg.det(self.linear) < 0.0)
-
-    @property
-    def key(self):
-        """All values, for comparison bit for bit."""
-        own = self.shape_key, self.orientation.tobytes(), *self._directions_key
-        return own, *(region.key for region in self.regions)
-
-    @property
-    def _directions_key(self):
-        return self.form and self.form.key, self.capture and self.capture.key
-
-    @property
-    def is_plain_cube(self):
-        """Whether any of the cube's 24 rotations, and its mirror images, are the same."""
-        return self.form is None and self.capture is None
-
-    @property
-    def shape_key(self):
-        """All values that determine the positions of the vertices."""
-        return self.linear.tobytes(), self.offset.tobytes()
-
-    @property
-    def matrix(self):
-        """(4,4) of p = A v + t."""
-        matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = self.linear, self.offset
-        return matrix
-
-    def place(self, points):
-        """Return float64 points (n,3) in the coordinates in which the object is solved."""
-        placed = points.astype(np.float64) @ self.linear.T
-        return placed + self.offset if self.offset.any() else placed
-
-    def read_back(self, placed):
-        """Return points from `place`, possibly moved, in object coordinates."""
-        centred = placed - self.offset if self.offset.any() else placed
-        return centred @ np.linalg.inv(self.linear).T
-
-    def mirror(self, mirror):
-        """Return a Mirror of object coordinates in those in which the object is solved."""
-        linear = self.linear @ mirror.linear @ np.linalg.inv(self.linear)
-        offset = self.linear @ mirror.offset + self.offset - linear @ self.offset
-        return solver.Mirror(mirror.partner, linear, offset)
-
-    def read_rotations_back(self, rotations):
-        """Return the rotations (n,3,3) around vertices in object coordinates.
-
-        With non-uniform scale, they are the nearest rotations to the deformation around each
-        vertex; they rotate the offsets of shape keys and must not distort them.
-        """
-        if not np.array_equal(self.turn, np.eye(3)):
-            rotations = self.turn.T @ rotations @ self.turn
-        stretch = self.stretch
-        if np.allclose(stretch, stretch[0, 0] * np.eye(3), rtol=1e-6, atol=0.0):
-            return rotations
-        maps = np.linalg.inv(stretch) @ rotations @ stretch
-        return solver.svd_rotations(maps.swapaxes(1, 2))
 
 
 def placements(
@@ -132,13 +40,7 @@ def placements(
         As `stretch_and_orientation`, and as `form_of`.
     """
     alone = placement_alone(obj, settings, is_posed=is_posed)
-    world = _world(obj, is_posed)
-    in_world = _in_world(obj, world, settings, alone)
-    if in_world is None:
-        return alone, None
-    pairs = zip(settings.regions, alone.regions, strict=True)
-    found = (_in_world(obj, world, settings.of_region(region), place) for region, place in pairs)
-    return alone, replace(in_world, regions=tuple(found))
+    return alone, _in_world(obj, _world(obj, is_posed), settings, alone)
 
 
 def placement_alone(
@@ -152,10 +54,9 @@ def placement_alone(
         As `stretch_and_orientation`.
     """
     capture = capture_of(obj, settings)
-    regions = (settings.of_region(region) for region in settings.regions)
-    world = _world(obj, is_posed)
-    alone = _alone(obj, world, settings, capture)
-    return replace(alone, regions=tuple(_alone(obj, world, region, capture) for region in regions))
+    turn, stretch = _turn_and_stretch(_world(obj, is_posed))
+    styles = tuple(_style(obj, one, turn, None, form_of(one), capture) for one in _all(settings))
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, turn[2], styles, capture)
 
 
 def _world(obj, is_posed=False):
@@ -172,24 +73,32 @@ def _world(obj, is_posed=False):
     return world
 
 
-def _alone(obj, world, settings, capture):
-    form = form_of(settings)
-    turn, stretch = _turn_and_stretch(world)
-    orientation = _axes(settings).T @ _into_space(obj, settings, turn)
-    orientation = _simplest(orientation, form is None and capture is None)
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, orientation, turn[2], form, capture)
-
-
 def _in_world(obj, world, settings, alone):
     matrix = np.array(world, dtype=np.float64)
     linear, offset = np.ascontiguousarray(matrix[:3, :3]), matrix[:3, 3].copy()
     turn, stretch = _turn_and_stretch(world)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    orientation = _axes(settings).T @ _into_space(obj, settings, turn) @ turn.T
-    orientation = _simplest(orientation, alone.is_plain_cube)
+    styles = tuple(
+        _style(obj, one, turn, turn.T, style.form, alone.capture)
+        for one, style in zip(_all(settings), alone.styles, strict=True)
+    )
     up = np.array([0.0, 0.0, 1.0])
-    return Placement(linear, offset, turn, stretch, orientation, up, alone.form, alone.capture)
+    return Placement(linear, offset, turn, stretch, up, styles, alone.capture)
+
+
+def _all(settings):
+    """Return the settings of an object, and those with which each of its regions is turned."""
+    return [settings, *(settings.of_region(region) for region in settings.regions)]
+
+
+def _style(obj, settings, turn, into, form, capture):
+    """Return the style of an object or a region; `into` leads back from another place."""
+    orientation = _axes(settings).T @ _into_space(obj, settings, turn)
+    if into is not None:
+        orientation = orientation @ into
+    orientation = _simplest(orientation, form is None and capture is None)
+    return Style(settings.cubeness, orientation, form)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -259,7 +168,7 @@ def _turn_and_stretch(world):
     if _is_flat(linear):
         return np.array(world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
     U, sizes, Vt = np.linalg.svd(linear)
-    return U @ Vt, _rounded(Vt.T @ np.diag(sizes) @ Vt)
+    return np.asarray(U @ Vt, dtype=np.float64), _rounded(Vt.T @ np.diag(sizes) @ Vt)
 
 
 def _is_flat(world):

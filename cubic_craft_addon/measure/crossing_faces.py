@@ -9,7 +9,7 @@ import numpy as np
 
 from ...solver.contacts.crossings import crossings
 from .. import mesh_bridge
-from .rest_place import world_at_rest
+from ..read.rest_place import world_at_rest
 
 
 def crossing_faces(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, np.ndarray]:

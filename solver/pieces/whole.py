@@ -5,103 +5,16 @@ The other half then exists when links are searched, and the seam lies in the mid
 not at its border.
 """
 
-from __future__ import annotations  # the solver is loaded when it is needed, not for its names
-
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import Any
 
-import bpy
 import numpy as np
 
-from ... import solver
+from ..aliases import BoolArray, FloatArray, IntArray
+from ..symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
+from .reflection import Reflection, flip
 
 _LEAST_TOLERANCE = 1e-6  # of the largest extent: vertices closer to the plane than this lie in it
-
-
-@dataclass(frozen=True)
-class Reflection:
-    """A reflection x -> A x + b in object coordinates, as plain numbers."""
-
-    linear: tuple[float, ...]
-    """A, row by row"""
-    offset: tuple[float, ...]
-    """b"""
-    tolerance: float
-    """vertices at most this far from their image lie in the plane"""
-
-    def mirror(self, partner: np.ndarray) -> solver.Mirror:
-        """Return it with the partners (n,) of the vertices."""
-        return solver.Mirror(partner, np.reshape(self.linear, (3, 3)), np.array(self.offset))
-
-    @property
-    def matrix(self):
-        """The same as a matrix (4,4)."""
-        matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = np.reshape(self.linear, (3, 3)), self.offset
-        return matrix
-
-    def image(self, points):
-        """Return the reflected points (n,3)."""
-        return points @ np.reshape(self.linear, (3, 3)).T + self.offset
-
-    def is_like(self, other):
-        """Return whether both are the same reflection."""
-        return np.allclose(self.linear + self.offset, other.linear + other.offset)
-
-    def commutes_with(self, other):
-        """Return whether the order of both does not matter."""
-        points = np.vstack([np.zeros(3), np.eye(3)])
-        size = 1.0 + np.abs(self.offset).max() + np.abs(other.offset).max()
-        apart = self.image(other.image(points)) - other.image(self.image(points))
-        return np.abs(apart).max() <= 1e-5 * size
-
-
-def flip(axis: int) -> Reflection:
-    """Return the reflection along an axis of the object, about its origin."""
-    linear = np.eye(3)
-    linear[axis, axis] = -1.0
-    return Reflection(tuple(linear.ravel().tolist()), (0.0, 0.0, 0.0), 0.0)
-
-
-def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
-    """Return the reflections of the first Mirror modifier of an object, in the viewport.
-
-    Not one that cuts the mesh first (Bisect), whose vertices lie on both sides.
-    """
-    for modifier in obj.modifiers:
-        if not isinstance(modifier, bpy.types.MirrorModifier) or not modifier.show_viewport:
-            continue
-        tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
-        flags: Any = modifier  # its vectors of flags can be indexed, which bpy's stubs cannot say
-        numbers = [a for a in range(3) if flags.use_axis[a] and not flags.use_bisect_axis[a]]
-        place = _plane_object(obj, modifier)
-        if place is None:
-            return ()
-        return tuple(_placed(flip(axis), place, tolerance) for axis in numbers)
-    return ()
-
-
-def _plane_object(obj, modifier):
-    """Return the matrix (4,4) from the modifier's coordinates to the object's, None for none."""
-    if modifier.mirror_object is None:
-        return np.eye(4)
-    own = np.array(obj.matrix_world, dtype=np.float64)
-    other = np.array(modifier.mirror_object.matrix_world, dtype=np.float64)
-    if not (np.isfinite(own).all() and np.isfinite(other).all()):
-        return None
-    if min(abs(np.linalg.det(own)), abs(np.linalg.det(other))) < 1e-30:
-        return None
-    return np.linalg.inv(own) @ other
-
-
-def _placed(reflection, place, tolerance):
-    if np.array_equal(place, np.eye(4)):
-        return Reflection(reflection.linear, reflection.offset, tolerance)
-    M = np.eye(4)
-    M[:3, :3] = np.reshape(reflection.linear, (3, 3))
-    M = place @ M @ np.linalg.inv(place)
-    return Reflection(tuple(M[:3, :3].ravel().tolist()), tuple(M[:3, 3].tolist()), tolerance)
 
 
 class Whole:
@@ -109,7 +22,7 @@ class Whole:
 
     Parameters
     ----------
-    original : (n,3) float32 array
+    original : (n,3) array
         Object coordinates.
     triangles : (m,3) int array
     reflections : sequence of Reflection
@@ -129,7 +42,13 @@ class Whole:
         All about which it is to stay symmetric.
     """
 
-    def __init__(self, original, triangles, reflections=(), symmetry=(False, False, False)):
+    def __init__(
+        self,
+        original: np.ndarray,
+        triangles: IntArray,
+        reflections: Sequence[Reflection] = (),
+        symmetry: Sequence[bool] = (False, False, False),
+    ):
         self._original, self._triangles = original, triangles
         self.reflections = reflections
         points = original.astype(np.float64)
@@ -147,12 +66,9 @@ class Whole:
             and all(one.commutes_with(other) for other in self.added)
         )
         self.mirrored = self.added + self._asked
-        self._is_inside = [self._in_plane(one, points) for one in self.added]
+        least = _LEAST_TOLERANCE * self._size
+        self._is_inside = [one.is_in_plane(points, least) for one in self.added]
         self._number(len(points))
-
-    def _in_plane(self, reflection, points):
-        tolerance = max(reflection.tolerance, _LEAST_TOLERANCE * self._size)
-        return np.linalg.norm(reflection.image(points) - points, axis=1) <= tolerance
 
     def _number(self, count):
         """Assign a number to each image; those that coincide get the same number."""
@@ -173,13 +89,8 @@ class Whole:
             elements.append(np.full(len(fresh), element))
         self.source, self._element = np.concatenate(sources), np.concatenate(elements)
 
-    @property
-    def is_plain(self):
-        """Whether nothing is added and nothing must stay symmetric."""
-        return not self.mirrored
-
     @cached_property
-    def triangles(self):
+    def triangles(self) -> IntArray:
         """(M,3) int triangles of the whole."""
         F, found = self._triangles, [self._triangles]
         for element in range(1, len(self._numbers)):
@@ -190,7 +101,7 @@ class Whole:
             found.append(images[(images >= len(self._original)).any(axis=1)])
         return np.concatenate(found)
 
-    def images(self, points):
+    def images(self, points: FloatArray) -> FloatArray:
         """Return points (n,3) of the mesh, float64, with their images (N,3)."""
         result = points[self.source].astype(np.float64)
         for bit, reflection in enumerate(self.added):
@@ -198,7 +109,7 @@ class Whole:
             result[is_reflected] = reflection.image(result[is_reflected])
         return result
 
-    def elements(self):
+    def elements(self) -> Iterator[tuple[BoolArray, FloatArray]]:
         """Yield the vertices (N,) and the map (4,4) of each image of the mesh."""
         for element in range(len(self._numbers)):
             matrix = np.eye(4)
@@ -208,28 +119,26 @@ class Whole:
             yield self._element == element, matrix
 
     @cached_property
-    def own_partners(self):
+    def own_partners(self) -> tuple[Mirror, ...]:
         """For each requested axis, the partner (n,) of each vertex of the mesh."""
         points = self._original.astype(np.float64)
-        tolerance = solver.MATCHING * self._size
-        found = [
-            one.mirror(solver.partners(points, one.image(points), tolerance)) for one in self._asked
-        ]
-        return solver.commuting(found)
+        tolerance = MATCHING * self._size
+        found = [one.mirror(partners(points, one.image(points), tolerance)) for one in self._asked]
+        return commuting(found)
 
     @cached_property
-    def partners(self):
+    def partners(self) -> list[IntArray]:
         """For each of `mirrored`, the partner (N,) of each vertex of the whole."""
         found = []
         for bit in range(len(self.added)):
             found.append(self._numbers[self._element ^ 1 << bit, self.source])
         for mirror in self.own_partners:
-            partner = np.append(mirror.partner, solver.NO_PARTNER)[self.source]
+            partner = np.append(mirror.partner, NO_PARTNER)[self.source]
             there = self._numbers[self._element, np.maximum(partner, 0)]
-            found.append(np.where(partner >= 0, there, solver.NO_PARTNER))
+            found.append(np.where(partner >= 0, there, NO_PARTNER))
         return found
 
-    def sides(self):
+    def sides(self) -> IntArray:
         """Return on which side of each of `mirrored` each vertex (N,) is, as bits of a number."""
         sides = self._element.copy()
         points = self._original[self.source]
@@ -238,15 +147,15 @@ class Whole:
             sides |= (points[:, axis] < 0.0).astype(np.intp) << number
         return sides
 
-    def symmetrize(self, positions, is_held):
-        """Make new positions (n,3) float32 of the mesh exactly symmetric, in place.
+    def symmetrize(self, positions: FloatArray, is_held: BoolArray) -> None:
+        """Make new positions (n,3) of the mesh exactly symmetric, in place.
 
         Vertices in the plane of a modifier keep their distance from it, which merges the
         halves. Held vertices (n,) do not move.
         """
         for reflection, is_inside in zip(self.added, self._is_inside, strict=True):
             inside = np.flatnonzero(is_inside & ~is_held)
-            normal = np.linalg.svd(np.eye(3) - np.reshape(reflection.linear, (3, 3)))[2][0]
+            normal = reflection.normal
             if np.abs(normal).max() == 1.0:
                 axis = int(np.abs(normal).argmax())
                 positions[inside, axis] = self._original[inside, axis]
@@ -256,13 +165,13 @@ class Whole:
         for mirror in self.own_partners:
             mirror.without(is_held).impose(positions)
 
-    def settle_rotations(self, rotations, is_held):
+    def settle_rotations(self, rotations: FloatArray, is_held: BoolArray) -> None:
         """Make rotations (n,3,3) of the vertices of the mesh symmetric, in place."""
         for mirror in self.own_partners:
             mirror.without(is_held).impose_rotations(rotations)
 
     @property
-    def matching(self):
+    def matching(self) -> int | None:
         """Number of vertices that have a partner about every requested axis, or None."""
         if not self._asked:
             return None

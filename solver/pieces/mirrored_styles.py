@@ -1,42 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The form beyond a plane of symmetry: the mirror image of the form on this side."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
-
 import numpy as np
 
-from .object_frame import Placement
+from ..aliases import FloatArray
+from .placement import Placement
 from .whole import Whole
 
 _ALIKE = 1e-5  # smaller rotations make no difference
 
 
-def orientations(whole: Whole, placements: Sequence[Placement]) -> list[np.ndarray]:
-    """Return the orientation of each form for all vertices (1,3,3), or for each of them (N,3,3).
+def orientations(whole: Whole, placement: Placement) -> list[FloatArray]:
+    """Return the orientation of each style for all vertices (1,3,3), or for each of them (N,3,3).
 
     One for all if each form is its own image about every plane. Otherwise those beyond a plane are
     reflections.
     """
-    first = placements[0]
     turns = [np.eye(3)]
     for reflection in whole.mirrored:
-        linear = first.linear @ np.reshape(reflection.linear, (3, 3))
-        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(first.linear))
+        linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
+        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    axes = [placement.orientation for placement in placements]
-    pairs = zip(axes, placements, strict=True)
-    if all(_looks_alike(Q @ turn @ Q.T, placement) for Q, placement in pairs for turn in turns):
+    axes = [style.orientation for style in placement.styles]
+    pairs = list(zip(axes, (style.form for style in placement.styles), strict=True))
+    is_captured = placement.capture is not None
+    if all(_looks_alike(Q @ turn @ Q.T, form, is_captured) for Q, form in pairs for turn in turns):
         return [Q[None] for Q in axes]
     sides = whole.sides()
     return [np.stack([Q @ turn for turn in turns])[sides] for Q in axes]
 
 
-def _looks_alike(turn, placement):
+def _looks_alike(turn, form, is_captured):
     """Return whether the form looks the same after a turn or reflection; captures never do."""
-    form = placement.form
-    if placement.capture is not None:
+    if is_captured:
         return np.abs(turn - np.eye(3)).max() <= _ALIKE
     if form is not None:
         costs = form.cost(form.normals @ turn.T)

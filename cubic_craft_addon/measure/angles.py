@@ -10,11 +10,11 @@ import bpy
 import numpy as np
 
 from ... import solver
+from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
+from ..read.region_shares import region_shares
 from ..settings.values import Settings
 from .form_directions import directions_at
-from .object_frame import Placement
-from .region_shares import region_shares
 
 ALIGNED = 6.0
 """degrees; what is not farther from a side of the form seems to lie in it"""

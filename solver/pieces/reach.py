@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How far handles reach: around themselves, and into the rest of the mesh."""
 
-from __future__ import annotations  # the solver is loaded when it is needed, not for its names
-
 from collections.abc import Sequence
 
 import numpy as np
 
-from ... import solver
-from .handle import Handle
+from ..aliases import FloatArray, IntArray
+from .handle_pose import HandlePose
 
 LEAST_RADIUS = 0.03
 """of the largest extent: smaller handles move their surroundings, or they would pull a spike"""
@@ -17,17 +15,19 @@ NEAR, FAR = 0.2, 0.6
 
 
 def grown(
-    handle_of: np.ndarray, handles: Sequence[Handle], V: np.ndarray, F: np.ndarray
-) -> np.ndarray:
+    handle_of: IntArray, handles: Sequence[HandlePose], V: FloatArray, F: IntArray
+) -> IntArray:
     """Return the handle that holds each vertex; small handles also hold vertices around them.
 
     Parameters
     ----------
-    handle_of : (n,) int array, from `handles.handle_of`
+    handle_of : (n,) int array, -1 for vertices of none
     handles
     V : (n,3) array, visible positions
     F : (m,3) int array
     """
+    from ..mesh.edge_distances import edge_distances
+
     result = handle_of.copy()
     if not len(F):
         return result
@@ -37,24 +37,26 @@ def grown(
         if handle.is_cubic or not len(own):
             continue
         if np.linalg.norm(V[own] - V[own].mean(axis=0), axis=1).max() < radius:
-            distance = solver.edge_distances(V, F, own, radius)
+            distance = edge_distances(V, F, own, radius)
             result[(distance <= radius) & (handle_of < 0) & (result < 0)] = number
     return result
 
 
-def far_from(seeds: np.ndarray, V: np.ndarray, F: np.ndarray) -> np.ndarray:
+def far_from(seeds: IntArray, V: FloatArray, F: IntArray) -> FloatArray:
     """Return the distance of each vertex from the seeds, (n,) from 0, near, to 1, far.
 
     It is measured along edges, because an arm is far from the hip beside it; for unconnected parts,
     it is the straight distance.
     """
+    from ..mesh.edge_distances import edge_distances, nearest_distances
+
     if not len(seeds) or not len(F):
         return np.zeros(len(V))
-    distance = solver.edge_distances(V, F, seeds)
+    distance = edge_distances(V, F, seeds)
     is_apart = np.isinf(distance)
     largest = distance[~is_apart].max()
     if is_apart.any():
-        distance[is_apart] = solver.nearest_distances(V[is_apart], V[seeds])
+        distance[is_apart] = nearest_distances(V[is_apart], V[seeds])
     if not largest > 0.0:
         largest = float(distance.max())
     if not largest > 0.0:

@@ -4,7 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import hashlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
@@ -16,9 +16,6 @@ from .. import mesh_bridge
 from ..environment.requirements import check_requirements
 from ..settings.values import Settings
 from .object_cache import kept, once
-
-if TYPE_CHECKING:
-    from .assembly import Prepared
 
 STRENGTH = 4.0
 """of the solver, for a strength of 1: with a cube for a ball, the same strength and cubeness deform
@@ -65,26 +62,9 @@ def note_of(settings: Settings) -> Any:
     return [digest, {"matrix": turn.ravel().tolist()}]
 
 
-def captures(prepared: Prepared) -> dict[str, Any]:
-    """Return the arguments of a Stylization for the captures of all members, none for no capture.
-
-    Where the cubeness map is 0, nothing has to face anywhere.
-    """
-    found = [placement.capture for placement in prepared.placements]
-    distinct = list(dict.fromkeys(capture for capture in found if capture is not None))
-    if not distinct:
-        return {}
-    numbers, strengths = [], []
-    for member, capture in zip(prepared.members, found, strict=True):
-        strength = 0.0 if capture is None else STRENGTH * member.settings.capture_strength
-        strengths.append(member.of_whole(strength * member.map_weights))
-        number = 0 if capture is None else distinct.index(capture)
-        numbers.append(np.full(len(strengths[-1]), number))
-    return {
-        "capture": distinct,
-        "capture_strength": np.concatenate(strengths),
-        "capture_of": np.concatenate(numbers),
-    }
+def strength_of(settings: Settings) -> float:
+    """Return how strongly the normals are drawn, as the solver takes it."""
+    return STRENGTH * settings.capture_strength if has_capture(settings) else 0.0
 
 
 def _read(ball):

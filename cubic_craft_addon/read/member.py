@@ -7,129 +7,96 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol, TypeVar
 
 import bpy
 import numpy as np
 
-from ... import solver
-from ...solver.mesh.components import components
+from ...solver import CubicCraftError
 from ...solver.mesh.mesh_checks import check_mesh
+from ...solver.pieces.piece import Piece
+from ...solver.pieces.placement import Placement
+from ...solver.pieces.reach import far_from, grown
+from ...solver.pieces.shape import Shape
+from ...solver.pieces.whole import Whole
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
-from ..handles.reach import far_from, grown
 from ..settings.values import Settings
-from .bones import Bones, read_bones, read_posed_bones
-from .object_frame import Placement, placements
+from .bones import read_bones, read_posed_bones
+from .normal_capture import strength_of
+from .object_frame import placements
+from .reflections import modifier_reflections
 from .region_shares import region_shares
-from .whole import Whole, modifier_reflections
 
 
-@dataclass(frozen=True)
-class Shape:
-    """The data read once from a mesh: the original shape and its virtual triangulation."""
+@dataclass(frozen=True, eq=False)
+class ShapeRead(Shape):
+    """The original shape of an object and its virtual triangulation, read once."""
 
-    original: np.ndarray
-    """(n,3) float32 positions, object space"""
-    triangles: np.ndarray
-    """(m,3) int"""
     start: mesh_bridge.Start = "HERE"
     """which shape was read if the mesh was edited by hand since its last result"""
 
-    def is_like(self, other: Shape) -> bool:
-        """Return whether both are the same, bit for bit."""
-        if self is other:
-            return True
-        is_same = self.original.tobytes() == other.original.tobytes()
-        return is_same and np.array_equal(self.triangles, other.triangles)
 
-    @cached_property
-    def components(self):
-        """Number of connected parts, loose vertices not counted."""
-        count = len(self.original)
-        used = np.unique(self.triangles)
-        return components(self.triangles, count)[0] - (count - len(used))
-
-
-@dataclass(frozen=True)
-class Member:
-    """One object of an assembly, free of references to Blender's data."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Member(Piece):
+    """An object as a piece for the solver, free of references to Blender's data."""
 
     uid: int
     """``session_uid`` of the object"""
-    name: str
-    shape: Shape
-    whole: Whole
-    """the shape with the vertices that its Mirror modifier adds"""
+    shape: ShapeRead
     settings: Settings
     alone: Placement
     in_world: Placement | None
     """None if it cannot be solved with others"""
-    handle_of: np.ndarray
-    """(n,) int, the number of the handle that holds each vertex, or -1"""
-    rest_weights: np.ndarray | None
-    """(n,) weights of the vertices far from moved handles; None if all may move"""
-    map_weights: np.ndarray | float
-    """(n,) factors of the cubeness, or 1"""
-    region_shares: np.ndarray | None
-    """(n,1+k) shares of the object's own settings and of each of its k regions; None for k = 0"""
-    bones: Bones | None
-    """the bones that move it, None without *Keep Pose*"""
-    seconds: float
-    """time to read it"""
+
+    def with_settings(self, settings: Settings) -> Member:
+        """Return the same with another cubeness."""
+        own, *regions = self.placement.styles
+        styles = (replace(own, cubeness=settings.cubeness), *regions)
+        return replace(self, settings=settings, placement=replace(self.placement, styles=styles))
+
+
+class Joinable(Protocol):
+    """What `assemblies` groups."""
 
     @property
-    def vertices(self):
-        """Number of vertices."""
-        return len(self.shape.original)
+    def settings(self) -> Settings:
+        """The settings of the object."""
+        ...
 
     @property
-    def triangles(self):
-        """Number of triangles of the virtual triangulation."""
-        return len(self.shape.triangles)
-
-    @property
-    def components(self):
-        """Number of connected parts, loose vertices not counted."""
-        return self.shape.components
-
-    @property
-    def is_held(self):
-        """(n,) bool, the vertices that handles hold exactly."""
-        is_exact = [not handle.is_cubic for handle in self.settings.handles]
-        return np.array([*is_exact, False])[self.handle_of]  # the last is of those in none
-
-    def of_whole(self, values):
-        """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
-        return np.broadcast_to(values, (self.vertices, *np.shape(values)[1:]))[self.whole.source]
-
-    @property
-    def is_still(self):
-        """(n,) bool, the vertices that should not change.
-
-        Those where the map is 0. If a handle is posed, there are none: the rest should follow.
-        """
-        if any(handle.is_moved for handle in self.settings.handles):
-            return np.zeros(self.vertices, dtype=bool)
-        return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
+    def in_world(self) -> Placement | None:
+        """None if it cannot be solved with others."""
+        ...
 
 
-def parts_of(
-    members: Sequence[Member], placements: Sequence[Placement]
-) -> Iterator[tuple[Member, Placement, slice]]:
-    """Yield each member of an assembly with its placement and its part of the arrays.
-
-    The part begins with the vertices of the member, followed by added ones.
-    """
-    end = 0
-    for member, placement in zip(members, placements, strict=True):
-        begin, end = end, end + len(member.whole.source)
-        yield member, placement, slice(begin, end)
+T = TypeVar("T", bound=Joinable)
 
 
-def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shape:
+def assemblies(items: Sequence[T]) -> list[list[T]]:
+    """Return the objects that are solved together, in the order of the first of each group."""
+    joined = [item for item in items if _is_joined(item)]
+    return [
+        joined if _is_joined(item) else [item]
+        for item in items
+        if not _is_joined(item) or item is joined[0]
+    ]
+
+
+def _is_joined(item):
+    return item.settings.together == "SELECTION" and item.in_world is not None
+
+
+def placed(members: Sequence[Member]) -> list[Member]:
+    """Return the members of an assembly where they are solved: one alone, several in the world."""
+    if len(members) == 1:
+        return [replace(members[0], placement=members[0].alone)]
+    return [replace(one, placement=one.in_world) for one in members if one.in_world is not None]
+
+
+def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> ShapeRead:
     """Read the original shape of an object.
 
     Parameters
@@ -147,7 +114,7 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     mesh_bridge.check_editable(obj)
     mesh = mesh_bridge.mesh_of(obj)
     original = mesh_bridge.original_positions(mesh, start)
-    return Shape(original, mesh_bridge.triangles(mesh, original), start)
+    return ShapeRead(original, mesh_bridge.triangles(mesh, original), start)
 
 
 def read_member(
@@ -188,20 +155,24 @@ def read_member(
     V = alone.place(shape.original)
     handle_of = _handle_of(obj, settings, V, shape.triangles, known)
     whole = _whole(shape, reflections, settings, known)
+    bones = _bones(obj, settings, whole, alone, shape, known, rigged)
     return Member(
-        obj.session_uid,
-        obj.name,
-        shape,
-        whole,
-        settings,
-        alone,
-        in_world,
-        handle_of,
-        _rest_weights(settings, V, shape.triangles, handle_of, known),
-        _map_weights(obj, settings, known),
-        _region_shares(obj, settings, known),
-        _bones(obj, settings, whole, alone, shape, known, rigged),
-        time.perf_counter() - begin,
+        uid=obj.session_uid,
+        name=obj.name,
+        shape=shape,
+        whole=whole,
+        placement=alone,
+        settings=settings,
+        alone=alone,
+        in_world=in_world,
+        handles=settings.handles,
+        handle_of=handle_of,
+        rest_weights=_rest_weights(settings, V, shape.triangles, handle_of, known),
+        map_weights=_map_weights(obj, settings, known),
+        region_shares=_region_shares(obj, settings, known),
+        capture_strength=strength_of(settings),
+        bones=bones,
+        seconds=time.perf_counter() - begin,
     )
 
 
@@ -209,8 +180,8 @@ def _check_alone(name, placement, shape):
     """Refuse an invalid shape here, because an assembly could not name the object."""
     try:
         check_mesh(placement.place(shape.original), shape.triangles)
-    except solver.CubicCraftError as error:
-        raise solver.CubicCraftError(f'"{name}": {error}') from error
+    except CubicCraftError as error:
+        raise CubicCraftError(f'"{name}": {error}') from error
 
 
 def _handle_of(obj, settings, V, F, known):

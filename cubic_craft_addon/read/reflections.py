@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The reflections of a half-modelled mesh: what its Mirror modifier adds is solved with it."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...solver.pieces.reflection import Reflection, flip
+
+
+def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
+    """Return the reflections of the first Mirror modifier of an object, in the viewport.
+
+    Not one that cuts the mesh first (Bisect), whose vertices lie on both sides.
+    """
+    for modifier in obj.modifiers:
+        if not isinstance(modifier, bpy.types.MirrorModifier) or not modifier.show_viewport:
+            continue
+        tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
+        flags: Any = modifier  # its vectors of flags can be indexed, which bpy's stubs cannot say
+        numbers = [a for a in range(3) if flags.use_axis[a] and not flags.use_bisect_axis[a]]
+        place = _plane_object(obj, modifier)
+        if place is None:
+            return ()
+        return tuple(flip(axis).placed(place, tolerance) for axis in numbers)
+    return ()
+
+
+def _plane_object(obj, modifier):
+    """Return the matrix (4,4) from the modifier's coordinates to the object's, None for none."""
+    if modifier.mirror_object is None:
+        return np.eye(4)
+    own = np.array(obj.matrix_world, dtype=np.float64)
+    other = np.array(modifier.mirror_object.matrix_world, dtype=np.float64)
+    if not (np.isfinite(own).all() and np.isfinite(other).all()):
+        return None
+    if min(abs(np.linalg.det(own)), abs(np.linalg.det(other))) < 1e-30:
+        return None
+    return np.linalg.inv(own) @ other

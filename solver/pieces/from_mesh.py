@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A piece of plain arrays, for callers without an object in Blender."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..aliases import Faces
+from ..errors import CubicCraftError
+from ..mesh.mesh_checks import check_mesh
+from ..normal_capture import NormalCapture
+from ..styles.blending import Style
+from .handle_pose import HandlePose
+from .piece import Piece
+from .placement import placement_by
+from .reach import far_from
+from .reflection import Reflection
+from .shape import Shape
+from .whole import Whole
+
+
+def piece_of(
+    V: ArrayLike,
+    F: Faces,
+    style: Style | None = None,
+    *,
+    name: str = "mesh",
+    matrix: ArrayLike | None = None,
+    mirrors: Sequence[Reflection] = (),
+    symmetry: Sequence[bool] = (False, False, False),
+    handles: Sequence[HandlePose] = (),
+    handle_of: ArrayLike | None = None,
+    hold_rest: bool = False,
+    regions: Sequence[Style] = (),
+    region_shares: ArrayLike | None = None,
+    map_weights: ArrayLike | None = None,
+    capture: NormalCapture | None = None,
+    capture_strength: float = 0.0,
+) -> Piece:
+    """Return an object as a piece that is solved in the coordinates of the world.
+
+    Parameters
+    ----------
+    V : (n,3) array
+        Rest positions, in the coordinates of the object.
+    F : (m,3) int array, or faces with more corners
+        Triangles. Polygons are split into triangles.
+    style : Style, optional
+        What it is turned toward; by default a cube of cubeness 0.4 along the axes of the world.
+    name : str
+        For messages.
+    matrix : (4,4) array, optional
+        From the coordinates of the object to those of the world.
+    mirrors : sequence of Reflection
+        Reflections that complete a half, one after the other. The images are solved with it, and
+        not returned.
+    symmetry : sequence of bool
+        About which axes of the object the mesh itself stays symmetric.
+    handles : sequence of HandlePose
+    handle_of : (n,) int array, optional
+        Number of the handle that each vertex belongs to, or -1.
+    hold_rest : bool
+        Whether regions far from moved handles keep their place.
+    regions : sequence of Style
+    region_shares : (n,1+k) array, optional
+        Shares of the object's own style and of each region; each row adds up to 1.
+    map_weights : (n,) array, optional
+        Factors of the cubeness.
+    capture : NormalCapture, optional
+        See `Stylization`.
+    capture_strength : float
+        See `Stylization`.
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh is invalid, or an array has another shape than the mesh asks for.
+
+    See Also
+    --------
+    join_pieces : Joins pieces, to solve them together.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import flip, piece_of
+    >>> half = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3]])
+    >>> piece = piece_of(half, F, mirrors=[flip(0)])
+    >>> piece.vertices, piece.solved, len(piece.F)
+    (4, 5, 6)
+    """
+    original, triangles = check_mesh(V, F)
+    count = len(original)
+    own = Style(0.4) if style is None else style
+    placement = placement_by(np.eye(4) if matrix is None else matrix, (own, *regions), capture)
+    numbers = np.full(count, -1) if handle_of is None else np.asarray(handle_of)
+    shares = None if region_shares is None else np.asarray(region_shares, dtype=np.float64)
+    weights = 1.0 if map_weights is None else np.asarray(map_weights, dtype=np.float64)
+    _check(numbers.shape == (count,), "handle_of", (count,))
+    _check(np.shape(weights) in ((), (count,)), "map_weights", (count,))
+    expected = (count, 1 + len(regions))
+    _check((shares is None) == (not regions), "region_shares", expected)
+    _check(shares is None or shares.shape == expected, "region_shares", expected)
+    far = None
+    moved = [number for number, handle in enumerate(handles) if handle.is_moved]
+    if hold_rest and moved:
+        seeds = np.flatnonzero(np.isin(numbers, moved))
+        far = far_from(seeds, placement.place(original), triangles)
+    return Piece(
+        name=name,
+        shape=Shape(original, triangles),
+        whole=Whole(original, triangles, tuple(mirrors), tuple(symmetry)),
+        placement=placement,
+        handles=tuple(handles),
+        handle_of=numbers,
+        rest_weights=far,
+        map_weights=weights,
+        region_shares=shares,
+        capture_strength=capture_strength,
+    )
+
+
+def _check(is_right, name, shape):
+    if not is_right:
+        raise CubicCraftError(f"{name} must be an array of shape {shape}")

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where handles take their vertices."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..aliases import FloatArray, IntArray
+
+IDENTITY = tuple(np.eye(4).ravel().tolist())
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandlePose:
+    """How a handle keeps or moves its vertices.
+
+    See Also
+    --------
+    piece_of : An object with handles.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import HandlePose
+    >>> raised = np.eye(4)
+    >>> raised[2, 3] = 0.5
+    >>> HandlePose().is_moved, HandlePose(matrix=tuple(raised.ravel())).is_moved
+    (False, True)
+    """
+
+    matrix: tuple[float, ...] = IDENTITY
+    """4x4, row by row: affine map of positions at rest, in the coordinates of the object"""
+    is_cubic: bool = False
+    """whether only its position and rotation are kept, and its surface becomes cubic"""
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether it moves its vertices."""
+        return self.matrix != IDENTITY
+
+
+def targets(original: FloatArray, handle_of: IntArray, handles: Sequence[HandlePose]) -> FloatArray:
+    """Return the targets of the vertices by the handles.
+
+    Parameters
+    ----------
+    original : (n,3) array
+    handle_of : (n,) int array
+        Number of the handle of each vertex, or -1.
+    handles : sequence of HandlePose
+
+    Returns
+    -------
+    (n,3) float64 array; free vertices and those of handles that do not move keep their bits
+    """
+    result = original.astype(np.float64)
+    for number, handle in enumerate(handles):
+        if handle.is_moved:
+            matrix = np.reshape(handle.matrix, (4, 4))
+            held = handle_of == number
+            result[held] = result[held] @ matrix[:3, :3].T + matrix[:3, 3]
+    return result

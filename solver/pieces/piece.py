@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One object, placed where it is solved."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..aliases import BoolArray, FloatArray, IntArray
+from .bones import Bones
+from .handle_pose import HandlePose, targets
+from .placement import Placement
+from .shape import Shape
+from .whole import Whole
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Piece:
+    """An object with its handles, regions and symmetry, as plain values.
+
+    It has n vertices. With those that its mirrors add, which follow them, N are solved.
+
+    See Also
+    --------
+    piece_of : Makes one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import piece_of
+    >>> V, F = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])
+    >>> stretched = piece_of(V, F, matrix=np.diag([2.0, 1, 1, 1]))
+    >>> stretched.V.tolist()
+    [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    """
+
+    name: str
+    """for messages"""
+    shape: Shape
+    whole: Whole
+    """the shape with the vertices that mirrors add"""
+    placement: Placement
+    handles: Sequence[HandlePose]
+    handle_of: IntArray
+    """(n,) int, the number of the handle of each vertex, or -1"""
+    rest_weights: FloatArray | None = None
+    """(n,) weights of the vertices far from moved handles; None if all may move"""
+    map_weights: FloatArray | float = 1.0
+    """(n,) factors of the cubeness, or one for all"""
+    region_shares: FloatArray | None = None
+    """(n,1+k) shares of the object's own style and of each of its k regions; None for k = 0"""
+    capture_strength: float = 0.0
+    """of the placement's normal capture"""
+    bones: Bones | None = None
+    """what moves it; None if limbs are found from the shape"""
+    seconds: float = 0.0
+    """time to read it"""
+
+    @property
+    def vertices(self) -> int:
+        """Number of vertices n."""
+        return len(self.shape.original)
+
+    @property
+    def solved(self) -> int:
+        """Number N of vertices that are solved."""
+        return len(self.whole.source)
+
+    @property
+    def triangles(self) -> int:
+        """Number of triangles."""
+        return len(self.shape.triangles)
+
+    def everywhere(self, values: ArrayLike) -> np.ndarray:
+        """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
+        every = np.broadcast_to(values, (self.vertices, *np.shape(values)[1:]))
+        return every[self.whole.source]
+
+    @property
+    def V(self) -> FloatArray:  # noqa: N802 - the field's name
+        """(N,3) positions at rest, where it is solved."""
+        return self.placement.place(self.whole.images(self.shape.original))
+
+    @property
+    def F(self) -> IntArray:  # noqa: N802 - the field's name
+        """(M,3) int triangles, whose normals point outward where it is solved."""
+        F = self.whole.triangles
+        return F[:, ::-1] if self.placement.is_mirrored else F
+
+    @property
+    def targets(self) -> FloatArray:
+        """(N,3) where handles take the vertices, where it is solved."""
+        own = targets(self.shape.original, self.handle_of, self.handles)
+        return self.placement.place(self.whole.images(own))
+
+    @property
+    def is_held(self) -> BoolArray:
+        """(n,) bool, the vertices that handles hold exactly."""
+        is_exact = [not handle.is_cubic for handle in self.handles]
+        return np.array([*is_exact, False])[self.handle_of]  # the last is of those in none
+
+    @property
+    def is_still(self) -> BoolArray:
+        """(n,) bool, the vertices that should not change.
+
+        Those where the map is 0. If a handle is posed, there are none: the rest should follow.
+        """
+        if any(handle.is_moved for handle in self.handles):
+            return np.zeros(self.vertices, dtype=bool)
+        return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
+
+    def read_back(
+        self,
+        positions: FloatArray,
+        rotations: FloatArray | None,
+        at_rest: FloatArray,
+        is_held: BoolArray,
+        *,
+        is_idle: bool = False,
+    ) -> tuple[FloatArray, Any]:
+        """Return a result in the coordinates of the object.
+
+        Parameters
+        ----------
+        positions, at_rest : (n,3) arrays
+            Of the result and before, where it was solved.
+        rotations : (n,3,3) array, optional
+        is_held : (n,) bool array
+        is_idle : bool
+            Whether nothing was to change.
+
+        Returns
+        -------
+        (n,3) array of the type of the shape, and (n,3,3) array or None
+        """
+        own = self.placement.read_back(positions).astype(self.shape.original.dtype)
+        # Held vertices must not move by rounding errors of the placement.
+        is_still = (positions == at_rest).all(axis=1) | is_idle
+        own[is_still] = self.shape.original[is_still]
+        self.whole.symmetrize(own, is_held | is_still)
+        if rotations is None:
+            return own, None
+        turned = self.placement.read_rotations_back(rotations)
+        self.whole.settle_rotations(turned, is_held)
+        return own, turned

@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is solved at once: one piece, or several that are kept together."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+
+from ..aliases import BoolArray, Device, FloatArray
+from ..errors import CubicCraftError
+from ..symmetry import NO_PARTNER
+from .floor import kept_on_floor
+from .holds import Hold, holds_of
+from .piece import Piece
+from .vertex_styles import captures, vertex_styles
+
+if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
+    from ..limbs import KnownLimbs
+    from ..proxy.options import ProxyOptions
+    from ..setup import Setup
+    from ..stylization import Stylization
+
+P = TypeVar("P", bound=Piece)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem(Generic[P]):
+    """Pieces joined into one mesh, with everything that is computed once per shape and handles.
+
+    See Also
+    --------
+    join_pieces : Makes one, with an example.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import join_pieces, piece_of
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> pieces = [piece_of(V, F, name="head"), piece_of(0.2 * V - [0, 1, 0], F, name="eye")]
+    >>> problem = join_pieces(pieces)
+    >>> problem.name, problem.vertices, problem.components
+    ('"head" and "eye"', 1400, 2)
+    """
+
+    pieces: tuple[P, ...]
+    setup: "Setup"
+    is_still: BoolArray
+    """(N,) bool, the vertices that should not change, which the setup was made with"""
+    without_holds: "Setup"
+    """the setup before groups were held"""
+    holds: Sequence[Hold]
+    seconds: float
+    """time to read and factorize"""
+
+    @property
+    def name(self) -> str:
+        """The names of the pieces, for messages."""
+        return listed([piece.name for piece in self.pieces])
+
+    @property
+    def vertices(self) -> int:
+        """Number of vertices."""
+        return sum(piece.vertices for piece in self.pieces)
+
+    @property
+    def triangles(self) -> int:
+        """Number of triangles."""
+        return sum(piece.triangles for piece in self.pieces)
+
+    @property
+    def components(self) -> int:
+        """Number of connected parts, loose vertices not counted."""
+        return sum(piece.shape.components for piece in self.pieces)
+
+    @property
+    def targets(self) -> FloatArray:
+        """(N,3) where handles take the vertices."""
+        return np.concatenate([piece.targets for piece in self.pieces])
+
+    @property
+    def hold_matrices(self) -> list[FloatArray]:
+        """(4,4) goal of each group that is held."""
+        return [hold.matrix for hold in self.holds]
+
+    @property
+    def known_limbs(self) -> "KnownLimbs | None":
+        """The limbs that bones tell, None if there are none."""
+        if not any(piece.bones for piece in self.pieces):
+            return None
+        from ..limbs import joined_limbs
+
+        limbs = [piece.bones and piece.bones.limbs_at(piece.placement) for piece in self.pieces]
+        return joined_limbs(limbs, [piece.solved for piece in self.pieces])
+
+    def stylization(
+        self,
+        *,
+        device: Device = "auto",
+        keep_rotation: bool = True,
+        is_accelerated: bool = True,
+    ) -> "Stylization":
+        """Return a new Stylization with the styles of the pieces.
+
+        Raises
+        ------
+        CubicCraftError
+            A style is invalid, or the device is not available.
+        """
+        from ..stylization import Stylization
+
+        styles = vertex_styles(self.pieces)
+        return Stylization(
+            self.setup,
+            styles.cubeness,
+            styles.orientation,
+            self.targets,
+            styles.form,
+            styles.form_of,
+            device=device,
+            keep_rotation=keep_rotation,
+            hold_matrices=self.hold_matrices,
+            is_accelerated=is_accelerated,
+            limbs=self.known_limbs,
+            **captures(self.pieces),
+        )
+
+    def posed(self, pieces: Sequence[P]) -> "Problem[P]":
+        """Return the same objects in another pose and with other settings, without a factorization.
+
+        Parameters
+        ----------
+        pieces : sequence of Piece
+            With the shape and the placements of that pose; the rest is as in the first.
+        """
+        begin = time.perf_counter()
+        setup = without_holds = self.without_holds.posed(_positions(pieces))
+        holds = holds_of(pieces, setup.rest)
+        if holds:
+            setup = setup.with_holds([hold.weights for hold in holds])
+        return replace(
+            self,
+            pieces=tuple(pieces),
+            setup=setup,
+            without_holds=without_holds,
+            holds=holds,
+            seconds=time.perf_counter() - begin,
+        )
+
+    def split(
+        self, positions: FloatArray, rotations: FloatArray | None, *, keep_floor: bool = False
+    ) -> list[tuple[FloatArray, Any]]:
+        """Return a result (N,3) and (N,3,3) as that of each piece, in its object's coordinates.
+
+        `keep_floor` moves components that stood on the ground back to it.
+        """
+        at_rest = self.setup.rest.input_positions
+        if keep_floor:
+            positions = kept_on_floor(self.setup, positions, self.pieces[0].placement.up)
+        is_held = np.zeros(len(at_rest), dtype=bool)
+        is_held[self.setup.pinned_input] = True
+        is_idle = bool(self.is_still.all())
+        found, begin = [], 0
+        for piece in self.pieces:
+            part = slice(begin, begin + piece.vertices)  # without those that mirrors have added
+            own = positions[part], None if rotations is None else rotations[part]
+            found.append(piece.read_back(*own, at_rest[part], is_held[part], is_idle=is_idle))
+            begin += piece.solved
+        return found
+
+
+def join_pieces(
+    pieces: Sequence[P],
+    proxy: "ProxyOptions | None" = None,
+    earlier: Sequence[Problem[P]] = (),
+) -> Problem[P]:
+    """Join pieces into one mesh, and factorize it.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+        In the same coordinates.
+    proxy : ProxyOptions, optional
+        How to prepare the surface; by default as in the paper.
+    earlier : sequence of Problem
+        What has not changed is reused.
+
+    Raises
+    ------
+    CubicCraftError
+        They cannot be solved; the message has their names.
+
+    See Also
+    --------
+    piece_of : Makes a piece.
+
+    Examples
+    --------
+    A head becomes cubic. By default the eye in its face stays where it was; with the links of
+    `ProxyOptions` it goes along with the face:
+
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import PAPER, ProxyOptions, Style, join_pieces, piece_of, run
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> place = np.eye(4)
+    >>> place[:3, 3] = 0, -1, 0
+    >>> head = piece_of(V, F, Style(0.6), name="head")
+    >>> eye = piece_of(0.2 * V, F, Style(0.0), name="eye", matrix=place)
+    >>> for proxy in (PAPER, ProxyOptions()):
+    ...     problem = join_pieces([head, eye], proxy)
+    ...     result = run(problem.stylization(device="numpy"))
+    ...     _, (positions, _) = problem.split(result.positions, result.rotations)
+    ...     print(f"{np.linalg.norm((positions - 0.2 * V).mean(axis=0)):.2f}")
+    0.00
+    0.20
+    """
+    from ..setup import Setup
+
+    begin = time.perf_counter()
+    is_still, is_held = _is_still(pieces), _is_held(pieces)
+    try:
+        rest = _rest(pieces, proxy, earlier)
+        known = (one.without_holds for one in earlier if _has_setup(one, pieces, rest, is_still))
+        setup = next(known, None)
+        if setup is None:
+            # The solver needs at least one free vertex.
+            is_some_free = not (is_still | is_held).all()
+            still = is_still if is_some_free and is_still.any() else None
+            setup = Setup(rest, np.flatnonzero(is_held), still, _mirrors(pieces))
+        without_holds, holds = setup, holds_of(pieces, rest)
+        if holds:
+            setup = _with_holds(setup, holds, earlier)
+    except CubicCraftError as error:
+        raise CubicCraftError(f"{listed([piece.name for piece in pieces])}: {error}") from error
+    seconds = time.perf_counter() - begin + sum(piece.seconds for piece in pieces)
+    return Problem(tuple(pieces), setup, is_still, without_holds, holds, seconds)
+
+
+def _rest(pieces, proxy, earlier):
+    """Build the RestMesh, or reuse an earlier one of the same shapes with its links."""
+    from ..proxy.options import PAPER
+    from ..rest import rest_mesh
+
+    proxy = proxy or PAPER
+    for other in earlier:
+        rest = other.setup.rest.with_options(proxy) if _has_shapes(other, pieces) else None
+        if rest is not None:
+            return rest
+    triangles, begin = [], 0
+    for piece in pieces:
+        triangles.append(begin + piece.F)
+        begin += piece.solved
+    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy)
+
+
+def _positions(pieces):
+    return np.concatenate([piece.V for piece in pieces])
+
+
+def _is_still(pieces):
+    return np.concatenate([piece.everywhere(piece.is_still) for piece in pieces])
+
+
+def _is_held(pieces):
+    """Return which of the solved vertices handles hold."""
+    return np.concatenate([piece.everywhere(piece.is_held) for piece in pieces])
+
+
+def _has_shapes(problem, pieces):
+    return len(problem.pieces) == len(pieces) and all(
+        one.whole.added == other.whole.added
+        and one.shape.is_like(other.shape)
+        and one.placement.shape_key == other.placement.shape_key
+        for one, other in zip(problem.pieces, pieces, strict=True)
+    )
+
+
+def _has_setup(problem, pieces, rest, is_still):
+    if problem.setup.rest is not rest or not np.array_equal(problem.is_still, is_still):
+        return False
+    pairs = zip(problem.pieces, pieces, strict=True)
+    if any(one.whole.mirrored != other.whole.mirrored for one, other in pairs):
+        return False
+    return np.array_equal(_is_held(problem.pieces), _is_held(pieces))
+
+
+def _with_holds(setup, holds, earlier):
+    """Return a Setup with groups, or reuse an earlier one if only their goals have changed."""
+    for other in earlier:
+        if other.without_holds is setup and len(other.holds) == len(holds):
+            pairs = zip(other.holds, holds, strict=True)
+            if all(np.array_equal(one.weights, two.weights) for one, two in pairs):
+                return other.setup
+    return setup.with_holds([hold.weights for hold in holds])
+
+
+def _mirrors(pieces):
+    """Return the Mirrors of all pieces in the coordinates in which they are solved."""
+    total, found, begin = sum(piece.solved for piece in pieces), [], 0
+    for piece in pieces:
+        whole, part = piece.whole, slice(begin, begin + piece.solved)
+        for reflection, partner in zip(whole.mirrored, whole.partners, strict=True):
+            everywhere = np.full(total, NO_PARTNER)
+            everywhere[part] = np.where(partner >= 0, partner + begin, NO_PARTNER)
+            found.append(piece.placement.mirror(reflection.mirror(everywhere)))
+        begin = part.stop
+    return found
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as words of a sentence."""
+    quoted = [f'"{name}"' for name in names]
+    if len(quoted) > 3:
+        return f"{quoted[0]}, {quoted[1]} and {len(quoted) - 2} others"
+    return " and ".join(filter(None, [", ".join(quoted[:-1]), quoted[-1]]))

@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects as pieces: placed, joined, solved together and split, without Blender."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from shapes import blob, extent, rotation, sheet, sphere
+
+from solver import (
+    CubicCraftError,
+    HandlePose,
+    ProxyOptions,
+    Style,
+    flip,
+    join_pieces,
+    piece_of,
+    run,
+)
+from solver.pieces.placement import placement_by
+from solver.styles.forms import octahedron
+
+ROOT = Path(__file__).parents[3]
+
+
+def solved(*pieces, proxy=None, keep_floor=False, **options):
+    """Return the positions of each piece."""
+    problem = join_pieces(pieces, proxy)
+    result = run(problem.stylization(device="numpy", **options), 60)
+    found = problem.split(result.positions, result.rotations, keep_floor=keep_floor)
+    return [positions for positions, _ in found]
+
+
+def matrix_of(linear=None, offset=(0.0, 0.0, 0.0)):
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.eye(3) if linear is None else linear
+    matrix[:3, 3] = offset
+    return matrix
+
+
+def share_facing(V, F, normals, chosen):
+    """Return the share of the area of chosen triangles that lies within 10 degrees of normals."""
+    a, b, c = (V[F[chosen, k]].astype(float) for k in range(3))
+    n = np.cross(b - a, c - a)
+    area = np.linalg.norm(n, axis=1)
+    cosine = (n / np.maximum(area, 1e-12)[:, None] @ normals.T).max(axis=1)
+    return area[cosine > np.cos(np.radians(10.0))].sum() / area.sum()
+
+
+def test_a_piece_is_as_cubic_as_its_mesh_alone():
+    V, F = blob(2)
+    (one,) = solved(piece_of(V, F), keep_rotation=False)
+    from solver import stylize
+
+    alone = stylize(V, F, 0.4, max_iterations=60, device="numpy")
+    np.testing.assert_allclose(one, alone.positions, atol=1e-6)
+
+
+def test_regions_have_styles_of_their_own():
+    V, F = sphere(3)
+    is_top = V[:, 2] > 0.0
+    shares = np.stack([~is_top, is_top], axis=1).astype(float)
+    gem = Style(2.0, form=octahedron())
+    piece = piece_of(V, F, Style(2.0), regions=[gem], region_shares=shares)
+    (U,) = solved(piece)
+    heights = V[F].mean(axis=1)[:, 2]
+    axes = np.concatenate([np.eye(3), -np.eye(3)])
+    facets = gem.form.normals
+    assert share_facing(U, F, facets, heights > 0.4) > 0.6 > share_facing(U, F, axes, heights > 0.4)
+    assert share_facing(U, F, axes, heights < -0.4) > 0.6
+    assert share_facing(U, F, facets, heights < -0.4) < 0.4
+
+
+def test_a_half_with_its_mirror_is_half_of_the_whole():
+    V, F = sphere(3)
+    V = V * [1.0, 0.7, 1.2]
+    keep = (V[F][:, :, 0] >= -1e-9).all(axis=1)
+    used, place = np.unique(F[keep], return_inverse=True)
+    half = piece_of(V[used], place.reshape(-1, 3), Style(0.6), mirrors=[flip(0)])
+    assert half.solved == len(V)
+    (U,) = solved(half)
+    (W,) = solved(piece_of(V, F, Style(0.6)))
+    np.testing.assert_allclose(U, W[used], atol=0.01 * extent(V))
+    seam = np.abs(V[used][:, 0]) < 1e-6
+    assert seam.any() and np.abs(U[seam, 0]).max() < 1e-6
+
+
+def test_symmetry_makes_both_halves_mirror_images_bit_for_bit():
+    V, F = sphere(3)
+    (U,) = solved(piece_of(V * [1.0, 0.8, 1.1], F, Style(0.5), symmetry=(True, False, False)))
+    order, other = (
+        np.lexsort(np.round(W, 4).T) for W in (U.astype(float), U.astype(float) * [-1, 1, 1])
+    )
+    np.testing.assert_array_equal(np.abs(U[order]), np.abs(U[other]))
+
+
+def test_what_is_turned_in_the_world_is_turned_back_in_the_object():
+    V, F = blob(2)
+    turn = rotation(20.0, -30.0, 50.0)
+    (U,) = solved(piece_of(V, F, matrix=matrix_of(turn, (3.0, -1.0, 2.0))))
+    (W,) = solved(piece_of(V @ turn.T, F))
+    np.testing.assert_allclose(U @ turn.T, W, atol=1e-4)
+
+
+def test_a_mirrored_object_has_its_normals_outside():
+    V, F = blob(2)
+    piece = piece_of(V, F, matrix=np.diag([-1.0, 1, 1, 1]))
+    a, b, c = (piece.V[piece.F[:, k]] for k in range(3))
+    assert (a * np.cross(b, c)).sum() > 0.0
+    (U,) = solved(piece)
+    (W,) = solved(piece_of(V * [-1, 1, 1], F[:, ::-1]))
+    np.testing.assert_allclose(U * [-1, 1, 1], W, atol=1e-4)
+
+
+def test_objects_that_touch_are_solved_as_one():
+    V, F = sphere(3)
+    eye = 0.2 * V + [0.0, -1.05, 0.3]
+    proxy = ProxyOptions(refine=False)
+    head, rides = solved(piece_of(V, F, Style(1.0)), piece_of(eye, F, Style(0.0)), proxy=proxy)
+    (still,) = solved(piece_of(eye, F, Style(0.0)), proxy=proxy)
+    moved = rides.mean(axis=0) - eye.mean(axis=0)
+    near = np.linalg.norm(V - eye.mean(axis=0), axis=1) < 0.3
+    below = (head[near] - V[near]).mean(axis=0)
+    assert np.linalg.norm(still - eye, axis=1).max() < 1e-5
+    assert np.linalg.norm(moved - below) < 0.5 * np.linalg.norm(below)
+
+
+def test_where_the_map_is_zero_the_bits_stay():
+    V, F = blob(2)
+    weights = (V[:, 2] > 0.4).astype(float)
+    (U,) = solved(piece_of(V, F, Style(1.0), map_weights=weights, matrix=matrix_of(rotation(9.0))))
+    np.testing.assert_array_equal(U[weights == 0.0], V[weights == 0.0])
+    assert np.abs(U - V).max() > 0.01
+
+
+@pytest.mark.parametrize("hold_rest", [False, True])
+def test_a_handle_takes_its_vertices_and_the_far_end_follows_or_stays(hold_rest):
+    V, F = sheet()
+    V = V * [4.0, 1.0, 1.0]
+    is_end = V[:, 0] > 3.7
+    raised = matrix_of(offset=(0.0, 0.0, 0.5))
+    handle = HandlePose(matrix=tuple(raised.ravel().tolist()))
+    numbers = np.where(is_end, 0, -1)
+    (U,) = solved(
+        piece_of(V, F, Style(0.1), handles=[handle], handle_of=numbers, hold_rest=hold_rest)
+    )
+    np.testing.assert_allclose(U[is_end], V[is_end] + [0.0, 0.0, 0.5], atol=1e-6)
+    far = np.abs((U - V)[V[:, 0] < 0.5, 2]).mean()
+    assert far < 0.1 if hold_rest else far > 0.3
+
+
+def test_what_stands_on_the_floor_stays_there():
+    V, F = blob(2)
+    hat = 0.4 * V + [0.0, 0.0, 4.0]
+    both = np.concatenate([V, hat]), np.concatenate([F, F + len(V)])
+    free, kept = (solved(piece_of(*both, Style(1.0)), keep_floor=on)[0] for on in (False, True))
+    low = V[:, 2].min()
+    assert abs(free[: len(V), 2].min() - low) > 0.01
+    assert abs(kept[: len(V), 2].min() - low) < 1e-5
+    np.testing.assert_array_equal(free[len(V) :], kept[len(V) :])
+
+
+def test_what_has_not_changed_is_used_again():
+    V, F = blob(2)
+    first = join_pieces([piece_of(V, F, Style(0.2))])
+    other = join_pieces([piece_of(V, F, Style(0.8))], None, [first])
+    assert other.setup is first.setup
+    pinned = np.where(np.arange(len(V)) < 3, 0, -1)
+    held = join_pieces([piece_of(V, F, handles=[HandlePose()], handle_of=pinned)], None, [first])
+    assert held.setup is not first.setup and held.setup.rest is first.setup.rest
+    moved = join_pieces([piece_of(V + 0.1, F)], None, [first])
+    assert moved.setup.rest is not first.setup.rest
+
+
+def test_a_message_names_the_objects():
+    V, F = blob(1)
+    pinned = {"handles": [HandlePose()], "handle_of": np.zeros(len(V), int)}
+    pieces = [piece_of(V, F, name=name, **pinned) for name in ("Head", "Hat")]
+    with pytest.raises(CubicCraftError, match=r'^"Head" and "Hat": all vertices are pinned'):
+        join_pieces(pieces)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"handle_of": [0]},
+        {"map_weights": [1.0]},
+        {"region_shares": [[1.0]]},
+        {"regions": [Style(1)]},
+    ],
+)
+def test_arrays_of_another_shape_are_refused(wrong):
+    V, F = blob(1)
+    with pytest.raises(CubicCraftError, match="must be an array of shape"):
+        piece_of(V, F, **wrong)
+
+
+def test_a_placement_by_a_matrix_leads_there_and_back():
+    matrix = matrix_of(rotation(10.0, 20.0, 30.0) @ np.diag([2.0, 1.0, 0.5]), (1.0, 2.0, 3.0))
+    placement = placement_by(matrix, (Style(0.4),))
+    points = np.random.default_rng(1).normal(size=(20, 3))
+    there = placement.place(points)
+    np.testing.assert_allclose(there, points @ matrix[:3, :3].T + matrix[:3, 3])
+    np.testing.assert_allclose(placement.read_back(there), points)
+    np.testing.assert_allclose(placement.turn @ placement.stretch, placement.linear, atol=1e-12)
+
+
+def test_the_room_loads_no_scipy_when_it_is_imported():
+    modules = [path.stem for path in (ROOT / "solver" / "pieces").glob("*.py")]
+    imports = "; ".join(f"import solver.pieces.{name}" for name in modules if name != "__init__")
+    script = f"{imports}; import sys; print([m for m in sys.modules if m.startswith('scipy')])"
+    words = [sys.executable, "-c", script]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
