@@ -104,7 +104,7 @@ def _object(sculpture: Sculpture, cubeness: list[float]) -> dict[str, Any]:
         "name": sculpture.object.name,
         "vertices": member.vertices,
         "triangles": member.triangles,
-        "components": member.components,
+        "components": member.shape.components,
         # What is solved at once has one energy, which is in the runs of each of them.
         "solved_with": [other.name for other in problem.pieces if other is not member],
         "runs": [
