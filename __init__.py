@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """CubicCraft: cubic stylization of meshes, as a Blender extension."""
 
-from . import cubic_craft_addon, operators
+from . import operators
+from .cubic_craft_addon import registration
 
 
 def register():
     """Register the properties and panels, then the operators that they name."""
-    cubic_craft_addon.register()
+    registration.register()
     operators.register()
 
 
 def unregister():
     """Undo `register`, in reverse order."""
     operators.unregister()
-    cubic_craft_addon.unregister()
+    registration.unregister()

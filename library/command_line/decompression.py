@@ -14,9 +14,8 @@ from typing import Any
 
 from meshio.vtu import _vtu
 
+from solver.console.errors import InputError
 from solver.memory import free_memory
-
-from .errors import InputError
 
 __all__ = ("within_memory",)
 

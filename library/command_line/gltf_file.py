@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from .errors import InputError
+from solver.console.errors import InputError
+
 from .gltf_data import GltfData
 
 __all__ = ("GltfFile", "write_surface")

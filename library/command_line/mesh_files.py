@@ -19,10 +19,10 @@ from typing import Any
 import meshio
 import numpy as np
 
+from solver.console.errors import InputError
 from solver.meshes import FACES, with_turned_normals
 
 from .decompression import within_memory
-from .errors import InputError
 from .formats import FORMATS, Format
 from .gltf_file import GltfFile, write_surface
 from .obj_text import ObjText

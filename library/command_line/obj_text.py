@@ -5,18 +5,19 @@ meshio refuses files whose UVs are split at seams, as nearly all are, reads rela
 and drops objects, groups and materials. From .obj to .obj, all of them stay as they are here.
 """
 
+import codecs
 import math
 from pathlib import Path
 
 import numpy as np
 
-from .errors import InputError
+from solver.console.errors import InputError
+from solver.console.obj_lines import logical_lines, vertex_of
 
 __all__ = ("ObjText",)
 
 PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
-_WITH_NAMES = ("o", "g", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj")
 _MOST_DECIMALS = 100  # rounding would overflow
 _MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 
@@ -42,19 +43,19 @@ class ObjText:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        # Bytes that are no UTF-8, in names, are written as they are read.
-        text = path.read_bytes().decode("utf-8-sig", "surrogateescape")
-        self._newline = "\r\n" if "\r\n" in text else "\n"
-        self._lines = _logical_lines(text.replace("\r\n", "\n").replace("\r", "\n"))
+        # Bytes, as names may be in any encoding, and are written as they are read.
+        data = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+        self._newline = b"\r\n" if b"\r\n" in data else b"\n"
+        self._lines = list(logical_lines(data.splitlines()))
         self._rows: list[int] = []  # number of the line of each vertex
         points: list[list[float]] = []
         blocks: list[list[list[int]]] = []
         for number, line in enumerate(self._lines):
-            keyword, *words = line.partition("#")[0].split() or [""]
-            if keyword == "v":
+            keyword, *words = line.partition(b"#")[0].split() or [b""]
+            if keyword == b"v":
                 self._rows.append(number)
                 points.append(self._coordinates(words, number))
-            elif keyword == "f":
+            elif keyword == b"f":
                 face = [self._index(word, len(points), number) for word in words]
                 if len(face) < 3:
                     raise self._error(number, "a face needs at least 3 corners")
@@ -82,59 +83,41 @@ class ObjText:
             positions = np.round(positions, decimals)
         for vertex in moved.tolist():
             row = self._rows[vertex]
-            words, hash_sign, comment = lines[row].partition("#")
-            begin = ["v", *map(repr, positions[vertex].tolist()), *words.split()[4:]]
-            lines[row] = " ".join(begin) + (f" {hash_sign}{comment}" if hash_sign else "")
+            words, hash_sign, comment = lines[row].partition(b"#")
+            numbers = (repr(x).encode() for x in positions[vertex].tolist())
+            begin = [b"v", *numbers, *words.split()[4:]]
+            lines[row] = b" ".join([*begin, *([hash_sign + comment] if hash_sign else [])])
         if len(moved):
-            lines = [_without_normals(line) for line in lines if line.split()[:1] != ["vn"]]
-        text = "".join(f"{line}{self._newline}" for line in lines)
-        path.write_bytes(text.encode("utf-8", "surrogateescape"))
+            lines = [_without_normals(line) for line in lines if line.split()[:1] != [b"vn"]]
+        path.write_bytes(b"".join(line + self._newline for line in lines))
 
-    def _coordinates(self, words: list[str], number: int) -> list[float]:
+    def _coordinates(self, words: list[bytes], number: int) -> list[float]:
         try:
             x, y, z = (float(word) for word in words[:3])
         except ValueError:
             raise self._error(number, "a vertex needs three coordinates") from None
         return [x, y, z]
 
-    def _index(self, word: str, count: int, number: int) -> int:
-        """Return a vertex, from 0, of a corner "v/vt/vn"; negative numbers count from the last."""
+    def _index(self, corner: bytes, count: int, number: int) -> int:
+        """Return the vertex, from 0, of a corner; that it is there is checked at the end."""
         try:
-            index = int(word.partition("/")[0])
+            index = vertex_of(corner, count)
         except ValueError:
-            raise self._error(number, f"{word!r} is not a corner of a face") from None
-        if index == 0 or not -count <= index <= _MOST_VERTICES:
-            raise self._error(number, f"there is no vertex {word.partition('/')[0]}")
-        return index - 1 if index > 0 else count + index
+            text = corner.decode(errors="replace")
+            raise self._error(number, f"{text!r} is not a corner of a face") from None
+        if not 0 <= index < _MOST_VERTICES:
+            text = corner.partition(b"/")[0].decode()
+            raise self._error(number, f"there is no vertex {text}")
+        return index
 
     def _error(self, number: int, reason: str) -> InputError:
-        line = self._lines[number].strip()[:60]
+        line = self._lines[number].decode(errors="replace").strip()[:60]
         return InputError(f"{self._path}: {reason} ({line!r}); export it again")
 
 
-def _logical_lines(text: str) -> list[str]:
-    """Return the lines, those of numbers that end in a backslash joined.
-
-    A name in another encoding may end in the byte of a backslash, and a comment in a path.
-    """
-    lines, pending = [], ""
-    for end in text.split("\n"):
-        line, pending = pending + end, ""
-        is_continued = line.endswith("\\") and "#" not in line
-        if is_continued and line.split(None, 1)[0] not in _WITH_NAMES:
-            pending = line[:-1] + " "
-        else:
-            lines.append(line)
-    if pending:
-        lines.append(pending)
-    if lines and not lines[-1]:  # behind the last newline
-        lines.pop()
-    return lines
-
-
-def _without_normals(line: str) -> str:
+def _without_normals(line: bytes) -> bytes:
     """Drop the normals "vn" of the corners "v/vt/vn" of a face."""
     words = line.split()
-    if words[:1] != ["f"] or line.count("/") < 2:
+    if words[:1] != [b"f"] or line.count(b"/") < 2:
         return line
-    return " ".join("/".join(word.split("/")[:2]).rstrip("/") for word in words)
+    return b" ".join(b"/".join(word.split(b"/")[:2]).rstrip(b"/") for word in words)

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from .errors import InputError
+from solver.console.errors import InputError
 
 __all__ = ("check_writable", "replacing")
 

@@ -8,7 +8,7 @@ it does not know ``vertex_index`` as the name of the corners, which many program
 
 import re
 
-from .errors import InputError
+from solver.console.errors import InputError
 
 __all__ = ("readable_ply",)
 

@@ -12,8 +12,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NoReturn
 
+from solver.console.errors import InputError
+
 from .arguments import parse
-from .errors import InputError
 from .formats import FORMATS
 from .output_file import check_writable, replacing
 from .standard_streams import STANDARD, input_file, write_to_standard_output

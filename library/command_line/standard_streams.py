@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from .errors import InputError
+from solver.console.errors import InputError
 
 __all__ = ("STANDARD", "format_of", "input_file", "write_to_standard_output")
 

@@ -7,10 +7,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from solver import CubicCraftError, ProxyOptions, Result, stylize
+from solver.console.errors import InputError
 from solver.styles import forms
 from solver.styles.polytope import Polytope
 
-from .errors import InputError
 from .surface import Surface
 
 __all__ = ("form_of", "orientation_of", "stylized")

@@ -13,7 +13,7 @@ from urllib.parse import quote, unquote
 import meshio
 import numpy as np
 
-from .errors import InputError
+from solver.console.errors import InputError
 
 __all__ = ("read_vtk", "with_quoted_names")
 

@@ -14,12 +14,10 @@ from itertools import pairwise
 def monkey():
     """Cubify Blender's monkey."""
     import bpy
-    from headless.extension import registered
 
-    from .startup import ROOT
+    from cubic_craft import registered
 
-    with registered(ROOT):
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+    with registered():
         bpy.ops.mesh.primitive_monkey_add()
         state = bpy.ops.cubic_craft.cubify()
         os._exit(0 if state == {"FINISHED"} else 1)
@@ -28,15 +26,14 @@ def monkey():
 def click():
     """Cubify the monkey after all that the panel loads ahead, and print the seconds as JSON."""
     import bpy
-    from headless.extension import registered
 
-    from .startup import ROOT
+    from cubic_craft import registered
+    from cubic_craft.solver import loading_steps
 
-    with registered(ROOT) as extension:
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+    with registered():
         bpy.ops.mesh.primitive_monkey_add()
         ends = [time.perf_counter()]
-        for _ in extension.solver.loading_steps():
+        for _ in loading_steps():
             ends.append(time.perf_counter())
         assert bpy.ops.cubic_craft.cubify() == {"FINISHED"}
         seconds = {"click": time.perf_counter() - ends[-1], "ahead": ends[-1] - ends[0]}

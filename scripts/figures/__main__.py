@@ -13,10 +13,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
-from headless.errors import InputError  # noqa: E402
-from headless.interruption import end_on_signals  # noqa: E402
-from headless.quiet import mute_stdout  # noqa: E402
 from headless_render import leave  # noqa: E402
+
+from cubic_craft.cubic_craft_addon.command_line.process.interruption import end_on_signals  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.process.quiet import mute_stdout  # noqa: E402
+from cubic_craft.solver.console.errors import InputError  # noqa: E402
 
 PROGRAM = "figures"
 RENDERED = (
@@ -83,7 +84,7 @@ def main() -> int:
         if wanted:
             from figures.rendered import render_figures  # late: it takes Blender a second to start
 
-            render_figures(wanted, options, ROOT)
+            render_figures(wanted, options)
     except InputError as error:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2

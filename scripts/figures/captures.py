@@ -4,10 +4,11 @@
 import bmesh
 import bpy
 import numpy as np
-from headless.gallery import Group
-from headless.mesh_arrays import read
-from headless.studio import FINISHES, surface
 from mathutils import Matrix, Vector
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
+from cubic_craft.cubic_craft_addon.command_line.reading.mesh_arrays import read
 
 from .figure_meshes import FigureMeshes, moved
 

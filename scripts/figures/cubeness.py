@@ -3,7 +3,7 @@
 
 from typing import Any
 
-from headless.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model
 

@@ -14,16 +14,21 @@ from typing import Any
 
 import bpy
 import numpy as np
-from headless.detached import detached_copy
-from headless.errors import InputError
-from headless.extension import Extension
-from headless.gallery import YAW, Group, extent_of
-from headless.handles_file import read_handles
-from headless.load_meshes import Loaded, load
-from headless.pose import handles_of_all
-from headless.progress import ProgressBar
-from headless.studio import surface
 from mathutils import Euler, Matrix
+
+from cubic_craft.cubic_craft_addon.command_line.options.handles_file import read_handles
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import YAW, Group, extent_of
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface
+from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
+from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded, load
+from cubic_craft.cubic_craft_addon.command_line.solving.pose import handles_of_all
+from cubic_craft.cubic_craft_addon.command_line.writing.detached import detached_copy
+from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions
+from cubic_craft.cubic_craft_addon.read.member import read_member
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
+from cubic_craft.cubic_craft_addon.settings.values import Settings
+from cubic_craft.solver.console.errors import InputError
+from cubic_craft.solver.errors import CubicCraftError
 
 from . import shapes
 
@@ -97,7 +102,6 @@ class FigureMeshes:
 
     def __init__(
         self,
-        extension: Extension,
         folder: Path | None,
         bar: ProgressBar,
         verbose: bool,
@@ -105,7 +109,7 @@ class FigureMeshes:
     ) -> None:
         self.is_rough = is_rough
         self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
-        self.extension, self._folder, self._bar, self._verbose = extension, folder, bar, verbose
+        self._folder, self._bar, self._verbose = folder, bar, verbose
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
     def there(self, names: Sequence[str], instead: Sequence[str]) -> list[Model]:
@@ -117,7 +121,7 @@ class FigureMeshes:
     def handles(self, model: Model, file: Path) -> tuple[Any, ...]:
         """Return the handles of a model that a file describes."""
         options = Namespace(pin=[], handles=read_handles(file), input=model.path)
-        return handles_of_all(model.loaded, options, self.extension)[model.object.name]
+        return handles_of_all(model.loaded, options)[model.object.name]
 
     def cubified(
         self,
@@ -139,14 +143,14 @@ class FigureMeshes:
             The mesh cannot be cubified.
         """
         radians = tuple(math.radians(angle) for angle in orientation)
-        settings = self.extension.settings.Settings(
+        settings = Settings(
             cubeness=cubeness, orientation=radians, space="OBJECT", **self.limit, **others
         )
         return self._solve(model.name, settings)
 
     def group(self, model: Model, positions: np.ndarray, label: str, finish: str) -> Group:
         """Return a copy of the model with other positions, for a gallery."""
-        copy = detached_copy(model.object, positions, self.extension, keep_modifiers=True)
+        copy = detached_copy(model.object, positions, keep_modifiers=True)
         points = moved(positions, model.place)
         extent = extent_of(moved(model.original, model.place)) / model.role.size
         yaw = math.radians(model.role.yaw)
@@ -164,18 +168,17 @@ class FigureMeshes:
             Loaded([role.source()]) if callable(role.source) else load(path, None, self._verbose)
         )
         bpy.context.view_layer.update()
-        original = self.extension.mesh_bridge.original_positions(loaded.objects[0].data)
+        original = original_positions(loaded.objects[0].data)
         return Model(name, role, scene, loaded, path, original)
 
-    def _solve_now(self, name: str, settings: Any) -> np.ndarray:
+    def _solve_now(self, name: str, settings: Settings) -> np.ndarray:
         model = self._model(name)
         bpy.context.window.scene = model.scene
         with self._bar.task(f"{name}, cubeness {settings.cubeness:g}") as task:
             try:
-                member = self.extension.member.read_member(model.object, settings)
-                problem = self.extension.pipeline.prepare([member])
-                (solution,) = self.extension.pipeline.solve(problem)
-            except self.extension.solver.CubicCraftError as error:
+                member = read_member(model.object, settings)
+                (solution,) = solve(prepare([member]))
+            except CubicCraftError as error:
                 raise InputError(f"{model.path or name}: {error}") from error
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")
         return solution.positions

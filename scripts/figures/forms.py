@@ -2,8 +2,9 @@
 """Forms: one mesh as each of them; and one as what another add-on is compared by."""
 
 import numpy as np
-from headless.form_object import FormMesh, make_form
-from headless.gallery import Group
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.reading.form_object import FormMesh, make_form
 
 from .figure_meshes import FigureMeshes
 

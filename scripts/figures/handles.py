@@ -6,8 +6,9 @@ from typing import Any
 
 import bpy
 import numpy as np
-from headless.gallery import Group
-from headless.studio import FINISHES
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES
 
 from .figure_meshes import FigureMeshes, colored_by
 

@@ -4,9 +4,10 @@
 from typing import Any
 
 import bpy
-from headless.gallery import Group
-from headless.quiet import captured
-from headless.studio import FINISHES, surface
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
+from cubic_craft.cubic_craft_addon.command_line.process.quiet import captured
 
 from .figure_meshes import FigureMeshes, Model
 

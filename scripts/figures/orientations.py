@@ -6,9 +6,10 @@ import math
 import bmesh
 import bpy
 import numpy as np
-from headless.gallery import Group
-from headless.studio import FINISHES, surface
 from mathutils import Euler, Matrix, Vector
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
 

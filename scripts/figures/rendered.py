@@ -7,12 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-from headless.extension import registered
-from headless.gallery import Gallery, Group, arrange, scene_for_gallery
-from headless.load_meshes import empty_blender
-from headless.progress import ProgressBar
-from headless.render import render
-from headless.studio import furnish
+
+from cubic_craft import registered
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
+    Gallery,
+    Group,
+    arrange,
+    scene_for_gallery,
+)
+from cubic_craft.cubic_craft_addon.command_line.picture.render import render
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
+from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
 
 from . import (
     captures,
@@ -59,24 +64,22 @@ FIGURES = {
 }
 
 
-def render_figures(wanted: list[str], options: Namespace, root: Path) -> None:
+def render_figures(wanted: list[str], options: Namespace) -> None:
     """Render figures to ``options.output``, each as a PNG of ``options.width`` pixels.
 
     Parameters
     ----------
     wanted : keys of `FIGURES`
     options : from the command line
-    root : folder of the extension
 
     Raises
     ------
     InputError
         A mesh cannot be read, or a file cannot be written.
     """
-    empty_blender()
     bar = ProgressBar()
-    with registered(root) as extension:
-        meshes = FigureMeshes(extension, options.meshes, bar, options.verbose, options.rough)
+    with registered():
+        meshes = FigureMeshes(options.meshes, bar, options.verbose, options.rough)
         for number in wanted:
             with bar.task(f"figure {number}") as task:
                 path = render_figure(FIGURES[number], meshes, options)

@@ -5,8 +5,10 @@ import math
 
 import bpy
 import numpy as np
-from headless.gallery import Group
-from headless.mesh_arrays import positions_of
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.reading.mesh_arrays import positions_of
+from cubic_craft.solver import ProxyOptions, stylize
 
 from .figure_meshes import FigureMeshes, Model
 
@@ -36,8 +38,7 @@ def compose(meshes: FigureMeshes) -> list[Group]:
     mesh = model.object.data
     mesh.calc_loop_triangles()
     F = np.array([triangle.vertices for triangle in mesh.loop_triangles])
-    solver = meshes.extension.solver
-    each = solver.stylize(posed, F, CUBENESS, proxy=solver.ProxyOptions(), keep_rotation=True)
+    each = stylize(posed, F, CUBENESS, proxy=ProxyOptions(), keep_rotation=True)
     pairs = (
         (model.original, "original", "grey"),
         (posed, "its pose", "grey"),

@@ -8,8 +8,9 @@ import math
 
 import bmesh
 import bpy
-from headless.load_meshes import load
 from mathutils import Matrix, Vector
+
+from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import load
 
 __all__ = ("bear", "duck", "fox", "letter", "monkey")
 

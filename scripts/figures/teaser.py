@@ -4,8 +4,16 @@
 import math
 
 import bpy
-from headless.gallery import ELEVATION, UP, Gallery, Group, outline, stand
 from mathutils import Vector
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
+    ELEVATION,
+    UP,
+    Gallery,
+    Group,
+    outline,
+    stand,
+)
 
 from .figure_meshes import FigureMeshes
 

@@ -6,8 +6,9 @@ The material of all four meshes reads nothing but an image, through the UVs.
 
 import bpy
 import numpy as np
-from headless.gallery import Group
-from headless.quiet import captured
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.command_line.process.quiet import captured
 
 from .figure_meshes import FigureMeshes, Model, colored_by
 

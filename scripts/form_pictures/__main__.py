@@ -15,12 +15,13 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 import bpy  # noqa: E402
 import numpy as np  # noqa: E402
-from headless.extension import registered  # noqa: E402
-from headless.load_meshes import empty_blender  # noqa: E402
-from headless.studio import surface  # noqa: E402
 from mathutils import Euler, Vector  # noqa: E402
 from preset_pictures.studio import Picture, render, set_up  # noqa: E402
 
+from cubic_craft import registered  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
+from cubic_craft.cubic_craft_addon.settings.form_pictures import path_of  # noqa: E402
+from cubic_craft.cubic_craft_addon.settings.forms import FORMS  # noqa: E402
 from form_pictures.bodies import FROM_OBJECTS, body_of  # noqa: E402
 
 VIEW = (math.radians(64.0), 0.0, math.radians(24.0))
@@ -37,17 +38,16 @@ def main() -> None:
     parser.add_argument("--only", nargs="+", metavar="FORM", help="(default: all)")
     parser.add_argument("--samples", type=int, default=256, metavar="N", help="(default: 256)")
     options = parser.parse_args()
-    empty_blender()
-    with registered(ROOT) as extension:
+    with registered():
         scene = set_up(PICTURE, options.samples)
         amber = surface("Amber", AMBER, roughness=1.0)
         grey = surface("Grey", GREY, roughness=1.0)
-        for form, *_ in extension.forms.FORMS:
+        for form, *_ in FORMS:
             if not options.only or form in options.only:
-                mesh = body_of(form, extension)
+                mesh = body_of(form)
                 mesh.materials.append(grey if form in FROM_OBJECTS else amber)
                 body = _fill_picture(scene, mesh)
-                render(scene, extension.form_pictures.path_of(form), PICTURE)
+                render(scene, path_of(form), PICTURE)
                 bpy.data.objects.remove(body)
 
 

@@ -7,8 +7,11 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
-from headless.extension import Extension
 from mathutils import Matrix, Vector
+
+from cubic_craft.cubic_craft_addon.read.form import form_of
+from cubic_craft.cubic_craft_addon.settings.values import Settings
+from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 
 __all__ = ("FROM_OBJECTS", "body_of")
 
@@ -34,7 +37,7 @@ SHAFT, HEAD, HEAD_LENGTH = 0.09, 0.24, 0.36
 ARROW_SIDES = 24
 
 
-def body_of(form: str, extension: Extension) -> bpy.types.Mesh:
+def body_of(form: str) -> bpy.types.Mesh:
     """Return the mesh of a form, one of the identifiers of the settings."""
     edited = bmesh.new()
     if form == "DIRECTIONS":
@@ -42,13 +45,13 @@ def body_of(form: str, extension: Extension) -> bpy.types.Mesh:
         axes = np.array(Matrix.Rotation(TURN, 3, "Z")).T
         _add_arrows(edited, np.concatenate([axes, -axes]))
     elif form == "FACES":
-        gem = extension.named_forms.rhombic_dodecahedron()
+        gem = rhombic_dodecahedron()
         _add_hull(edited, gem.vertices * GEM / gem.offsets.min())
         _add_arrows(edited, gem.normals[gem.normals[:, 2] > 0.1])  # as if these were selected
     elif form == "OBJECT":
         _add_hull(edited, _pebble())
     else:
-        _add_hull(edited, _vertices(form, extension))
+        _add_hull(edited, _vertices(form))
     mesh = bpy.data.meshes.new(form)
     edited.to_mesh(mesh)
     edited.free()
@@ -57,10 +60,10 @@ def body_of(form: str, extension: Extension) -> bpy.types.Mesh:
     return mesh
 
 
-def _vertices(form: str, extension: Extension) -> Any:
-    settings = extension.settings.Settings(form=form, **SETTINGS.get(form, {}))
-    body = extension.form.form_of(settings)
-    return extension.named_forms.cube().vertices if body is None else body.vertices
+def _vertices(form: str) -> Any:
+    settings = Settings(form=form, **SETTINGS.get(form, {}))
+    body = form_of(settings)
+    return cube().vertices if body is None else body.vertices
 
 
 def _pebble() -> np.ndarray:

@@ -16,11 +16,14 @@ from figures import teaser  # noqa: E402
 from figures.figure_meshes import FigureMeshes  # noqa: E402
 from figures.rendered import NOMINAL_WIDTH, Figure, render_figure  # noqa: E402
 from figures.shapes import bear as add_bear  # noqa: E402
-from headless.extension import Extension, registered  # noqa: E402
-from headless.load_meshes import empty_blender  # noqa: E402
-from headless.progress import ProgressBar  # noqa: E402
-from headless.studio import surface  # noqa: E402
 from preset_pictures.studio import Picture, render, set_up  # noqa: E402
+
+from cubic_craft import registered  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar  # noqa: E402
+from cubic_craft.cubic_craft_addon.read.member import read_member  # noqa: E402
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve  # noqa: E402
+from cubic_craft.cubic_craft_addon.settings.values import Settings  # noqa: E402
 
 ICON = Picture(size=256, width=2.62, lift=0.06, largest_bytes=100_000)
 GREEN = (0.16, 0.47, 0.06)
@@ -42,30 +45,29 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=64, metavar="N", help="(default: 64)")
     parser.add_argument("--output", type=Path, default=ROOT / "docs" / "images", help="folder")
     options = parser.parse_args()
-    empty_blender()
-    with registered(ROOT) as extension:
+    with registered():
         if options.only in (None, "icon"):
-            _render_icon(extension, options)
+            _render_icon(options)
         if options.only in (None, "feature"):
-            _render_feature(extension, options)
+            _render_feature(options)
 
 
-def _render_icon(extension: Extension, options: Namespace) -> None:
+def _render_icon(options: Namespace) -> None:
     """Render a cubic bear before nothing."""
     bear = add_bear()
-    settings = extension.settings.Settings(symmetry=(True, False, False), cubeness=1.0)
-    member = extension.member.read_member(bear, settings)
-    (solution,) = extension.pipeline.solve(extension.assembly.prepare([member]))
+    settings = Settings(symmetry=(True, False, False), cubeness=1.0)
+    member = read_member(bear, settings)
+    (solution,) = solve(prepare([member]))
     bear.data.vertices.foreach_set("co", solution.positions.ravel())
     bear.data.materials.append(surface("Green", GREEN, roughness=0.5))
     scene = set_up(ICON, options.samples)
     render(scene, options.output / "platform_icon.png", ICON)
 
 
-def _render_feature(extension: Extension, options: Namespace) -> None:
+def _render_feature(options: Namespace) -> None:
     """Render shapes in a row, and before them what becomes of them."""
     bar = ProgressBar()
-    meshes = FigureMeshes(extension, None, bar, verbose=False)
+    meshes = FigureMeshes(None, bar, verbose=False)
     settings = Namespace(
         **vars(options), width=FEATURE_SIZE[0], engine="cycles", verbose=False, save_blend=None
     )

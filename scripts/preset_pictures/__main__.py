@@ -14,10 +14,14 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 import bpy  # noqa: E402
 from figures.shapes import bear as add_bear  # noqa: E402
-from headless.extension import Extension, registered  # noqa: E402
-from headless.load_meshes import empty_blender  # noqa: E402
-from headless.studio import surface  # noqa: E402
 
+from cubic_craft import registered  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
+from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions  # noqa: E402
+from cubic_craft.cubic_craft_addon.presets.files import INCLUDED_FOLDER, presets  # noqa: E402
+from cubic_craft.cubic_craft_addon.read.member import read_member  # noqa: E402
+from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve  # noqa: E402
+from cubic_craft.cubic_craft_addon.settings.values import Settings  # noqa: E402
 from preset_pictures.studio import Picture, render, set_up  # noqa: E402
 
 WITHOUT = "preset_without_picture"
@@ -32,28 +36,25 @@ def main() -> None:
     parser.add_argument("--only", nargs="+", metavar="NAME", help="(default: all)")
     parser.add_argument("--samples", type=int, default=64, metavar="N", help="(default: 64)")
     options = parser.parse_args()
-    empty_blender()
-    with registered(ROOT) as extension:
+    with registered():
         bear = add_bear()
         fur = surface("Fur", FUR, roughness=0.5)
         bear.data.materials.append(fur)
         scene = set_up(PICTURE, options.samples)
-        _render_presets(scene, bear, extension, options.only)
-        folder = extension.presets.INCLUDED_FOLDER.parents[1]
+        _render_presets(scene, bear, options.only)
+        folder = INCLUDED_FOLDER.parents[1]
         if not options.only or WITHOUT in options.only:
             bear.data.materials[0] = surface("Grey", GREY, roughness=0.5)
             render(scene, folder / f"{WITHOUT}.png", PICTURE)
 
 
-def _render_presets(
-    scene: bpy.types.Scene, bear: Any, extension: Extension, only: list[str] | None
-) -> None:
-    original = extension.mesh_bridge.original_positions(bear.data)
-    for preset in extension.presets.presets():
+def _render_presets(scene: bpy.types.Scene, bear: Any, only: list[str] | None) -> None:
+    original = original_positions(bear.data)
+    for preset in presets():
         if preset.is_included and (not only or preset.identifier in only):
-            settings = extension.settings.Settings(symmetry=(True, False, False), **preset.values)
-            member = extension.member.read_member(bear, settings)
-            (solution,) = extension.pipeline.solve(extension.assembly.prepare([member]))
+            settings = Settings(symmetry=(True, False, False), **preset.values)
+            member = read_member(bear, settings)
+            (solution,) = solve(prepare([member]))
             _move(bear, solution.positions)
             render(scene, preset.picture, PICTURE)
             _move(bear, original)

@@ -42,6 +42,8 @@ COLUMNS = (
     ("crossings", 12),
     ("seconds", 8),
 )
+SURVEYED = "surveyed_cubic_craft"
+"""package, as the pictures are those of this tree"""
 IMPORTERS = {".obj": "obj_import", ".ply": "ply_import"}
 
 
@@ -60,9 +62,9 @@ def registered(root):
     """Have the extension of a source tree in Blender for the block; it may be an older version."""
     place = [str(root)]
     spec = importlib.util.spec_from_file_location(
-        "cubic_craft", root / "__init__.py", submodule_search_locations=place
+        SURVEYED, root / "__init__.py", submodule_search_locations=place
     )
-    package = sys.modules["cubic_craft"] = importlib.util.module_from_spec(spec)
+    package = sys.modules[SURVEYED] = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(package)
     package.register()
     yield

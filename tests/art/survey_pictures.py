@@ -7,10 +7,16 @@ from pathlib import Path
 import bpy
 import numpy as np
 from art_objects import material
-from headless.gallery import Group, arrange, extent_of, scene_for_gallery
-from headless.render import render as render_gallery
-from headless.studio import furnish
 from mathutils import Matrix
+
+from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
+    Group,
+    arrange,
+    extent_of,
+    scene_for_gallery,
+)
+from cubic_craft.cubic_craft_addon.command_line.picture.render import render as render_gallery
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
 
 RESOLUTION = (1000, 520)
 SAMPLES = 8

@@ -14,7 +14,7 @@ BRITISH = re.compile(
     re.IGNORECASE,
 )
 NOT_PROSE = re.compile(r"```.*?```|`[^`]*`|\]\([^)]*\)|<[^>]*>|https?:\S*", re.DOTALL)
-ROOMS = ("cubic_craft_addon", "operators", "solver", "library", "scripts/headless")
+ROOMS = ("cubic_craft_addon", "operators", "solver", "library")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -12,13 +12,18 @@ from urllib.request import urlopen
 import psutil
 import pytest
 from batch_kit import CUBE
-
-from scripts.headless.arguments import parse
-from scripts.headless.batch.engine import workers_for
-from scripts.headless.batch.plan import OF_THE_BATCH, Job, decisive, plan, settings_of
-from scripts.headless.batch.sources import find_sources
-from scripts.headless.batch.task import Batch, do, key_of
-from scripts.headless.lock import alone_at
+from scripts.cubic_craft.cubic_craft_addon.command_line.batch.engine import workers_for
+from scripts.cubic_craft.cubic_craft_addon.command_line.batch.plan import (
+    OF_THE_BATCH,
+    Job,
+    decisive,
+    plan,
+    settings_of,
+)
+from scripts.cubic_craft.cubic_craft_addon.command_line.batch.sources import find_sources
+from scripts.cubic_craft.cubic_craft_addon.command_line.batch.task import Batch, do, key_of
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
+from scripts.cubic_craft.cubic_craft_addon.command_line.process.lock import alone_at
 
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj

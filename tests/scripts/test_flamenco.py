@@ -13,9 +13,11 @@ from types import SimpleNamespace
 import pytest
 from batch_kit import CUBE
 from headless import SCRIPT, headless, headless_ok
-
-from scripts.headless.arguments import parse
-from scripts.headless.formats import KEEP_VERTICES, READABLE
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.formats import (
+    KEEP_VERTICES,
+    READABLE,
+)
 
 NODE = shutil.which("node")
 JOB_TYPE = SCRIPT.parent / "flamenco" / "cubic_craft.js"

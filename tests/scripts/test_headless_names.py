@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from headless import headless, headless_ok, headless_shared
-
-from scripts.headless.obj_copy import readable_copy
+from scripts.cubic_craft.cubic_craft_addon.command_line.reading.obj_copy import readable_copy
 
 NAMES = [
     "two words",

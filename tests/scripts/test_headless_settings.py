@@ -9,8 +9,11 @@ from pathlib import Path
 
 import pytest
 from headless import PATIENCE
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import OF_FILE
+from scripts.cubic_craft.cubic_craft_addon.settings.forms import FORMS
 
 from solver import PAPER, ProxyOptions
+from solver.console import options
 
 GIVEN = {
     "": ProxyOptions(),
@@ -31,22 +34,26 @@ from dataclasses import asdict
 from pathlib import Path
 
 import bpy
-import headless
-from headless.arguments import parse
-from headless.cubify_all import settings_of_object
-from headless.extension import registered
-from headless.load_meshes import Loaded
+from cubic_craft import registered
+from cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
+from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded
+from cubic_craft.cubic_craft_addon.command_line.solving.cubify_all import settings_of_object
 
-bpy.ops.mesh.primitive_cube_add()
-obj = bpy.context.object
-loaded = Loaded([obj])
-with registered(Path(headless.__file__).parents[2]) as extension:
+with registered():
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    loaded = Loaded([obj])
     for given in sys.argv[1:]:
         options = parse(["--no-render", "--report", "r.json", *given.split()])
-        print(json.dumps(asdict(settings_of_object(obj, (), options, extension, loaded).proxy)))
+        print(json.dumps(asdict(settings_of_object(obj, (), options, loaded).proxy)))
 sys.stdout.flush()
 os._exit(0)  # Blender 4.2 crashes while it is freed
 """
+
+
+def test_the_forms_are_those_of_the_panel():
+    of_panel = [name.lower() for name, *_ in FORMS]
+    assert sorted(of_panel) == sorted([*options.FORMS, *OF_FILE, "faces"])
 
 
 @pytest.fixture(scope="module")

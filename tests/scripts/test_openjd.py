@@ -11,8 +11,7 @@ import pytest
 from batch_kit import CUBE, MESHES, QUICK, batch
 from headless import PATIENCE, SCRIPT, headless_ok
 from rigged import make_rigged, read_pc2
-
-from scripts.headless.arguments import parse
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
 
 OPENJD = Path(sys.executable).with_name("openjd")
 MESH_JOB, ANIMATION_JOB = (

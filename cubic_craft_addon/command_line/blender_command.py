@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command that Blender knows while the extension is enabled: ``blender -c cubic_craft``."""
+
+import contextlib
+import sys
+from typing import Any
+
+import bpy
+
+__all__ = ("register", "unregister")
+
+NAME = "cubic_craft"
+_handle: Any = None
+
+
+def register():
+    """Offer the command."""
+    global _handle
+    _handle = bpy.utils.register_cli_command(NAME, _execute)
+
+
+def unregister():
+    """Withdraw the command."""
+    bpy.utils.unregister_cli_command(_handle)
+
+
+def _execute(arguments: list[str]) -> int:
+    """Run with the arguments behind the name of the command, and return the exit code."""
+    from .main import Program, main_of  # late: hardly a start of Blender needs it
+
+    # What was given to Blender itself stays in force for the processes of a batch.
+    own = sys.argv[1 : len(sys.argv) - len(arguments) - 2]
+
+    def command(threads: int | None) -> list[str]:
+        # Of two numbers of threads Blender takes the later.
+        limit = ["--threads", str(threads)] if threads else []
+        return [bpy.app.binary_path, *limit, *own, "--command", NAME]
+
+    try:
+        program = Program(NAME, f"blender -c {NAME}", arguments, command, contextlib.nullcontext)
+        return main_of(program)
+    except SystemExit as end:  # after --help; Blender would take it for an error
+        return int(end.code or 0)

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: options, their ranges, and what does not go together."""
+
+import argparse
+import json
+import shlex
+import sys
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ....solver.console.errors import InputError
+from ....solver.console.method_options import DEFAULTS as OF_METHOD
+from ....solver.console.method_options import Adder, add_form, add_kept, add_solver
+from ....solver.console.options import FORMS, OneLineParser, number
+from .checks import check_batch, check_single
+from .handles_file import read_handles
+from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG
+from .region_option import region_option
+
+__all__ = ("parse",)
+
+OF_FILE = ("object", "directions")
+"""forms that are made from a file"""
+DEFAULTS = {**OF_METHOD, "together": ("selection", "off"), "hold_rest": ("on", "off")}
+"""name: by default, with ``--paper``"""
+
+
+class _HelpAll(argparse.Action):
+    """Shows all options."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        _parser(parser.prog, is_whole=True).print_help()
+        parser.exit()
+
+
+def parse(arguments: list[str], program: str = "headless_render.py") -> argparse.Namespace:
+    """Read the command line and check everything that can be checked without Blender.
+
+    Parameters
+    ----------
+    program : how it is started, for --help
+
+    Returns
+    -------
+    argparse.Namespace
+        One attribute per option; what ``--paper`` stands for is set, and ``handles`` is a list of
+        `GivenHandle`. For one file ``output_folder`` is None; ``output``, ``save_mesh`` and
+        ``report`` are paths or None, and ``input`` is a path or None for the monkey. Else it is the
+        folder of a batch; ``inputs`` are files and folders, and ``save_mesh`` is None or how the
+        names shall end.
+
+    Raises
+    ------
+    InputError
+        An option, the input or an output path cannot be used.
+    """
+    options = _parser(program).parse_args(arguments)
+    if options.options:
+        options = _parser(program).parse_args([*arguments, *_words(options.options)])
+    if options.worker:  # what is the same for all files, as `batch.plan.settings_of` has it
+        vars(options).update(json.loads(sys.stdin.readline()))
+    options.cubeness = list(dict.fromkeys(options.cubeness))
+    for name, values in DEFAULTS.items():
+        if getattr(options, name) is None:
+            setattr(options, name, values[options.paper])
+    options.input = None
+    if len(options.inputs) > 1 or options.output_folder or any(p.is_dir() for p in options.inputs):
+        check_batch(options)
+    else:
+        options.input = options.inputs[0] if options.inputs else None
+        check_single(options)
+    options.handles = read_handles(options.handles_file) if options.handles_file else []
+    return options
+
+
+def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
+    """Return the parser; if it is whole, its help shows all options."""
+    parser = OneLineParser(
+        prog=program,
+        usage=f"{program} [INPUT ...] [options]",
+        description="Turn meshes into cubic sculptures: pictures, meshes and a report.",
+        epilog=WHOLE_EPILOG if is_whole else EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+        add_help=False,
+    )
+
+    def adder(group: argparse._ActionsContainer) -> Adder:
+        def add(name: str, **how: Any) -> None:
+            is_shown = is_whole or name in COMMON
+            group.add_argument(name, help=HELP.get(name) if is_shown else argparse.SUPPRESS, **how)
+
+        return add
+
+    add = adder(parser)
+    add("inputs", nargs="*", type=Path, metavar="INPUT")
+    add("--object", metavar="NAME")
+    _add_method(adder(parser.add_argument_group("the cubic style")))
+    _add_shape(adder(parser.add_argument_group("what holds together")))
+    _add_outputs(adder(parser.add_argument_group("what is written")))
+    _add_batch(adder(parser.add_argument_group("several files")))
+    _add_picture(adder(parser.add_argument_group("the picture")))
+    add("--timeout", type=number(1, 1e8), metavar="SECONDS")
+    add("--memory", type=number(0.001, 1e6), metavar="GB")
+    add("--threads", type=number(1, 1024, int), metavar="N")
+    add("--options", default="", metavar="TEXT")
+    add("--worker", default="", metavar="KEY:BATCH")
+    add("--limited", action="store_true")
+    add("--verbose", action="store_true")
+    parser.add_argument("-h", "--help", action="help", help="the most common options")
+    none = {"nargs": 0, "default": argparse.SUPPRESS}
+    parser.add_argument("--help-all", action=_HelpAll, help="all options", **none)
+    return parser
+
+
+def _add_method(add: Adder) -> None:
+    add("--cubeness", nargs="+", type=number(0, 10), default=[0.4], metavar="L")
+    add("--form", choices=(*FORMS, *OF_FILE, "faces"), default="cube")
+    add_form(add)
+    add("--form-object", type=Path, metavar="FILE")
+    add("--form-directions", default="", metavar="VECTORS")
+    region = region_option([name for name in FORMS if name != "box"])
+    add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
+    add("--capture", type=Path, metavar="FILE")
+    add("--capture-strength", type=number(0, 10), default=0.4, metavar="X")
+    add("--space", choices=("world", "object"), default="world")
+    add("--pin", nargs="+", default=[], metavar="GROUP")
+    add("--handles", dest="handles_file", type=Path, metavar="FILE.json")
+    add("--map", default="", metavar="GROUP")
+    add_solver(add)
+
+
+def _add_shape(add: Adder) -> None:
+    add_kept(add)
+    add("--together", choices=("off", "parts", "selection"))
+    add("--symmetry", type=_axes, default="", metavar="AXES")
+    add("--floor", action="store_true")
+    add("--with-modifiers", action="store_true")
+    add("--hold-rest", choices=("on", "off"))
+    add("--paper", action="store_true")
+
+
+def _add_outputs(add: Adder) -> None:
+    add("--output", type=Path, metavar="PICTURE.png")
+    add("--no-render", action="store_true")
+    add("--save-mesh", metavar="FILE")
+    add("--bake", type=Path, metavar="FILE")
+    frame = number(-1048574, 1048574, int)
+    add("--frames", nargs=2, type=frame, metavar=("A", "B"))
+    add("--part", nargs=2, type=number(1, 10000, int), metavar=("K", "N"))
+    add("--report", type=Path, metavar="FILE.json")
+    add("--error-file", type=Path, metavar="FILE")
+
+
+def _add_batch(add: Adder) -> None:
+    add("--output-folder", type=Path, metavar="DIR")
+    add("--recursive", action="store_true")
+    add("--only", type=number(1, 1_000_000, int), metavar="K")
+    add("--jobs", type=number(1, 1024, int), metavar="N")
+    add("--scheduler", metavar="ADDRESS")
+    add("--force", action="store_true")
+
+
+def _add_picture(add: Adder) -> None:
+    degrees = number(-36000, 36000)
+    size = number(16, 16384, int)
+    add("--engine", choices=("cycles", "workbench"), default="cycles")
+    add("--samples", type=number(1, 65536, int), default=16, metavar="N")
+    add("--resolution", nargs=2, type=size, default=[1600, 540], metavar=("W", "H"))
+    add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--turntable", type=number(1, 9999, int), default=0, metavar="FRAMES")
+
+
+def _words(text: str) -> list[str]:
+    """Split a text as a shell does, but for backslashes, which stand in paths of Windows."""
+    words = shlex.shlex(text, posix=True)
+    words.whitespace_split, words.escape, words.commenters = True, "", ""
+    try:
+        return list(words)
+    except ValueError:
+        raise InputError(f"--options {text}: a quotation mark is not closed") from None
+
+
+def _axes(text: str) -> str:
+    axes = text.lower()
+    if set(axes) - set("xyz") or len(set(axes)) < len(axes):
+        raise argparse.ArgumentTypeError(f"{text!r} is none of x, y, z, xy, xz, yz and xyz")
+    return "".join(sorted(axes))

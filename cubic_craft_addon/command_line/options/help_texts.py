@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What --help says."""
+
+import argparse
+
+from ....solver.console.method_options import HELP as OF_METHOD
+from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
+
+__all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
+
+COMMON = (
+    *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--detail", "--output"),
+    *("--no-render", "--save-mesh", "--bake", "--output-folder", "--jobs", "--turn"),
+)
+"""what --help shows; --help-all shows all"""
+
+HELP = {
+    **OF_METHOD,
+    "inputs": f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
+    "files, or folders of them",
+    "--object": "this mesh object only (default: all that are shown and rendered)",
+    "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
+    "--timeout": "for each file: one that takes longer is given up (default: none)",
+    "--memory": "for each file: one that takes more is given up (default: none)",
+    "--options": "more of these options, in one text: for programs that hand on one",
+    "--worker": argparse.SUPPRESS,
+    "--limited": argparse.SUPPRESS,
+    "--verbose": "show Blender's own messages",
+    "--form-object": "for --form object the file whose convex hull is the form, for directions the "
+    "one whose faces are, about the origin of its scene",
+    "--region": "a vertex group with a form and a cubeness of its own, such as head:octahedron:0.8 "
+    "or, with a number of sides, hat:prism5:1; where its weights are less than 1, it blends into "
+    "the rest",
+    "--capture": "file with a ball whose normals say which way a surface should face that faces as "
+    "its vertices do from the origin of its scene",
+    "--capture-strength": "of the normals of --capture, beside the cubeness (default: 0.4)",
+    "--form-directions": "for --form faces the directions of its sides, three numbers for each: "
+    '"0 0 1, 1 0 0"; where they leave a side open, those opposite are added',
+    "--orientation": "Euler angles of the form in degrees, as in the panel",
+    "--space": "what --orientation is relative to: the axes of the scene that the file is read "
+    "into, where Z is up, or those of each object (default: world)",
+    "--pin": "vertex groups that stay in place",
+    "--handles": "parts of the mesh that are held or moved, see below",
+    "--map": "vertex group that scales the cubeness",
+    "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
+    "file do (default: selection)",
+    "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
+    "stay so",
+    "--floor": "what stands on the ground keeps its height",
+    "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
+    "surfaces and metaballs as meshes",
+    "--hold-rest": "whether what is far from handles that are moved stays where it is "
+    "(default: on)",
+    "--paper": "as in the paper: solidity 0, keep-pose off, detail 0, keep-apart off, together "
+    "off, refine off, rotation free, hold-rest off; each of them can be given beside it and counts "
+    "then",
+    "--output": "(default: cubic_craft.png)",
+    "--no-render": "no picture",
+    "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
+    "several cubeness values one file each (name_0.4.obj); in a batch the end of the names, such "
+    "as .obj or _cubic.obj",
+    "--bake": f"the cubic version of each frame of an animation: {listing(ANIMATED)}; instead of "
+    "a picture and a mesh; in a batch the end of the names. A run that was ended continues where "
+    "it was",
+    "--frames": "first and last frame for --bake (default: those of the file)",
+    "--part": "for --bake on several machines: solves the Kth of N parts of the frames; when all "
+    "are solved, the same command without --part writes the file",
+    "--report": "numbers of the run",
+    "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
+    "for render farms, which would blame the machine; in a batch with --only",
+    "--output-folder": "for the results, each named as its input; made if it is not there",
+    "--recursive": "take folders with the folders in them, and lay the results out alike",
+    "--only": "this file of them only, counted from 1: for render farms, where each is a task",
+    "--jobs": "files worked on at the same time, each in a Blender of its own (default: 1)",
+    "--scheduler": "of a Dask cluster whose workers do the files, such as tcp://host:8786",
+    "--force": "do also what is done already",
+    "--samples": "of cycles; denoised (default: 16)",
+    "--resolution": "(default: 1600 540)",
+    "--turn": "degrees that stand the objects upright, for files with another idea of up; the "
+    "result does not change",
+    "--turntable": "a picture sequence name_0001.png ..., each object turning about its vertical "
+    "axis",
+}
+
+EPILOG = """\
+The picture shows the original beside one result per cubeness.
+Several files, or folders of them, go to a folder: --output-folder DIR.
+Exit codes: 0 all is done, 2 nothing was begun because of what was given, 3 some files failed,
+130 interrupted.
+"""
+WHOLE_EPILOG = """\
+The picture shows the original beside one result per cubeness. With --turntable it becomes a
+sequence name_0001.png ... in which every object turns once about its vertical axis.
+Orientation 0 0 0 means the axes of the scene, where Z is up; with --space object those of each
+object, which for an .obj are those of the file.
+Options of Blender itself stand before the command: blender --threads 2 -c cubic_craft [options];
+where the extension is not installed: blender -b -P scripts/headless_render.py -- [options]
+
+Several files, or folders of them, go to a folder: --output-folder DIR. A file that cannot be used
+does not stop the others. What is there already, made of the same file with the same options, is
+kept: start a batch again to go on where it was stopped.
+Exit codes: 0 all is done, 2 nothing was begun because of what was given, 3 some files failed,
+130 interrupted.
+
+--handles FILE.json poses the mesh: a list of parts to hold, and where; the rest follows.
+  [{"box": [[-1, -1, -1], [1, 1, -0.8]]},
+   {"group": "ear", "translate": [0, 0, 0.4], "rotate": [0, 30, 0]}]
+Each has one of
+  "group": name of a vertex group, with "threshold": least weight (0.5)
+  "vertices": numbers of vertices in the input file, from 0
+  "box": lowest and highest corner; all vertices in it
+and any of
+  "translate": [x, y, z]      "rotate": degrees about [x, y, z], in this order
+  "scale": number or [x, y, z]
+  "pivot": [x, y, z] that it is turned and scaled about (the middle of its bounding box)
+Coordinates are the object's own, as they stand in the file (for an .obj those of its "v" lines),
+before --turn. Without any of these the part stays in place. Where parts overlap the first counts,
+--pin before all. --cubeness 0 poses only.
+"""

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Output files: checked before any work is done, and never left half-written."""
+
+import contextlib
+import json
+import os
+import platform
+import re
+import shutil
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from ....solver.console.errors import InputError
+
+__all__ = (
+    "check_writable",
+    "numbered",
+    "per_cubeness",
+    "remove_left_behind",
+    "remove_temporaries",
+    "replacing",
+    "write_json",
+    "written",
+)
+
+_LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
+_begins: list[Path] = []  # of the temporary files of this process, without suffix
+_removing = threading.Lock()
+
+
+def per_cubeness(path: Path, cubeness: list[float]) -> list[Path]:
+    """One path per cubeness: the path itself for one value, else ``name_0.4.obj`` and so on."""
+    if len(cubeness) == 1:
+        return [path]
+    return [path.with_name(f"{path.stem}_{value!r}{path.suffix}") for value in cubeness]
+
+
+def numbered(path: Path, count: int) -> list[Path]:
+    """Paths of a sequence: ``name_0001.png`` and so on; the path itself for a count of 0."""
+    if not count:
+        return [path]
+    return [path.with_name(f"{path.stem}_{n:04d}{path.suffix}") for n in range(1, count + 1)]
+
+
+def written(
+    picture: Path | None, frames: int, mesh: Path | None, cubeness: list[float]
+) -> list[Path]:
+    """All paths that a run writes: pictures, then meshes."""
+    pictures = numbered(picture, frames) if picture else []
+    return pictures + (per_cubeness(mesh, cubeness) if mesh else [])
+
+
+def check_writable(option: str, paths: list[Path]) -> None:
+    """Refuse paths that cannot be written, before the long work starts.
+
+    Raises
+    ------
+    InputError
+        Naming the option, the path and the cure.
+    """
+    for path in paths:
+        if path.is_dir():
+            raise InputError(f"{option} {path}: this is a folder; give the name of a file")
+        if not path.parent.is_dir():
+            raise InputError(f"{option} {path}: the folder {path.parent} does not exist; create it")
+    folder = paths[0].parent
+    try:
+        # Trying is the only check that holds on network drives and read-only mounts alike.
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = error.strerror or error
+        message = f"{option} {paths[0]}: cannot write to {folder} ({reason}); choose another folder"
+        raise InputError(message) from error
+
+
+@contextlib.contextmanager
+def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
+    """Give a temporary path beside ``path`` and move it there if the block succeeds.
+
+    The temporary file has the same suffix and folder, so that exporters see the right format and
+    relative paths stay right, and it is removed however the block ends. What runs that were killed
+    have left of the same file is removed as well, and what lies where it shall be written, which
+    might be a link.
+
+    Parameters
+    ----------
+    has_own_name : it gets the name of ``path``, in a folder of its own, because the format writes
+        its name into the file
+    """
+    remove_left_behind(path)
+    begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
+    temporary = begin.with_name(f"{begin.name}{path.suffix}")
+    _begins.append(begin)
+    try:
+        _remove(begin)
+        if has_own_name:
+            begin.mkdir()
+            temporary = begin / path.name
+        yield temporary
+        if not temporary.is_file() or not temporary.stat().st_size:
+            raise InputError(f"{path}: nothing was written; is the disk full?")
+        temporary.replace(path)
+    except OSError as error:
+        message = f"{path}: cannot be written ({error.strerror or error}); choose another path"
+        raise InputError(message) from error
+    finally:
+        with _removing:
+            _remove(begin)
+            _begins.remove(begin)
+
+
+def write_json(path: Path, content: Any) -> None:
+    """Write a file of JSON."""
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+
+
+def remove_temporaries() -> None:
+    """Remove what is being written, because the process ends now.
+
+    From now on no `replacing` ends: its writer must not report as an error what is done here.
+    """
+    _removing.acquire()
+    for begin in _begins:
+        _remove(begin)
+
+
+def remove_left_behind(path: Path) -> None:
+    """Remove temporary files for a path whose process is no longer there."""
+    for other, number in _temporaries(path.with_name(_prefix(path))):
+        if number.isdecimal() and _has_ended(int(number)):
+            with contextlib.suppress(OSError):
+                _discard(other)
+
+
+def _prefix(path: Path) -> str:
+    """Begin of the names of temporary files for a path, on this machine."""
+    stem = os.fsencode(path.stem)[:_LONGEST_STEM].decode(errors="ignore")
+    return f".{stem}.cubic_craft-{platform.node()}-"
+
+
+def _remove(begin: Path) -> None:
+    """Remove a temporary file, and what writers make beside it on the way, by how they begin.
+
+    Blender writes ``name.blend@`` first, USD ``name.XXXXXX`` with six random characters. Such may
+    be made while others are removed.
+    """
+    with contextlib.suppress(OSError):
+        while found := [path for path, rest in _temporaries(begin) if not rest]:
+            for path in found:
+                _discard(path)
+
+
+def _discard(path: Path) -> None:
+    """Remove a file, a link, or a folder with all that is in it."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def _temporaries(begin: Path) -> Iterator[tuple[Path, str]]:
+    """Give files whose names begin so, and what comes then up to the next dot or @."""
+    with contextlib.suppress(OSError):
+        for path in begin.parent.iterdir():
+            if path.name.startswith(begin.name):
+                yield path, re.split("[.@]", path.name.removeprefix(begin.name), maxsplit=1)[0]
+
+
+def _has_ended(process: int) -> bool:
+    """Return whether a process of this machine is certainly gone."""
+    try:
+        if sys.platform != "win32":  # where asking would end it
+            os.kill(process, 0)
+    except OSError as error:
+        return isinstance(error, ProcessLookupError)
+    except OverflowError:
+        pass
+    return False

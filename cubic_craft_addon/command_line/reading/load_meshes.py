@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bring a file's mesh objects into an otherwise empty Blender."""
+
+import contextlib
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import bpy
+
+from ....solver.console.errors import InputError
+from ..process.quiet import captured
+from ..trust.before_reading import readable
+from ..trust.opened import check_opened, checked_before_evaluation
+from ..trust.places import say_left_out
+from .blender_operator import operator, reason
+from .far_away import warn_if_rounded
+from .finite_check import refuse_infinite
+from .obj_copy import readable_copy
+from .obj_layout import ObjLayout, match_objects, read_layout
+from .seen_objects import is_in_picture, show_as_meshes
+from .weld import weld
+
+__all__ = ("Loaded", "empty_blender", "load")
+
+LEVELS_OF_MONKEY = 2
+IMPORTERS = {
+    ".obj": "wm.obj_import",
+    ".blend": "wm.open_mainfile",
+    ".ply": "wm.ply_import",
+    ".stl": "wm.stl_import",
+    ".abc": "wm.alembic_import",
+    ".fbx": "wm.fbx_import",
+    **dict.fromkeys((".glb", ".gltf"), "import_scene.gltf"),
+    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), "wm.usd_import"),
+}
+OGAWA_HEADER = b"Ogawa\xff"
+"""first bytes of an Alembic file that was closed properly"""
+
+
+@dataclass
+class Loaded:
+    """The mesh objects to work on."""
+
+    objects: list[bpy.types.Object]
+    obj_layout: ObjLayout | None = None
+    """the vertices of the file, if it was an .obj"""
+    is_whole: bool = True
+    """not just one object that was named"""
+    form: bpy.types.Object | None = None
+    """what the form is made from"""
+    capture: bpy.types.Object | None = None
+    """what the normal capture is made from"""
+    covered: list[str] = field(default_factory=list)
+    """names of objects of which what is seen was taken, as nothing else would be"""
+
+
+def empty_blender() -> None:
+    """Open a new file with nothing in it; preferences and add-ons stay, also ours."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+def load(
+    path: Path | None,
+    name: str | None,
+    verbose: bool,
+    *,
+    is_seen: bool = False,
+    is_all_seen: bool = True,
+    has_own_process: bool = False,
+) -> Loaded:
+    """Load the mesh objects of a file, which may be a stranger's, or the subdivided monkey.
+
+    Parameters
+    ----------
+    path : the file, or None for the monkey
+    name : only the object of this name
+    verbose : show what Blender prints
+    is_seen : take what is seen in place of the meshes of the file
+    is_all_seen : not only of those meshes whose modifiers hide what they are
+    has_own_process : whoever started this process reports if the file crashes it
+
+    Returns
+    -------
+    Loaded
+        At least one object, each with faces, in the order of the file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or holds no such object.
+    """
+    if path is None:
+        return Loaded(_choose([_monkey()], name, "Blender's monkey"))
+    layout = read_layout(path) if path.suffix.lower() == ".obj" else None
+    if path.suffix.lower() in (".ply", ".stl"):
+        refuse_infinite(path)
+    if path.suffix.lower() == ".abc":
+        _refuse_broken_alembic(path)
+    importer = _importer(path)
+    with contextlib.ExitStack() as copies:
+        source = copies.enter_context(readable(path, importer, has_own_process))
+        if layout is not None and not layout.is_plain:
+            copy = readable_copy(source, layout.encoding, layout.offset)
+            source = copies.enter_context(copy)
+        copies.enter_context(captured(verbose))
+        left_out = _import(path, source, importer, layout)
+        bpy.context.view_layer.update()
+    say_left_out(path, left_out)
+    covered = []
+    if is_seen:
+        taken = show_as_meshes(only_covered=not is_all_seen)
+        covered = [] if is_all_seen else taken
+    found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+    if layout is not None:
+        match_objects(layout, found)
+    else:
+        warn_if_rounded(path, found)
+    if path.suffix.lower() in (".glb", ".gltf"):
+        for mesh in {obj.data for obj in found}:
+            weld(mesh)
+    chosen = _choose(found, name, str(path))
+    covered = [obj.name for obj in chosen if obj.name in covered]
+    return Loaded(chosen, layout, is_whole=name is None, covered=covered)
+
+
+def _monkey() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_monkey_add()
+    monkey = bpy.context.object
+    modifier = monkey.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = LEVELS_OF_MONKEY
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_smooth()
+    return monkey
+
+
+def _importer(path: Path) -> str:
+    """Return the name of Blender's operator that reads the file."""
+    suffix = path.suffix.lower()
+    if suffix == ".fbx" and "fbx_import" not in dir(bpy.ops.wm):  # before Blender 4.5
+        return "import_scene.fbx"
+    return IMPORTERS[suffix]
+
+
+def _import(path: Path, source: Path, importer: str, layout: ObjLayout | None) -> list[str]:
+    """Run Blender's importer for a file, on what of it may be read; return what is left out."""
+    suffix, how, check = path.suffix.lower(), {}, contextlib.nullcontext([])
+    if layout is not None:
+        how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
+    elif suffix == ".blend":
+        how = {"load_ui": False, "use_scripts": False}
+        check = checked_before_evaluation(path)
+    with check as left_out:
+        try:
+            result = operator(importer, path)(filepath=str(source), **how)
+        except RuntimeError as error:
+            message = f"{path}: cannot be read ({reason(error)}); export it again"
+            raise InputError(message) from error
+    if "FINISHED" not in result:
+        raise InputError(f"{path}: cannot be read (not a {path.suffix} file); export it again")
+    return left_out if suffix == ".blend" else check_opened(path)
+
+
+def _refuse_broken_alembic(path: Path) -> None:
+    """Raise InputError for an Alembic file that was cut off: reading it would abort Blender."""
+    with path.open("rb") as file:
+        header = file.read(16)
+        file.seek(0, 2)
+        size = file.tell()
+    root = int.from_bytes(header[8:16], "little")
+    if not header.startswith(OGAWA_HEADER) or len(header) < 16 or not 16 <= root <= size - 8:
+        raise InputError(f"{path}: cannot be read (cut off, or no Alembic file); export it again")
+
+
+def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> list[bpy.types.Object]:
+    """Take the object of that name, or all that can be cubified."""
+    if name is not None:
+        chosen = [obj for obj in found if obj.name == name]
+        if not chosen:
+            there = ", ".join(f'"{obj.name}"' for obj in found[:8]) or "no mesh object at all"
+            raise InputError(f"--object {name}: {source} has no such mesh object; it has {there}")
+        return chosen
+    chosen = [obj for obj in found if obj.data.polygons and is_in_picture(obj)]
+    if not chosen:
+        what = "only meshes that are hidden, are not rendered or have no faces"
+        if not any(obj.data.polygons for obj in found):
+            what = "only meshes without faces" if found else "no mesh"
+        raise InputError(f"{source}: holds {what}; export it again with a visible mesh with faces")
+    for obj in found:
+        if obj not in chosen:
+            print(
+                f'"{obj.name}" is left out: it is hidden, is not rendered or has no faces',
+                file=sys.stderr,
+            )
+    return chosen

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cubify every frame of an animation, into one file that other programs play back."""
+
+import contextlib
+import glob
+import shutil
+from argparse import Namespace
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ....solver.console.errors import InputError
+from ....solver.errors import CubicCraftError
+from ...animation.bake import Bake, BakeOptions
+from ...animation.exchange import export_frames
+from ...animation.parts import part_of
+from ...handles import Handle
+from ...settings.values import Settings
+from ..process.output_files import replacing
+from ..process.progress import ProgressBar
+from ..process.quiet import captured
+from ..reading.load_meshes import Loaded
+from ..trust.links import refuse_links_in
+from .cubify_all import check_groups, settings_of_object
+from .pose import handles_of_all
+
+__all__ = ("bake_frames",)
+
+
+@dataclass
+class _Given:
+    """The settings of the command line, as `SettingsOverrides` gives those of the panel."""
+
+    loaded: Loaded
+    options: Namespace
+    handles: dict[str, tuple[Handle, ...]]
+
+    def settings_for(self, obj: bpy.types.Object) -> Settings:
+        """Return the Settings for an object."""
+        handles = self.handles[obj.name]
+        return settings_of_object(obj, handles, self.options, self.loaded)
+
+
+def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[str, Any]:
+    """Bake the frames to the file of ``--bake``, and return what there is to report.
+
+    What is solved stays in a folder beside the file until that is written: a run that was ended
+    continues there, and one with ``--part`` leaves it for the one that writes. While another run
+    is there with the same frames, this one waits, and continues if that was ended.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    CubicCraftError
+        An object or a setting cannot be used in some frame.
+    """
+    check_groups(loaded.objects, options)
+    path = options.bake
+    if path.suffix == ".pc2" and len(loaded.objects) > 1:
+        raise InputError(f"--bake {path}: a .pc2 has one object; name it, --object NAME")
+    scene = bpy.context.scene
+    start, end = options.frames or (scene.frame_start, scene.frame_end)
+    folder = path.with_name(f"{path.name}.unfinished")
+    refuse_links_in("--bake", path.parent.glob(f"{glob.escape(folder.name)}*"))
+    given = _Given(loaded, options, handles_of_all(loaded, options))
+    count = len(range(start, end + 1))
+    part = part_of(count, *options.part) if options.part else None
+    bake_options = BakeOptions(start, end, folder, is_patient=True, part=part)
+    work = Bake(given, loaded.objects, bake_options)
+    try:
+        with bar.task(f"{len(part or range(count))} frames") as task:
+            for step in work.steps():
+                task.describe(step.texts[-1])
+                task.advance_to(step.factor)
+            summary, problems = work.write(is_alone=True)
+            task.describe("frames")
+            task.finish(summary)
+        found = [result.frames for result in work.results]
+        if problems and (part is not None or found != [count] * len(loaded.objects)):
+            raise CubicCraftError("; ".join(problems))
+        if part is not None:
+            return {"frames": [start + part.start, start + part.stop - 1], "objects": []}
+        _export(path, work.baked, (start, end), options.verbose)
+        for obj in work.baked:
+            _cache_of(obj).unlink()
+    finally:
+        work.discard()
+    with contextlib.suppress(OSError):  # another run waits in it
+        folder.rmdir()
+    bar.say(f"wrote {path}")
+    for problem in problems:  # of all frames: how steady they are
+        bar.warn(problem)
+    return {"frames": [start, end], "objects": [vars(found) for found in work.results]}
+
+
+def _export(path, baked, frames, verbose):
+    with captured(verbose), replacing(path) as temporary:
+        if path.suffix == ".pc2":
+            shutil.copyfile(_cache_of(baked[0]), temporary)
+        else:
+            export_frames(baked, temporary, *frames)
+
+
+def _cache_of(obj):
+    """Return the point cache that a baked object plays."""
+    return Path(bpy.path.abspath(obj.modifiers[0].filepath))

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report: versions, and the numbers of every run."""
+
+import contextlib
+import importlib.metadata
+import platform
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...environment.engine_notes import new_engine_warnings
+from ...run.pipeline import MemberProblem, Solution
+from ..process.output_files import write_json, written
+from ..process.version import version
+from ..solving.cubify_all import Sculpture
+
+__all__ = ("write_animation_report", "write_report")
+
+SETTINGS = (
+    *("form", "form_sides", "form_weights", "form_directions", "region"),
+    *("space", "solidity", "keep_pose", "detail", "keep_apart", "together", "refine", "rotation"),
+    *("symmetry", "floor", "hold_rest", "with_modifiers"),
+)
+OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
+
+
+def write_report(
+    path: Path,
+    sculptures: list[Sculpture],
+    options: Namespace,
+    seconds: dict[str, float],
+) -> None:
+    """Write the report as JSON.
+
+    Parameters
+    ----------
+    seconds : what "load", "write", "render" and "total" took
+    """
+    report = {
+        **_head(options),
+        "device": sculptures[0].solutions[0].result.device,
+        "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
+        "seconds": seconds,
+    }
+    outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
+    write_json(path, {**report, **_made(options, outputs)})
+
+
+def write_animation_report(
+    path: Path,
+    animation: dict[str, Any],
+    options: Namespace,
+    seconds: dict[str, float],
+) -> None:
+    """Write the report of ``--bake`` as JSON.
+
+    Parameters
+    ----------
+    animation : from `bake_frames`
+    """
+    report = {**_head(options), **animation, "seconds": seconds}
+    write_json(path, {**report, **_made(options, [options.bake])})
+
+
+def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
+    """Return what tells a batch whether the outputs are still those of this run."""
+    if not options.worker:
+        return {}
+    sizes = {path.name: path.stat().st_size for path in outputs}
+    return {"made": {"for": options.worker, "sizes": sizes}}
+
+
+def _head(options: Namespace) -> dict[str, Any]:
+    """Return what all reports begin with."""
+    settings = {name: getattr(options, name) for name in SETTINGS}
+    strength = options.capture_strength if options.capture else None
+    return {
+        "versions": _versions(),
+        "notices": new_engine_warnings(),
+        "settings": {**settings, "capture_strength": strength},
+    }
+
+
+def _versions() -> dict[str, str | None]:
+    versions: dict[str, str | None] = {
+        "cubic_craft": version(),
+        "blender": bpy.app.version_string,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+    }
+    for package in OPTIONAL_PACKAGES:
+        versions[package] = None
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            versions[package] = importlib.metadata.version(package)
+    return versions
+
+
+def _object(sculpture: Sculpture, cubeness: list[float]) -> dict[str, Any]:
+    member, problem = sculpture.member, sculpture.problem
+    return {
+        "name": sculpture.object.name,
+        "vertices": member.vertices,
+        "triangles": member.triangles,
+        "components": member.shape.components,
+        # What is solved at once has one energy, which is in the runs of each of them.
+        "solved_with": [other.name for other in problem.pieces if other is not member],
+        "runs": [
+            _run(value, solution, problem)
+            for value, solution in zip(cubeness, sculpture.solutions, strict=True)
+        ],
+    }
+
+
+def _run(cubeness: float, solution: Solution, problem: MemberProblem) -> dict[str, Any]:
+    result = solution.result
+    return {
+        "cubeness": cubeness,
+        "iterations": result.iterations,
+        "converged": result.converged,
+        "crossings": result.crossings,
+        "energy": {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")},
+        "seconds": {
+            "setup": problem.seconds,
+            "solve": solution.seconds,
+            "compile": result.compile_seconds,
+        },
+    }

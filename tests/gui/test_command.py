@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command of the installed extension, ``blender -c cubic_craft``: no window is clicked on.
+
+Its processes share the user folder with this Blender, in which the extension is installed.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import bpy
+import guidrive as gui
+
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+QUICK = ("--max-iterations", "3", "--no-render", "--save-mesh")
+SECONDS = 300
+ENDLESS = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--device", "numpy")
+
+
+def start(folder, *arguments, before=("--offline-mode",)):
+    """Start the command in a folder; return the process."""
+    return subprocess.Popen(
+        [bpy.app.binary_path, *before, "-c", "cubic_craft", *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def ended(process, code):
+    """Return what a process has written to standard output and standard error."""
+    words = process.communicate(timeout=SECONDS)
+    print(*words)
+    assert process.returncode == code, (process.returncode, words)
+    return words
+
+
+def test():
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        for name in ("a.obj", "b.obj"):
+            (folder / name).write_text(OBJ)
+        (folder / "broken.ply").write_text("nothing")
+        check_help(folder)
+        check_one_file(folder)
+        check_a_batch(folder)
+        check_interruption(folder)
+    yield
+
+
+def check_help(folder):
+    output, _ = ended(start(folder, "--help"), 0)
+    assert "usage: blender -c cubic_craft [INPUT ...] [options]" in output
+    _, errors = ended(start(folder, "none.obj"), 2)
+    assert "cubic_craft: error: none.obj: there is no such file; check the path\n" in errors
+
+
+def check_one_file(folder):
+    """Let the engine solve the monkey, also in a process with a limit, and render a picture."""
+    ended(start(folder, *QUICK, "m.obj", "--report", "m.json"), 0)
+    expected = os.environ.get("EXPECT_DEVICE")
+    report = json.loads((folder / "m.json").read_text())
+    assert expected in (None, report["device"]), report["device"]
+    ended(start(folder, *QUICK, "limited.obj", "--timeout", str(SECONDS)), 0)
+    assert (folder / "limited.obj").read_bytes() == (folder / "m.obj").read_bytes()
+    ended(start(folder, "a.obj", "--output", "a.png", "--samples", "1"), 0)
+    assert (folder / "a.png").stat().st_size
+
+
+def check_a_batch(folder):
+    """Give each file a Blender of its own, whose result the next batch keeps."""
+    files = ("a.obj", "b.obj", "broken.ply", "--output-folder", "out", *QUICK, ".obj")
+    for status in ("done", "kept"):
+        _, errors = ended(start(folder, *files), 3)
+        assert f"2 {status}, 1 failed" in errors
+    assert sorted(path.name for path in folder.glob("out/*.obj")) == ["a.obj", "b.obj"]
+
+
+def check_interruption(folder):
+    """Press Ctrl-C, which ends it with one line and no file."""
+    process = start(folder, *ENDLESS, "--cubeness", "0", "1", "--no-render", "--save-mesh", "c.obj")
+    while "cubeness 0.0" not in process.stderr.readline():
+        assert process.poll() is None
+    time.sleep(1)  # it now solves the second
+    process.send_signal(signal.SIGINT)
+    _, errors = ended(process, 130)
+    assert errors.splitlines()[-1] == "cubic_craft: interrupted"
+    assert not list(folder.glob("*c_*"))
+
+
+gui.run(test)
