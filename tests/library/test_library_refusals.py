@@ -10,7 +10,7 @@ import time
 import meshio
 import numpy as np
 import pytest
-from command import COMMAND, QUICK, refused
+from command import COMMAND, QUICK, in_a_process, refused
 
 from cubic_craft.command_line import decompression, mesh_files
 from cubic_craft.command_line.errors import InputError
@@ -124,7 +124,7 @@ def test_a_gpu_that_is_not_there_is_named(folder, monkeypatch):
         monkeypatch.setenv(variable, str(folder / "no_driver.json"))
     for engine in ("TI", "QD"):
         monkeypatch.setenv(f"{engine}_ENABLE_CUDA", "0")
-    line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder)
+    line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder, run=in_a_process)
     assert "gpu" in line.lower()
 
 
@@ -166,7 +166,7 @@ def test_volumes_and_higher_orders_are_refused(tmp_path):
 def test_an_output_survives_a_refusal(folder):
     (folder / "old.obj").write_text("precious")
     (folder / "bad.obj").write_text("v 0 0 0\n")
-    refused("bad.obj", "old.obj", folder=folder)
+    refused("bad.obj", "old.obj", folder=folder, run=in_a_process)
     assert (folder / "old.obj").read_text() == "precious"
 
 

@@ -164,7 +164,7 @@ def test_limbs_turn_with_a_pose():
     np.testing.assert_allclose(posed.limbs.present, rest.limbs.present @ turn.T, atol=1e-9)
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("proxy", [LIMBS, replace(DEFAULTS, keep_apart=False)])
 @pytest.mark.parametrize("form", [None, forms.octahedron()])
 def test_the_energy_falls_and_a_second_run_has_the_same_bits(proxy, form, device):
