@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run the installed command ``cubic-craft``, in a process of its own or, most often, in this one."""
+"""Run the installed command ``cubic-craft``: in a process of its own or, mostly, in this one."""
 
 import contextlib
 import dataclasses
