@@ -235,9 +235,10 @@ films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
 	TESTS="film_*" tests/gui/run.sh $(ZIP)
 	cp build/gui/trixie/film_live/live.gif build/gui/sid/film_follow/follow.gif docs/images/
 
-docs-images: ## Pictures of docs/, from the last window tests
+docs-images: $(ZIP) ## Pictures of docs/: those of the user guide, and those of the last window tests
+	TESTS="pictures_*" tests/gui/run.sh $(ZIP) build/gui/pictures trixie
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
-	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
+	cp build/gui/pictures/trixie/pictures_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png
 	cp build/gui/trixie/test_live_gizmos/gizmo.png docs/images/handles_gizmo.png
 
