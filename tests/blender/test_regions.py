@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from lumps import FLIP_X, add_lump, partner_of
 from rich_mesh import position_of
 from scene import add_copy, add_monkey, add_triangles, bmesh_of, cubify, select
-from test_form_settings import add_solid
-from test_symmetry import FLIP_X, add_lump, partner_of
+from solids import add_solid
 
 OPTIONS = {"refine": "OFF", "max_iterations": 150, "solidity": 0.0}
 

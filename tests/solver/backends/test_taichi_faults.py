@@ -12,8 +12,8 @@ import sys
 
 import pytest
 from engine_marks import PACKAGE, needs_engine
+from in_a_process import passes
 from optional_marks import needs
-from test_taichi_runtime import passes
 
 WITH_CACHE = """
     from solver import set_cache_folder
