@@ -8,7 +8,7 @@ because that takes seconds to begin.
 import os
 
 import pytest
-from engine_marks import PACKAGE, needs_engine, needs_taichi
+from engine_marks import CPU, PACKAGE, needs_engine, needs_taichi
 from in_a_process import passes
 
 from solver import engine_name
