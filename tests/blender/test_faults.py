@@ -20,7 +20,7 @@ from snapshot import differences
 from world import snapshot_world
 
 IS_THOROUGH = bool(os.environ.get("CUBIC_CRAFT_FAULTS"))
-SHARE = 800
+SHARE = 500
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 WORDS = {RuntimeError: "disk on fire", MemoryError: "memory", KeyboardInterrupt: "interrupted"}
 OPTIONS = {"max_iterations": 2, "device": "NUMPY", "refine": "OFF", "keep_apart": False}
@@ -131,6 +131,7 @@ def problem_of(place, error_class, call, path, folder, run, before, done):
     return ""
 
 
+@pytest.mark.thorough(6)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_any_function_may_fail(extension, tmp_path, name, capfd):
     before_it, run = SCENARIOS[name]
