@@ -227,6 +227,13 @@ def test_between_pieces_the_nearest_of_equal_frames_is_blended():
     np.testing.assert_allclose(G @ G.swapaxes(1, 2), np.tile(np.eye(3), (3, 1, 1)), atol=1e-12)
 
 
+def test_toward_a_trunk_the_turn_of_a_limb_becomes_less():
+    d = shapes.rotation(y=20) @ [0.0, 0.0, 1.0]
+    limbs = Limbs(d[None], sp.csr_matrix([[1.0], [0.5], [0.0]]))
+    angles = [np.degrees(np.arccos((np.trace(G) - 1) / 2)) for G in turns(limbs, np.eye(3)[None])]
+    np.testing.assert_allclose(angles, [20.0, 10.0, 0.0], atol=1e-4)
+
+
 def test_a_trunk_keeps_the_frame_of_the_object():
     limbs = Limbs(np.array([[0.6, 0.0, 0.8]]), sp.csr_matrix([[0.0], [1.0]]))
     G = turns(limbs, np.eye(3)[None])
