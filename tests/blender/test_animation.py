@@ -494,3 +494,13 @@ def test_the_memory_is_the_same_for_any_number_of_frames(extension, part, tmp_pa
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 1.5 * peaks[0]
+
+
+def test_a_part_begins_with_the_last_frames_in_which_something_moves(part):
+    parts = part("animation.parts")
+    moving = [f"frame {number}" for number in range(20)]
+    assert parts.LEAD_IN == 8
+    assert parts.lead_in(moving) == 12
+    assert parts.lead_in([*moving[:12], *[moving[11]] * 8]) == 4, "where nothing moves, none counts"
+    assert parts.lead_in(moving[:8]) == parts.lead_in([]) == 0
+    assert [list(parts.part_of(5, number, 2)) for number in (1, 2)] == [[0, 1], [2, 3, 4]]
