@@ -250,8 +250,13 @@ def test_the_first_original_comes_back():
     cubify(start="HERE")
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
+    obj.vertex_groups.new(name="Ear").add(range(50), 1.0, "REPLACE")
+    handle = obj.cubic_craft.handles.add()
+    handle.group = "Ear"
     cubify()
+    assert handle.is_baked
     said = reports_of(bpy.ops.cubic_craft.restore_first)
+    assert not handle.is_baked, "its pose is in the mesh no longer"
     assert "Restored the first original of Suzanne" in said
     assert position_of(obj.data).tobytes() == original.tobytes()
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
