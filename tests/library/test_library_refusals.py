@@ -2,6 +2,7 @@
 """Bad input of the installed command: one line, exit code 2, and nothing is written."""
 
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -212,7 +213,7 @@ def test_nothing_is_written_through_a_link(tmp_path):
     secret = tmp_path / "secret.txt"
     secret.write_text("secret")
     path = tmp_path / "a.obj"
-    (tmp_path / f".a.cubic_craft-{os.getpid()}.obj").symlink_to(secret)
+    (tmp_path / f".a.cubic_craft-{platform.node()}-{os.getpid()}.obj").symlink_to(secret)
     path.symlink_to(secret)
     with replacing(path) as temporary:
         temporary.write_text("new")
