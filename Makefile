@@ -60,10 +60,12 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 		$(PY) $(PYTEST) tests/blender/hostile
 
 # What Blender itself does for us: data, modes, undo, interface, importers and exporters. What is
-# computed from it, and faults of Python functions, are the same in both.
+# computed from it, and faults of Python functions, are the same in both; of each test, three cases
+# are enough to see another Blender, as many as there are kinds of results.
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, in the oldest bpy that we support
-	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --ignore tests/blender/hostile \
-		$(patsubst %,--ignore tests/blender/test_%.py,assembly docs_examples edited faults floor \
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 --ignore tests/blender/hostile \
+		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
+		$(patsubst %,--ignore tests/blender/test_%.py,assembly docs_examples edited faults flatten_facets floor \
 		form_from_selection form_settings handle_own_pose handle_reach handles leaks live_inputs live_poses \
 		live_transforms normal_capture orientation other_blenders process refusals regions rigged_limbs \
 		scenes symmetry up_to_date) tests/blender \
@@ -77,7 +79,7 @@ $(VENV)-oldest/.done: requirements/*.txt
 # What is compared many times over in the mathematics is no other in another Python, and slow. With
 # Quadrants in place of Taichi: Taichi runs in all other environments, and on this Python in a window.
 test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2 and Quadrants
-	$(VENV)-py313/bin/python $(PYTEST) -m "not thorough" $(patsubst %,--ignore tests/solver/%, \
+	$(VENV)-py313/bin/python $(PYTEST) --few 2 -m "not thorough" $(patsubst %,--ignore tests/solver/%, \
 		contacts proxy frames orientation global_step/test_holds.py global_step/test_upright_parts.py \
 		styles/test_forms.py styles/test_polytope.py \
 		$(patsubst %,test_%.py,acceleration moved normal_capture rotation_fit)) tests/solver
@@ -101,9 +103,10 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 		tests/blender/test_scenes.py tests/blender/test_other_blenders.py \
 		tests/scripts/test_headless_interrupted.py tests/scripts/test_batch_workers.py
 
-# Without the comparison of many iterations with more that are plain, which takes as long as the rest.
+# Of each test one case, as what differs is the device; without the comparison of many iterations
+# with more that are plain, which takes as long as the rest.
 test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=own for your own
-	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) -k "(gpu or device_arrays) and not acceleration" \
+	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) --few 1 -k "(gpu or device_arrays) and not acceleration" \
 		tests/solver/coarse_to_fine/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
 		CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender/test_gpu.py'
 
@@ -123,7 +126,7 @@ test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTI
 test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64
 	CUBIC_CRAFT_BARE_PYTHONS="$(BARE:=/bin/python)" \
-		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages
+		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages/test_installed.py
 
 test-package-gui: package ## Packages and repository in real Blender windows
 	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages
@@ -180,7 +183,7 @@ endef
 NOTEBOOK := tests/library/test_library_notebook.py
 
 test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, its command and the notebook
-	$(call test_library,oldest,$(PYTHON),oldest,,--ignore $(NOTEBOOK) tests/library)
+	$(call test_library,oldest,$(PYTHON),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
 
 lock: setup ## Choose the wheels of the packages anew: requirements/wheels*.lock
@@ -233,9 +236,10 @@ films: $(ZIP) ## Films of README and docs/, taken in real Blender windows
 	TESTS="film_*" tests/gui/run.sh $(ZIP)
 	cp build/gui/trixie/film_live/live.gif build/gui/sid/film_follow/follow.gif docs/images/
 
-docs-images: ## Pictures of docs/, from the last window tests
+docs-images: $(ZIP) ## Pictures of docs/: those of the user guide, and those of the last window tests
+	TESTS="pictures_*" tests/gui/run.sh $(ZIP) build/gui/pictures trixie
 	cp build/gui/trixie/test_first_sculpture/first_*.png docs/images/
-	cp build/gui/trixie/test_user_guide/user_guide_*.png docs/images/
+	cp build/gui/pictures/trixie/pictures_user_guide/user_guide_*.png docs/images/
 	cp build/gui/trixie/test_handles/posed.png docs/images/handles_window.png
 	cp build/gui/trixie/test_live_gizmos/gizmo.png docs/images/handles_gizmo.png
 

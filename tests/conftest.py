@@ -12,8 +12,13 @@ sys.path.remove(str(Path(__file__).parent))
 
 
 def pytest_addoption(parser):
-    """Add the option that asks for all of them."""
+    """Add the options that ask for all of them, or for fewer still."""
     parser.addoption("--thorough", action="store_true", help="also run what is marked as thorough")
+    parser.addoption(
+        "--few",
+        type=int,
+        help="of each test, run at most so many cases: where only the environment is another",
+    )
 
 
 @pytest.hookimpl(trylast=True)
@@ -22,10 +27,12 @@ def pytest_collection_modifyitems(config, items):
     if config.getoption("thorough") or any("::" in each for each in config.args):
         return
     kept, left_out = [], []
+    most = config.getoption("few")
     for _, group in itertools.groupby(items, lambda item: item.nodeid.partition("[")[0]):
         cases = list(group)
         marker = cases[0].get_closest_marker("thorough")
-        few = spread(len(cases), *marker.args) if marker else set(range(len(cases)))
+        count = sum(marker.args) if marker else len(cases)
+        few = spread(len(cases), count if most is None else min(count, most))
         for number, case in enumerate(cases):
             (kept if number in few else left_out).append(case)
     if left_out:

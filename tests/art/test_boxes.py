@@ -10,6 +10,7 @@ from art_parts import box
 CUBENESS = (0.2, 0.4, 1.0)
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("cubeness", CUBENESS)
 @pytest.mark.parametrize("name", ["cube", "box_long", "box_thin"])
 def test_a_box_along_the_axes_does_not_move(name, cubeness):
@@ -17,6 +18,7 @@ def test_a_box_along_the_axes_does_not_move(name, cubeness):
     assert measures.movement(outcome.V, outcome.U) <= 1e-4
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("cubeness", CUBENESS)
 @pytest.mark.parametrize("name", ["box_10", "box_30", "box_45", "box_skew"])
 def test_a_box_that_stands_askew_is_not_skewed(name, cubeness):
@@ -25,6 +27,7 @@ def test_a_box_that_stands_askew_is_not_skewed(name, cubeness):
     assert np.abs(corner_angles(outcome.U) - 90).max() <= 2
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("cubeness", CUBENESS)
 @pytest.mark.parametrize("name", ["house", "house_30"])
 def test_the_walls_of_a_house_stay_upright(name, cubeness):

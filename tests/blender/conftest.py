@@ -69,10 +69,13 @@ def one_phase(live, monkeypatch):
 
 @pytest.fixture
 def begin(live):
-    """Return a function that begins Live on objects, the first with these settings."""
+    """Return a function that begins Live on objects, the first with these settings.
+
+    As `scene.cubify`, it does without a finer copy unless that is asked for.
+    """
 
     def start(*objects, **settings):
-        for name, value in settings.items():
+        for name, value in {"refine": "OFF", **settings}.items():
             setattr(objects[0].cubic_craft, name, value)
         select(*objects)
         return live.begin(bpy.context, list(objects))

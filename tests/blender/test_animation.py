@@ -494,3 +494,25 @@ def test_the_memory_is_the_same_for_any_number_of_frames(extension, part, tmp_pa
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 1.5 * peaks[0]
+
+
+def test_a_part_begins_with_the_last_frames_in_which_something_moves(part):
+    parts = part("animation.parts")
+    moving = [f"frame {number}" for number in range(20)]
+    assert parts.LEAD_IN == 8
+    assert parts.lead_in(moving) == 12
+    assert parts.lead_in([*moving[:12], *[moving[11]] * 8]) == 4, "where nothing moves, none counts"
+    assert parts.lead_in(moving[:8]) == parts.lead_in([]) == 0
+    assert [list(parts.part_of(5, number, 2)) for number in (1, 2)] == [[0, 1], [2, 3, 4]]
+
+
+def test_a_point_cache_that_was_cut_off_is_refused(part, tmp_path):
+    cache, path = part("animation.point_cache"), tmp_path / "a.pc2"
+    with cache.new_point_cache(path, 3, 4) as positions:
+        positions[:] = np.arange(36, dtype=np.float32).reshape(3, 4, 3)
+    assert cache.read_point_cache(path)[2, 3].tolist() == [33.0, 34.0, 35.0]
+    whole = path.read_bytes()
+    for content, words in ((whole[:-1], "is incomplete"), (whole[1:], "is not a PC2 file")):
+        path.write_bytes(content)
+        with pytest.raises(Exception, match=words):
+            cache.read_point_cache(path)

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
+from mathutils import Matrix
 from rich_mesh import position_of
 from scene import bmesh_of, cubify, reports_of, select
 
@@ -250,8 +251,13 @@ def test_the_first_original_comes_back():
     cubify(start="HERE")
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == edited.tobytes()
+    obj.vertex_groups.new(name="Ear").add(range(50), 1.0, "REPLACE")
+    handle = obj.cubic_craft.handles.add()
+    handle.group, handle.pose = "Ear", Matrix.Translation((0, 0, 0.1))
     cubify()
+    assert handle.is_baked
     said = reports_of(bpy.ops.cubic_craft.restore_first)
+    assert not handle.is_baked, "its pose is in the mesh no longer"
     assert "Restored the first original of Suzanne" in said
     assert position_of(obj.data).tobytes() == original.tobytes()
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()

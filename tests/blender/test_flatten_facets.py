@@ -99,12 +99,12 @@ def test_the_next_cubify_starts_from_the_original(bridge, result):
 def test_it_is_planar_where_it_is_seen():
     """With the scale of the object, in the axes of the world, or as the cube was rotated."""
     obj = add_ball(scale=(1.0, 1.7, 0.6), rotation=(0.0, 0.0, 0.3))
-    cubify()
+    cubify(refine="AUTO")
     assert planar_share(obj) < 0.1
     flatten()
     assert planar_share(obj) > PLANAR
     other = add_ball("Other")
-    cubify(orientation=(0.3, 0.0, 0.0))
+    cubify(orientation=(0.3, 0.0, 0.0), refine="AUTO")
     other.cubic_craft.orientation = (0.0, 0.0, 0.0)  # it stays that of the shape
     flatten()
     axes = np.array([[1, 0, 0], [0, np.cos(0.3), -np.sin(0.3)], [0, np.sin(0.3), np.cos(0.3)]])

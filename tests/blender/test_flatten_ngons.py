@@ -23,7 +23,7 @@ def test_facets_become_ngons_with_their_uvs():
     group = obj.vertex_groups.new(name="All")
     group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
     obj.modifiers.new("Bevel", "BEVEL")
-    cubify()
+    cubify(refine="AUTO")
     faces = len(obj.data.polygons)
     assert flatten(dissolve=True) == {"FINISHED"}
     made = bpy.context.object
@@ -51,7 +51,7 @@ def test_facets_become_ngons_with_their_uvs():
 @pytest.mark.parametrize("border", ["seam", "sharp", "material", "uv"])
 def test_ngons_end_at_the_borders_of_the_artist(border):
     obj = add_ball()
-    cubify()
+    cubify(refine="AUTO")
     mesh = obj.data
     flatten()
     is_half = np.array([face.center.x > 0 for face in mesh.polygons])
@@ -81,7 +81,7 @@ def test_ngons_end_at_the_borders_of_the_artist(border):
 
 def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
     obj = add_ball()
-    cubify(result="SHAPE_KEY")
+    cubify(result="SHAPE_KEY", refine="AUTO")
     flatten(dissolve=True)
     made = bpy.context.object
     assert made.data.shape_keys is None and obj.data.shape_keys is not None
@@ -90,7 +90,7 @@ def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
     bpy.ops.cubic_craft.show_source()
     select(obj)
     obj.shape_key_add(name="Smile", from_mix=False)
-    cubify(result="MESH")
+    cubify(result="MESH", refine="AUTO")
     flatten(dissolve=True)
     assert bpy.context.object.data.shape_keys is None
     assert len(bpy.data.shape_keys) == 1  # nor are any left over

@@ -8,7 +8,7 @@ import pytest
 from live_steps import bits, confirm, tick_to_rest
 from mathutils import Euler, Matrix
 from scene import add_empty, add_monkey, add_triangles, cubify, select
-from test_form_settings import share_facing
+from solids import share_facing
 
 OPTIONS = {"refine": "OFF", "max_iterations": 200}
 GIVEN = "0 0 1, 1 0 0, 0 1 0"

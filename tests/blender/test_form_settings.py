@@ -6,10 +6,11 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from lumps import FLIP_X, add_lump, partner_of
 from mathutils import Euler, Matrix
 from rich_mesh import position_of
 from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
-from test_symmetry import FLIP_X, add_lump, partner_of
+from solids import add_solid, share_facing
 
 NAMES = (
     *(
@@ -25,28 +26,6 @@ NAMES = (
     *("PRISM", "PYRAMID", "CYLINDER", "CONE", "OBJECT", "DIRECTIONS"),
 )
 OPTIONS = {"refine": "OFF", "max_iterations": 200}
-
-
-def add_solid(kind, name="Form", **where):
-    """Add an object that a form can be made from."""
-    {
-        "cube": bpy.ops.mesh.primitive_cube_add,
-        "ball": lambda **options: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, **options),
-        "plane": bpy.ops.mesh.primitive_plane_add,
-        "cone": lambda **options: bpy.ops.mesh.primitive_cone_add(vertices=5, **options),
-    }[kind](**where)
-    bpy.context.object.name = name
-    return bpy.context.object
-
-
-def share_facing(obj, normals, angle=10.0):
-    """Return the share of an object's surface that faces one of the normals."""
-    mesh = obj.data
-    areas, found = np.empty(len(mesh.polygons)), np.empty((len(mesh.polygons), 3))
-    mesh.polygons.foreach_get("area", areas)
-    mesh.polygons.foreach_get("normal", found.ravel())
-    near = (found @ np.asarray(normals).T).max(axis=1) > np.cos(np.radians(angle))
-    return areas[near].sum() / areas.sum()
 
 
 @pytest.fixture

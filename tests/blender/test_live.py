@@ -16,8 +16,9 @@ from snapshot import differences, snapshot_mesh, snapshot_object
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
     twin, obj = add_monkey("Twin"), add_monkey()
-    twin.cubic_craft.refine = obj.cubic_craft.refine = "AUTO"  # the default
-    session = tick_to_rest(begin(obj, result=result, cubeness=0.7))
+    refine = "AUTO" if result == "MESH" else "OFF"
+    twin.cubic_craft.refine = refine
+    session = tick_to_rest(begin(obj, result=result, cubeness=0.7, refine=refine))
     confirm(live, session)
     check_gone(live)
     one = snapshot_mesh(bpy.context.object.data)

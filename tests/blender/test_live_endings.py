@@ -126,16 +126,18 @@ def test_selecting_another_mesh_confirms_it(live, begin):
 
 
 def test_selecting_what_it_depends_on_does_not_end_it(live, begin):
-    target, form, obj = add_monkey("Target"), add_monkey("Form"), add_monkey()
+    target, form, hat, obj = (add_monkey(name) for name in ("Target", "Form", "Hat", "Suzanne"))
     group = obj.vertex_groups.new(name="Head")
     group.add([0, 1, 2], 1.0, "REPLACE")
     handle = obj.cubic_craft.handles.add()
     handle.group, handle.target = "Head", target
     obj.cubic_craft.form, obj.cubic_craft.form_object = "OBJECT", form
+    region = obj.cubic_craft.regions.add()
+    region.group, region.form, region.form_object = "Head", "OBJECT", hat
     session = tick_to_rest(begin(obj))
     empty = bpy.data.objects.new("Empty", None)
     bpy.context.collection.objects.link(empty)
-    for asked_for in (target, form, empty):
+    for asked_for in (target, form, hat, empty):
         select(asked_for)
         session.wake()
         tick_to_rest(session)
@@ -280,6 +282,22 @@ def test_a_file_written_behind_its_back_shows_what_was_seen(live, begin, tmp_pat
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
     # The values of the keys are those of the scene.
     assert not differences(original, snapshot_mesh(obj.data), ("*is_evaluated*",))
+
+
+def test_a_file_written_behind_its_back_is_as_before_where_a_key_was_to_be_written(
+    live, begin, tmp_path
+):
+    obj = add_monkey()
+    original = bits(obj)
+    session = tick_to_rest(begin(obj, result="SHAPE_KEY"))
+    path = str(tmp_path / "behind.blend")
+    bpy.data.libraries.write(path, {bpy.context.scene})
+    session.on(live.Event.CANCEL)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    obj = bpy.data.objects["Suzanne"]
+    select(obj)
+    assert bits(obj) == original and obj.data.shape_keys is None
+    assert not bpy.ops.cubic_craft.restore.poll()
 
 
 @pytest.mark.parametrize("outcome", [None, 1, {"values": {}}, {"values": {"result": "MESH"}}])

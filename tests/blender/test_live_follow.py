@@ -97,6 +97,17 @@ def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, m
     check_same_as_new_object(obj, follower_of(obj))
 
 
+def test_what_is_carried_turns_with_the_surface_unless_all_moves_alike(part):
+    turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    positions, original = np.arange(15.0).reshape(5, 3), np.zeros((5, 3), np.float32)
+    solved = part("live.followed_mesh")._Solved(positions, np.tile(turn, (5, 1, 1)), original)
+    way = np.float32([0.1, 0.2, 0.3])
+    np.testing.assert_allclose(solved.carried(original + way), positions + way, atol=1e-6)
+    strokes = original.copy()
+    strokes[[0, 3], 0] = 1.0, -1.0
+    np.testing.assert_allclose(solved.carried(strokes), positions + strokes @ turn.T, atol=1e-6)
+
+
 def test_other_faces_are_followed(live, follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))

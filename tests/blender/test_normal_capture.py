@@ -5,11 +5,11 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from lumps import FLIP_X, add_lump, partner_of
 from mathutils import Matrix
 from rich_mesh import position_of
 from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
-from test_form_settings import add_solid, share_facing
-from test_symmetry import FLIP_X, add_lump, partner_of
+from solids import add_solid, share_facing
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 OPTIONS = {"refine": "OFF", "max_iterations": 200}

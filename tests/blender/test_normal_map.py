@@ -15,9 +15,9 @@ NEAR = 10.0  # degrees
 
 
 def add_detailed(name="Suzanne", **where):
-    """Add a smooth monkey of 7,958 vertices, cubified."""
+    """Add a smooth monkey of 2,012 vertices, cubified."""
     obj = add_monkey(name, **where)
-    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
     bpy.ops.object.modifier_apply(modifier="Subdivision")
     bpy.ops.object.shade_smooth()
     cubify()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_monkey, cubify, select
-from test_form_settings import add_solid
+from solids import add_solid
 
 
 @pytest.fixture

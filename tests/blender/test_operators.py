@@ -25,7 +25,7 @@ def alignment(mesh, positions):
 def test_cubify_makes_it_cubic_and_restore_gives_the_original_bits():
     obj = add_triangles()
     before = position_of(obj.data)
-    assert bpy.ops.cubic_craft.cubify(cubeness=0.8) == {"FINISHED"}
+    assert cubify(cubeness=0.8) == {"FINISHED"}
     after = position_of(obj.data)
     assert alignment(obj.data, after) > alignment(obj.data, before) + 0.05
     assert "642 vertices" in obj.cubic_craft.status
@@ -80,7 +80,8 @@ def test_cubify_after_apply_starts_from_the_original(turn):
         if obj == one:
             cubify()
         bpy.ops.object.transform_apply(location=True, rotation=True, scale=True)
-        cubify(keep_apart=False)  # it would push other squares apart
+        # on a finer copy, where it matters less how; and not kept apart, as that would push others
+        cubify(keep_apart=False, refine="AUTO")
     np.testing.assert_allclose(position_of(one.data), position_of(twin.data), atol=0.02)
     for obj in (one, twin):
         select(obj)
@@ -102,10 +103,10 @@ def test_the_settings_of_the_object_are_used_and_kept():
     obj = add_monkey()
     obj.cubic_craft.cubeness = 0.7
     obj.cubic_craft.orientation = (0.1, 0.2, 0.3)
-    bpy.ops.cubic_craft.cubify()
+    cubify()
     by_settings = position_of(obj.data)
     other = add_monkey()
-    bpy.ops.cubic_craft.cubify(cubeness=0.7, orientation=(0.1, 0.2, 0.3))
+    cubify(cubeness=0.7, orientation=(0.1, 0.2, 0.3))
     assert position_of(other.data).tobytes() == by_settings.tobytes()
     assert other.cubic_craft.cubeness == pytest.approx(0.7)
     assert tuple(other.cubic_craft.orientation) == pytest.approx((0.1, 0.2, 0.3))
@@ -116,7 +117,7 @@ def test_the_settings_of_the_active_object_are_those_of_all():
     first = add_monkey("First")
     first.cubic_craft.cubeness, first.cubic_craft.together = 0.9, "PARTS"
     select(first, second)
-    bpy.ops.cubic_craft.cubify()
+    cubify()
     assert second.cubic_craft.cubeness == pytest.approx(0.9)
     assert second.cubic_craft.together == "PARTS"
     assert position_of(first.data).tobytes() == position_of(second.data).tobytes()
@@ -383,7 +384,7 @@ def test_each_option_of_the_proxy_reaches_the_solver(
         setattr(obj.cubic_craft, name, value)
         assert cubify() == {"FINISHED"}
     solver = importlib.import_module(f"{extension.__name__}.solver")
-    expected = dataclasses.asdict(solver.ProxyOptions()) | {name: value}
+    expected = dataclasses.asdict(solver.ProxyOptions(refine=False)) | {name: value}
     assert dataclasses.asdict(seen[-1]) == pytest.approx(expected)
 
 

@@ -218,7 +218,7 @@ def test_reset_gives_the_defaults_but_for_what_belongs_to_the_mesh(monkey):
 
 def test_a_preset_is_no_setting_of_cubify(files, monkey):
     monkey.cubic_craft.preset = "Hard-Edged"
-    assert cubify() == {"FINISHED"}
+    assert cubify(refine="AUTO") == {"FINISHED"}
     assert monkey.cubic_craft.preset == "Hard-Edged"
 
 

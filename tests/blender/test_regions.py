@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from lumps import FLIP_X, add_lump, partner_of
 from rich_mesh import position_of
 from scene import add_copy, add_monkey, add_triangles, bmesh_of, cubify, select
-from test_form_settings import add_solid
-from test_symmetry import FLIP_X, add_lump, partner_of
+from solids import add_solid
 
 OPTIONS = {"refine": "OFF", "max_iterations": 150, "solidity": 0.0}
 
@@ -255,6 +255,20 @@ def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
     with_regions = angles_now(ball).aligned
     ball.cubic_craft.use_regions = False
     assert with_regions > angles_now(ball).aligned + 0.1
+
+
+def test_outside_of_a_region_the_angles_are_those_without_it(part):
+    angles_now = part("ui.angles").angles_now
+    ball = add_ball(3)
+    add_group(ball, "Top", upper)
+    add_region(ball, "Top", form="OCTAHEDRON")
+    found = angles_now(ball)
+    ball.cubic_craft.use_regions = False
+    without = angles_now(ball)
+    heights = found.corners[:, :, 2]
+    is_below, is_above = (heights < 0.25).all(axis=1), (heights > 0.35).all(axis=1)
+    np.testing.assert_array_equal(found.degrees[is_below], without.degrees[is_below])
+    assert np.abs(found.degrees - without.degrees)[is_above].mean() > 5.0
 
 
 @pytest.mark.parametrize(

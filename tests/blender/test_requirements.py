@@ -22,6 +22,7 @@ CODE = """
     sys.stdout.flush()
     os._exit(0)  # Blender 4.2 crashes while it is freed
 """
+QUICK = "max_iterations=3, refine='OFF', keep_apart=False"
 
 
 def run(missing, then, folders=()):
@@ -87,13 +88,13 @@ def test_a_broken_scipy_is_named_and_changes_nothing(tmp_path, how):
 
 
 def test_without_taichi_and_quadrants_numpy_takes_over():
-    done = run(["taichi", "quadrants"], "bpy.ops.cubic_craft.cubify(max_iterations=3)")
+    done = run(["taichi", "quadrants"], f"bpy.ops.cubic_craft.cubify({QUICK})")
     assert done.returncode == 0, done.stderr
     assert "on numpy" in done.stdout
 
 
 def test_without_cholespy_scipy_factorises():
-    done = run(["cholespy"], "bpy.ops.cubic_craft.cubify(max_iterations=3, keep_apart=False)")
+    done = run(["cholespy"], f"bpy.ops.cubic_craft.cubify({QUICK})")
     assert done.returncode == 0, done.stderr
     assert " 3 iterations" in done.stdout
 

@@ -232,7 +232,7 @@ def test_the_angles_follow_cubify_and_undo(angles_now):
 def test_the_angles_follow_live(angles_now, begin, one_phase):
     obj = add_monkey()
     shares = [angles_now(obj).aligned]
-    session = begin(obj, cubeness=0.9, max_iterations=30, **FLATTEST)
+    session = begin(obj, cubeness=0.9, max_iterations=30, refine="AUTO", **FLATTEST)
     for _ in range(STEPS):
         session.tick(bpy.context)
         shares.append(angles_now(obj).aligned)

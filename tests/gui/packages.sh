@@ -56,11 +56,12 @@ run_suite() {
 
 NEWEST=$(ls "$PACKAGES"/*linux_x64-python3.14.zip)
 OLDER=$(ls "$PACKAGES"/*linux_x64*.zip | grep -vF "$NEWEST" | tail -n 1)  # of 3.13
-RESULT=0
-for suite in "${SUITES[@]}"; do
-    folder=$OUTPUT/$suite
+
+# Says how it went, and keeps the log.
+test_suite() {
+    local suite=$1 folder=$OUTPUT/$1 code
     rm -rf "$folder"
-    mkdir -p "$folder" || exit 2
+    mkdir -p "$folder" || return 1
     run_suite "$suite" "$folder" >"$folder/log.txt" 2>&1
     code=$?
     rm -rf "$folder"/{first,newer,newer_zips} "$folder"/*.zip
@@ -69,7 +70,12 @@ for suite in "${SUITES[@]}"; do
     else
         cat "$folder/log.txt"
         echo "failed: packages on $suite ($code), pictures in $folder"
-        RESULT=1
+        return 1
     fi
-done
+}
+
+# Side by side: each has a screen and a folder of its own.
+for suite in "${SUITES[@]}"; do test_suite "$suite" & done
+RESULT=0
+for suite in "${SUITES[@]}"; do wait -n || RESULT=1; done
 exit $RESULT

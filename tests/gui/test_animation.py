@@ -13,7 +13,7 @@ import live_scene as scene
 import numpy as np
 
 TRIANGLE, HEADER = 18, 22  # pixels from the lower left corner of the button above
-FRAMES = 24
+FRAMES = 10
 OPERATOR = "CUBIC_CRAFT_OT_bake_animation"
 CUBIC = f"{scene.NAME} Cubic"
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import solver
 from solver import Setup, Stylization, rest_mesh
 
-ITERATIONS = 10
+ITERATIONS = 6
 ROUNDING = 1e-9
 """of the energy at rest: what sums of 64 bit numbers may differ by, with cotangents up to 1e3"""
 NOTHING = 1e-10

@@ -6,7 +6,7 @@ import dataclasses
 import meshio
 import numpy as np
 import pytest
-from command import QUICK, cubic_craft, quick
+from command import QUICK, cubic_craft, in_a_process, quick
 from scipy.spatial.transform import Rotation
 
 from cubic_craft import PAPER, CubicCraftError, ProxyOptions, stylize
@@ -198,6 +198,6 @@ def test_single_precision_stays_single(tmp_path):
 def test_an_existing_output_is_replaced(tmp_path):
     name = save(tmp_path / "blob.ply")
     (tmp_path / "cubic.ply").write_text("old")
-    cubic_craft(name, "cubic.ply", *QUICK, folder=tmp_path)
+    cubic_craft(name, "cubic.ply", *QUICK, folder=tmp_path, run=in_a_process)
     assert len(meshio.read(tmp_path / "cubic.ply").points) == len(V)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["blob.ply", "cubic.ply"]

@@ -2,6 +2,7 @@
 """Bad input of the installed command: one line, exit code 2, and nothing is written."""
 
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import time
 import meshio
 import numpy as np
 import pytest
-from command import COMMAND, QUICK, refused
+from command import COMMAND, QUICK, in_a_process, refused
 
 from cubic_craft.command_line import decompression, mesh_files
 from cubic_craft.command_line.output_file import replacing
@@ -124,7 +125,7 @@ def test_a_gpu_that_is_not_there_is_named(folder, monkeypatch):
         monkeypatch.setenv(variable, str(folder / "no_driver.json"))
     for engine in ("TI", "QD"):
         monkeypatch.setenv(f"{engine}_ENABLE_CUDA", "0")
-    line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder)
+    line = refused("ok.obj", "a.obj", "--device", "gpu", folder=folder, run=in_a_process)
     assert "gpu" in line.lower()
 
 
@@ -166,7 +167,7 @@ def test_volumes_and_higher_orders_are_refused(tmp_path):
 def test_an_output_survives_a_refusal(folder):
     (folder / "old.obj").write_text("precious")
     (folder / "bad.obj").write_text("v 0 0 0\n")
-    refused("bad.obj", "old.obj", folder=folder)
+    refused("bad.obj", "old.obj", folder=folder, run=in_a_process)
     assert (folder / "old.obj").read_text() == "precious"
 
 
@@ -212,7 +213,7 @@ def test_nothing_is_written_through_a_link(tmp_path):
     secret = tmp_path / "secret.txt"
     secret.write_text("secret")
     path = tmp_path / "a.obj"
-    (tmp_path / f".a.cubic_craft-{os.getpid()}.obj").symlink_to(secret)
+    (tmp_path / f".a.cubic_craft-{platform.node()}-{os.getpid()}.obj").symlink_to(secret)
     path.symlink_to(secret)
     with replacing(path) as temporary:
         temporary.write_text("new")

@@ -36,6 +36,13 @@ def test_what_comes_is_known_by_its_content(ending, tmp_path):
     assert format_of(nameless) == ending
 
 
+def test_a_binary_stl_is_known_by_its_size(tmp_path):
+    content = bytes(80) + (2).to_bytes(4, "little") + bytes(2 * 50)
+    for each, ending in ((content, ".stl"), (content + b"x", ".obj")):
+        (tmp_path / "nameless").write_bytes(each)
+        assert format_of(tmp_path / "nameless") == ending
+
+
 def test_pipes_pass_meshes_on(tmp_path):
     save(tmp_path / "blob.ply")
     out, lines = piped((tmp_path / "blob.ply").read_bytes(), "-", "-")

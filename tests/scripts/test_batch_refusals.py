@@ -49,10 +49,6 @@ REFUSALS = {
         ["meshes", *TO, "--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"],
         ["--jobs", "cluster"],
     ),
-    "no cluster": (
-        ["meshes", *TO, "--scheduler", "tcp://127.0.0.1:9"],
-        ["--scheduler tcp://127.0.0.1:9", "no scheduler answers", "dask scheduler"],
-    ),
     "no address": (["meshes", *TO, "--scheduler", "no way"], ["--scheduler no way"]),
     "cluster for one": (["a.obj", "--scheduler", "x"], ["--scheduler", "--output-folder"]),
     "no handles": (["meshes", *TO, "--handles", "none.json"], ["--handles", "none.json"]),
@@ -75,6 +71,26 @@ def folder(tmp_path):
 def test_refusal(folder, case):
     arguments, words = REFUSALS[case]
     headless_refused(*arguments, words=words, cwd=folder, run=headless)
+
+
+SOON = f"""
+import runpy, sys
+sys.argv[0] = {str(SCRIPT)!r}
+sys.path.insert(0, {str(SCRIPT.parent)!r})
+from headless.batch import engine
+engine.SECONDS_TO_ANSWER = 1
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+def test_where_no_cluster_answers_it_says_so(folder):
+    address = "tcp://127.0.0.1:9"
+    process = start_headless("meshes", *TO, "--scheduler", address, cwd=folder, script=("-c", SOON))
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 2, errors
+    (line,) = errors.splitlines()
+    assert f"--scheduler {address}: no scheduler answers" in line and "dask scheduler" in line
+    assert not (folder / "out").exists()
 
 
 WITHOUT = f"""

@@ -19,7 +19,10 @@ ALONE = (
     *("moebius.obj", "index_too_large.ply", "buffer_too_short.gltf"),
     *("too_huge.obj", "cut_faces.ply", "text_cut.stl", "index_negative.usda", "cut.gltf"),
 )
-ARGUMENTS = ("--no-render", "--save-mesh", "result.obj", "--max-iterations", "10")
+ARGUMENTS = (
+    *("--no-render", "--save-mesh", "result.obj"),
+    *("--device", "numpy", "--max-iterations", "10"),
+)
 
 
 def test_the_files_are_those_of_the_script():

@@ -130,7 +130,7 @@ def test_settings_reach_the_script(settings):
 
 
 def test_what_the_tasks_write(settings, tmp_path):
-    settings |= {"pictures": False, "options": "--device numpy --max-iterations 2"}
+    settings |= {"pictures": False, "options": "--device numpy --max-iterations 2 --refine off"}
     settings |= {"files": json.dumps(["it's $HOME.obj", "-lead.obj", "a.ply"])}
     for arguments in command_lines(settings).values():
         headless_ok(*arguments, cwd=tmp_path, run=headless)

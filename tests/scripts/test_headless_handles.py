@@ -10,7 +10,10 @@ from headless import headless_ok, headless_shared, read_files
 from make_inputs import POSITIONS, TINY
 
 REST = POSITIONS * TINY
-FAST = ("--cubeness", 0.0, "--device", "numpy", "--max-iterations", 30, "--no-render")
+FAST = (
+    *("--cubeness", 0.0, "--device", "numpy", "--max-iterations", 30),
+    *("--refine", "off", "--no-render"),
+)
 BOTTOM, TOP = [1, 2, 3, 4], [6, 7, 8, 9]
 UP = [0.0, 0.0, float(TINY)]
 TOP_BOX = [[-TINY / 2, -TINY / 2, TINY / 2], [TINY * 2, TINY * 1.4, TINY * 2]]

@@ -91,6 +91,12 @@ def test_materials_in_another_encoding_are_found(tmp_path):
     assert "\nusemtl Größe\n".encode("latin-1") in written
 
 
+def test_colors_of_vertices_stay_beside_the_positions_that_are_moved(tmp_path):
+    (tmp_path / "a.obj").write_text("v 1 2 3 0.5 0.25 1\nv 4 5 6\n")
+    with readable_copy(tmp_path / "a.obj", "utf-8", np.array([1.0, 0.0, 3.0])) as copy:
+        assert copy.read_text().splitlines() == ["v 0.0 2.0 0.0 0.5 0.25 1", "v 3.0 5.0 3.0"]
+
+
 def test_the_build_takes_any_name(tmp_path):
     build = Path(__file__).resolve().parents[2] / "scripts" / "build_extension.py"
     folder = tmp_path / NAMES[1]

@@ -23,5 +23,7 @@ def test_a_region_has_its_own_form(inputs, tmp_path):
     other = positions(inputs, tmp_path, "other", "--region", "pinned:prism3:2")
     np.testing.assert_array_equal(same, plain)
     assert np.abs(other - plain).max() > 1e-3 * np.ptp(plain, axis=0).max()
+    six = positions(inputs, tmp_path, "six", "--region", "pinned:prism:2")
+    assert np.abs(other - six).max() > 1e-3 * np.ptp(plain, axis=0).max()
     report = json.loads((tmp_path / "other.json").read_text(encoding="utf-8"))
     assert report["settings"]["region"] == ["pinned:prism3:2"]

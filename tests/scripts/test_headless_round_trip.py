@@ -40,7 +40,7 @@ def results(inputs, tmp_path_factory):
         headless_ok(source, "--cubeness", 0.5, *FAST, "--save-mesh", target, cwd=folder)
         files += [source, target]
     headless_ok(
-        *(inputs / "awkward.obj", "--cubeness", 0.0, 0.5, *COMMON),
+        *(inputs / "awkward.obj", "--cubeness", 0.0, 0.5, *COMMON, "--max-iterations", 5),
         *("--save-mesh", "awkward.obj", "--report", "report.json"),
         cwd=folder,
     )

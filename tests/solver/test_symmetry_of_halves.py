@@ -45,6 +45,11 @@ def test_partners_are_mutual_and_within_the_tolerance():
     assert found.tolist() == [1, 0, 2, NO_PARTNER, NO_PARTNER]
 
 
+def test_of_two_that_are_near_an_image_only_the_nearer_is_its_partner():
+    V = np.array([[1.0, 0, 0], [-1, 0, 0], [-1.001, 0, 0], [0, 2, 0]])
+    assert partners(V, V @ FLIP, 0.01).tolist() == [1, 0, NO_PARTNER, 3]
+
+
 def test_of_vertices_at_one_place_the_first_belongs_to_the_first():
     V = np.array([[1.0, 0, 0], [-1, 0, 0], [1, 0, 0], [-1, 0, 0], [1, 0, 0], [0, 0, 0]])
     assert partners(V, V @ FLIP, 1e-6).tolist() == [1, 0, 3, 2, NO_PARTNER, 5]

@@ -15,7 +15,7 @@ KEY_ADDED = ("mesh/shape_keys/*Cubic*", "mesh/shape_keys/order", "rna/active_sha
 FIRST_KEY_ADDED = ("mesh/shape_keys/*", "mesh/rna/shape_keys")
 
 
-@examples(20)
+@examples(10)
 @given(case=asked())
 def test_only_positions_change_and_come_back(case):
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -79,6 +79,18 @@ def test_a_face_turns_as_its_corners_do(bridge, domain):
     np.testing.assert_allclose(after, expected, atol=1e-6)
 
 
+def test_what_its_corners_cancel_out_stays(bridge, domain):
+    """The upper half turns by a half, so that those of the four sides point nowhere."""
+    obj = add_cube(domain)
+    mesh = obj.data
+    count = len(mesh.attributes[NAME].data)
+    mesh.attributes[NAME].data.foreach_set("vector", np.tile([1.0, 0.0, 0.0], count))
+    upper = bridge.read_positions(mesh)[:, 2] > 0
+    half = quarters(2, 8) @ quarters(2, 8)
+    write(bridge, mesh, np.where(upper[:, None, None], half, np.eye(3)))
+    np.testing.assert_allclose(np.linalg.norm(read(mesh), axis=1), 1.0, atol=1e-6)
+
+
 def test_all_results_can_be_undone(bridge, cubify, domain):
     obj = add_cube(domain)
     before = read(obj.data)

@@ -52,6 +52,18 @@ def test_two_results(bridge, cubify):
     assert not bridge.has_traces(mesh)
 
 
+@pytest.mark.parametrize("vertex", [3, -3], ids=["first", "last"])
+def test_an_edit_of_any_part_is_noticed(bridge, cubify, vertex):
+    one, other = add_monkey(), add_sphere()
+    cubify(one)
+    cubify(other, seed=2)
+    join(one, other)
+    assert not bridge.is_edited(one.data)
+    one.data.vertices[vertex].co.x += 0.1
+    one.data.update()
+    assert bridge.is_edited(one.data)
+
+
 @pytest.mark.parametrize("into", ["cubic", "plain"])
 def test_with_one_that_was_never_cubified(bridge, cubify, into):
     cube, monkey = add_cube(location=(0, 0, 2)), add_monkey(rotation=(0.3, 0, 1))

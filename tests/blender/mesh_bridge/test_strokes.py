@@ -9,6 +9,7 @@ from dataclasses import asdict
 import bpy
 import numpy as np
 import pytest
+from mathutils import Euler
 from results import write
 from rich_mesh import cubic_like, points_of, position_of, set_position
 from scene import add_copy, bmesh_of
@@ -111,6 +112,20 @@ def test_they_are_transformed_with_the_mesh(bridge, cubify, plain_monkey, moment
     turned = linear @ rotations @ np.linalg.inv(linear)
     bridge.write_mesh(mesh, positions @ linear.T + (1, 2, 3), turned, start="EDITS")
     np.testing.assert_allclose(position_of(mesh), sculpted @ linear.T + (1, 2, 3), atol=1e-5)
+
+
+def test_the_rounding_of_a_transform_is_no_stroke(bridge, plain_monkey):
+    mesh = plain_monkey.data
+    positions, rotations = cubic_like(bridge.original_positions(mesh), 1)
+    bridge.write_mesh(mesh, positions, rotations)
+    sculpt(plain_monkey, slice(40, 60))
+    linear = np.array(Euler((0.1, 0.2, 0.3)).to_matrix())
+    set_position(mesh, position_of(mesh) @ linear.T + (1, 2, 3))
+    turned = linear @ rotations @ linear.T
+    bridge.write_mesh(mesh, positions @ linear.T + (1, 2, 3), turned, start="EDITS")
+    (stored,) = (each for each in mesh.attributes if each.name.endswith(".strokes"))
+    strokes = np.array([each.vector for each in stored.data])
+    assert np.flatnonzero(strokes.any(axis=1)).tolist() == list(range(40, 60))
 
 
 def test_vertices_that_are_deleted_take_theirs_along(bridge, cubify, plain_monkey):

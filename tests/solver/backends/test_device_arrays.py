@@ -13,8 +13,8 @@ import pytest
 import shapes
 from devices import DEVICES, by_device
 from engine_marks import PACKAGE, needs_engine
+from in_a_process import passes
 from optional_marks import needs
-from test_taichi_runtime import passes
 
 from solver import CubicCraftError, Run, Setup, Stylization, rest_mesh, stylize
 from solver.backends import arrays

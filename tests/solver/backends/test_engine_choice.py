@@ -6,7 +6,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from test_taichi_runtime import passes
+from in_a_process import passes
 
 from solver.backends import engine_choice
 from solver.backends.engine_choice import QUADRANTS, TAICHI

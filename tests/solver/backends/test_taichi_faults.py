@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An engine that is missing, broken or used by others, and a cache folder that cannot be used.
 
-Each test runs in a process of its own, as in `test_taichi_runtime`; that it ends well counts too,
+Each test runs in a process of its own, as in `in_a_process`; that it ends well counts too,
 because the engine writes its cache only then.
 """
 
@@ -12,8 +12,8 @@ import sys
 
 import pytest
 from engine_marks import PACKAGE, needs_engine
+from in_a_process import passes
 from optional_marks import needs
-from test_taichi_runtime import passes
 
 WITH_CACHE = """
     from solver import set_cache_folder

@@ -6,45 +6,12 @@ because that takes seconds to begin.
 """
 
 import os
-import subprocess
-import sys
-import textwrap
-from pathlib import Path
 
 import pytest
 from engine_marks import CPU, PACKAGE, needs_engine, needs_taichi
+from in_a_process import passes
 
 from solver import engine_name
-
-HERE = Path(__file__).parents[1]
-ROOT = HERE.parents[1]
-SET_UP = """
-import sys
-sys.path.insert(0, {root!r})
-sys.path.insert(0, {here!r})
-import numpy as np
-import shapes
-from solver import stylize
-CPU = {cpu!r}
-V, F = shapes.blob(2)
-"""
-
-
-def python(code, **environment):
-    code = SET_UP.format(root=str(ROOT), here=str(HERE), cpu=CPU) + textwrap.dedent(code)
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        env={**os.environ, **environment},
-        timeout=300,
-    )
-
-
-def passes(code, **environment):
-    run = python(code, **environment)
-    assert run.returncode == 0, run.stdout + run.stderr
-    return run.stdout
 
 
 def test_numpy_needs_no_engine():

@@ -52,7 +52,7 @@ CROWDED = {
 }
 
 
-@pytest.mark.thorough(5)
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("cubeness", [0.4, 1.0])
 @pytest.mark.parametrize("name", CROWDED)
 def test_no_surface_crosses_another(name, cubeness):
@@ -286,7 +286,7 @@ HOSTILE = {
 }
 
 
-@pytest.mark.thorough(6)
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("options", [{}, {"together": False, "refine": False, **BARE}])
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_meshes_have_a_result(name, options):

@@ -164,7 +164,7 @@ def test_limbs_turn_with_a_pose():
     np.testing.assert_allclose(posed.limbs.present, rest.limbs.present @ turn.T, atol=1e-9)
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("proxy", [LIMBS, replace(DEFAULTS, keep_apart=False)])
 @pytest.mark.parametrize("form", [None, forms.octahedron()])
 def test_the_energy_falls_and_a_second_run_has_the_same_bits(proxy, form, device):
@@ -225,6 +225,13 @@ def test_between_pieces_the_nearest_of_equal_frames_is_blended():
         in_the_frame = np.abs(x @ directions[0])
         assert np.degrees(np.arccos(in_the_frame.max())) < 2.5
     np.testing.assert_allclose(G @ G.swapaxes(1, 2), np.tile(np.eye(3), (3, 1, 1)), atol=1e-12)
+
+
+def test_toward_a_trunk_the_turn_of_a_limb_becomes_less():
+    d = shapes.rotation(y=20) @ [0.0, 0.0, 1.0]
+    limbs = Limbs(d[None], sp.csr_matrix([[1.0], [0.5], [0.0]]))
+    angles = [np.degrees(np.arccos((np.trace(G) - 1) / 2)) for G in turns(limbs, np.eye(3)[None])]
+    np.testing.assert_allclose(angles, [20.0, 10.0, 0.0], atol=1e-4)
 
 
 def test_a_trunk_keeps_the_frame_of_the_object():

@@ -16,7 +16,7 @@ CUBE = np.concatenate([np.eye(3), -np.eye(3)])
 EXACT = np.radians(0.2)
 # With many symmetries, few and none; regular, with a base, and with very many sides.
 each_form = pytest.mark.parametrize(
-    "name", ["box", "octahedron", "tetrahedron", "icosahedron", "prism of 5", "pyramid", "cylinder"]
+    "name", ["box", "octahedron", "tetrahedron", "icosahedron", "cylinder", "prism of 5", "pyramid"]
 )
 
 
@@ -46,6 +46,7 @@ def random_form(seed, count):
     return from_directions(directions)
 
 
+@pytest.mark.thorough(4)
 @pytest.mark.parametrize("seed", range(8))
 def test_a_turned_box_is_found(seed):
     turn = Rotation.random(random_state=seed).as_matrix()
@@ -142,7 +143,7 @@ def test_no_orientation_of_a_form_in_a_dense_search_is_better(name):
     form = POLYTOPES[name]()
     areas, normals = triangle_areas_and_normals(*shapes.skewed_blob())
     best = cost_of(form, auto_orient(normals, areas, form), normals, areas)
-    for Q in Rotation.random(3000, random_state=5).as_matrix():
+    for Q in Rotation.random(1000, random_state=5).as_matrix():
         assert cost_of(form, Q, normals, areas) >= best * (1 - 1e-6)
 
 

@@ -135,3 +135,19 @@ def test_a_mask_holds_at_welded_vertices_if_at_one_and_at_midpoints_if_at_both_e
 def test_a_solidity_that_is_none_is_refused(solidity):
     with pytest.raises(CubicCraftError, match="solidity must be finite and not negative"):
         ProxyOptions(solidity=solidity)
+
+
+def smallest_angle(V, F):
+    """Return the smallest angle of triangles, in degrees."""
+    along, back = (np.roll(F, -step, axis=1) for step in (1, 2))
+    a, b = V[along] - V[F], V[back] - V[F]
+    cosine = (a * b).sum(axis=2) / np.linalg.norm(a, axis=2) / np.linalg.norm(b, axis=2)
+    return np.degrees(np.arccos(cosine.max()))
+
+
+@pytest.mark.parametrize("corner", [(0.5, 0.9), (0.95, 0.3), (0.1, 0.25)])
+def test_no_triangle_becomes_a_needle(corner):
+    """Rivara: no angle becomes smaller than half of the smallest."""
+    V, F = np.array([[0.0, 0, 0], [1, 0, 0], [*corner, 0]]), np.array([[0, 1, 2]])
+    W, G, *_ = refine(V, F, np.full(3, 0.1))
+    assert len(G) > 30 and smallest_angle(W, G) > 0.5 * smallest_angle(V, F)

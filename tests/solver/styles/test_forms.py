@@ -47,7 +47,7 @@ def share_facing(V, F, directions):
     return areas[is_near].sum() / areas.sum()
 
 
-@pytest.mark.thorough(12)
+@pytest.mark.thorough(6)
 @forms
 @pytest.mark.parametrize("lam", [0.1, 0.6])
 def test_the_active_set_is_as_good_as_a_tight_admm(name, lam):
@@ -83,7 +83,7 @@ def test_the_subgradient_certifies_the_minimiser(name):
     np.testing.assert_allclose(G, G.swapaxes(1, 2), atol=1e-7)  # stationary
 
 
-@pytest.mark.thorough(6)
+@pytest.mark.thorough(4)
 @forms
 def test_no_start_leads_to_less_than_the_search_from_many(name):
     """Of one problem: the best of all vertices as starts is the best of 1,000 random starts."""
@@ -101,7 +101,7 @@ def test_no_start_leads_to_less_than_the_search_from_many(name):
     assert objective(problem, R)[is_done].min() <= best + 1e-9
 
 
-@pytest.mark.thorough(5)
+@pytest.mark.thorough(3)
 @forms
 def test_every_device_gives_the_shape_of_numpy(name, device):
     V, F = shapes.blob(3)
@@ -112,7 +112,7 @@ def test_every_device_gives_the_shape_of_numpy(name, device):
     np.testing.assert_allclose(one.positions, other.positions, atol=by_device(device, 1e-5, 0.01))
 
 
-@pytest.mark.thorough(6)
+@pytest.mark.thorough(3)
 @forms
 def test_the_energy_never_rises(name):
     setup = Setup(rest_mesh(*shapes.blob(3)))
@@ -124,7 +124,7 @@ def test_the_energy_never_rises(name):
     assert (np.diff(energies) <= 1e-12 * energies[0]).all()
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @forms
 def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
     V, F = shapes.blob(2)
@@ -135,7 +135,7 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
     assert np.abs(other - one @ turn.T).max() < 2e-3 * np.ptp(V)
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(3)
 @needs_engine
 @pytest.mark.parametrize(
     "name", sorted(set(POLYTOPES) - {"box", "slab", "pillar", "cylinder", "cone"})

@@ -2,12 +2,12 @@
 # Suite: trixie
 """The pictures of the user guide: each section of the panel as the artist sees it.
 
+`make docs-images` takes them; what is clicked here is clicked by tests in smaller windows as well.
 The window is so high that all sections are open at once; each is cut out of a picture of it.
 """
 # Window: 1300x3100
 
 import contextlib
-import importlib
 import math
 import os
 import pathlib
@@ -19,6 +19,7 @@ import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from guidrive.pictures import save_screen
 from mathutils import Euler, Vector
+from preset_menu import choose_in_live, choose_preset, keep_and_remove, shown_preset
 
 SCALE = 1.5  # of Blender's interface: sharper pictures
 MARGIN = 12 * SCALE
@@ -195,58 +196,32 @@ def picture_of_changed():
     scene.settings().cubeness = 0.4
 
 
-def choose_preset(name):
-    """Open the pictures of the presets by the one that is shown, and choose one by the keys."""
-    files = importlib.import_module(f"{scene.EXTENSION}.cubic_craft_addon.presets.files")
-    number = [preset.identifier for preset in files.presets()].index(name)
-    beside = yield from gui.find_button("cubic_craft.reset")
-    yield from gui.click((round(beside.left - 45 * SCALE), beside.at()[1]))
-    yield 1.0
-    save_screen(f"{name}.png")
-    yield from gui.keys(*["DOWN_ARROW"] * (number + 1), "RET")
-    yield from gui.wait_until(lambda: shown_preset() == name, what=f"the preset {name}")
-
-
-def shown_preset():
-    is_live = scene.live().current() is not None
-    return (scene.live().live_properties() if is_live else scene.settings()).preset
-
-
-def press_button(name):
-    """Click on a button of the panel, and confirm what it asks."""
-    yield from gui.click((yield from gui.find_button(name)))
-    yield 0.5
-    yield from gui.keys("RET")
-
-
 def picture_of_presets():
     """Choose a preset by its picture, undo that, keep a look, and choose again in Live."""
-    yield from choose_preset("Chunky")
+    yield from choose_preset("Chunky", SCALE)
     assert scene.settings().solidity == 1.0
     yield from gui.undo()
     assert shown_preset() == "Cubic"
     scene.settings().cubeness = 0.6
-    yield from press_button("cubic_craft.preset_add")
-    yield from gui.wait_until(lambda: shown_preset() == "My_Look", what="a preset that is kept")
+    yield from keep_and_remove("My_Look", seen_with_all_of_the_view("My_Look"))
+    yield from choose_in_live("Hard-Edged", SCALE)
+
+
+def seen_with_all_of_the_view(name):
+    """Choose a preset, and cut its menu out of the picture."""
     with all_of_the_view():
-        yield from choose_preset("My_Look")
+        yield from choose_preset(name, SCALE)
     left, _ = panels()
     place = gui.region("UI")
     top = place.y + place.height
-    picture = share("My_Look.png")
-    cut(picture, "presets", left - 560 * SCALE, top - 280 * SCALE, gui.window().width, top)
-    yield from press_button("cubic_craft.preset_remove")
-    yield from gui.wait_until(lambda: shown_preset() == "CUSTOM", what="a preset that is gone")
-    yield from press_button("cubic_craft.reset")
-    assert shown_preset() == "Cubic"
-    yield from scene.start_live()
-    yield from scene.wait_idle()
-    before = scene.positions()
-    yield from choose_preset("Hard-Edged")
-    yield from scene.wait_idle_with(lambda: scene.positions() != before, "the shape of the preset")
-    yield from gui.screenshot("preset_in_live.png")
-    yield from scene.end_by("ESC")
-    assert shown_preset() == "Cubic"
+    cut(
+        share(f"{name}.png"),
+        "presets",
+        left - 560 * SCALE,
+        top - 280 * SCALE,
+        gui.window().width,
+        top,
+    )
 
 
 def picture_of_redo():
