@@ -77,7 +77,7 @@ SOON = f"""
 import runpy, sys
 sys.argv[0] = {str(SCRIPT)!r}
 sys.path.insert(0, {str(SCRIPT.parent)!r})
-from headless.batch import engine
+from cubic_craft.cubic_craft_addon.command_line.batch import engine
 engine.SECONDS_TO_ANSWER = 1
 runpy.run_path(sys.argv[0], run_name="__main__")
 """
