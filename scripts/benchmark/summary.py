@@ -66,11 +66,11 @@ def times_as_long(case, program="defaults", beside="paper"):
 
 def times_as_long_to(case, gap):
     """Return the same up to a gap, each of its own energy; None where one ends before."""
-    there = [
+    defaults, paper = (
         median_seconds_to(case, program, energy_at_gap(gap, *case["bounds"][program]))
         for program in ("defaults", "paper")
-    ]
-    return there[0] / there[1] if all(there) else None
+    )
+    return defaults / paper if defaults and paper else None
 
 
 def ticks_per_second(case):
