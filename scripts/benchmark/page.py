@@ -76,9 +76,9 @@ all but the first. Peak memory is that of the whole process; "for the run" is wh
 Python, the libraries and the kernels."""
 _DEFAULTS = """\
 The artist's defaults beside the paper's settings and beside the prototype (commit 9c85a9d),
-which had no others; each to its own stop. The large meshes, by which the defaults are judged,
-are measured at three values of cubeness, of which the geometric mean counts: how many
-iterations a single case takes is to a good part luck. "Ticks per second" is how often Live
+which had no others; each to its own stop. They are judged by the geometric mean over all meshes
+of more than 2,000 vertices, the large ones at three values of cubeness: how many iterations a
+single case takes is to a good part luck. "Ticks per second" is how often Live
 could show a coarse mesh anew, without what Blender takes to draw."""
 _LINKED = """\
 The defaults have an energy of their own, with links. Gaps of either energy, between rest and the
