@@ -43,6 +43,6 @@ def test_live_leaves_the_bits_of_cubify(live, begin):
     check_gone(live)
     assert on_the_gpu(obj)
     select(twin)
-    bpy.ops.cubic_craft.cubify(device="GPU", **UNTIL_IT_ENDS)
+    cubify(device="GPU", **UNTIL_IT_ENDS)
     assert on_the_gpu(twin)
     assert bits(obj) == bits(twin)
