@@ -8,13 +8,12 @@ import platform
 import re
 import shutil
 import sys
-import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ....solver.console.errors import InputError
+from ....solver.console.output import check_folder, check_place, errors_of, move_into_place
 
 __all__ = (
     "check_writable",
@@ -63,19 +62,8 @@ def check_writable(option: str, paths: list[Path]) -> None:
         Naming the option, the path and the cure.
     """
     for path in paths:
-        if path.is_dir():
-            raise InputError(f"{option} {path}: this is a folder; give the name of a file")
-        if not path.parent.is_dir():
-            raise InputError(f"{option} {path}: the folder {path.parent} does not exist; create it")
-    folder = paths[0].parent
-    try:
-        # Trying is the only check that holds on network drives and read-only mounts alike.
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        reason = error.strerror or error
-        message = f"{option} {paths[0]}: cannot write to {folder} ({reason}); choose another folder"
-        raise InputError(message) from error
+        check_place(f"{option} {path}", path)
+    check_folder(f"{option} {paths[0]}", paths[0].parent)
 
 
 @contextlib.contextmanager
@@ -97,17 +85,13 @@ def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
     temporary = begin.with_name(f"{begin.name}{path.suffix}")
     _begins.append(begin)
     try:
-        _remove(begin)
-        if has_own_name:
-            begin.mkdir()
-            temporary = begin / path.name
-        yield temporary
-        if not temporary.is_file() or not temporary.stat().st_size:
-            raise InputError(f"{path}: nothing was written; is the disk full?")
-        temporary.replace(path)
-    except OSError as error:
-        message = f"{path}: cannot be written ({error.strerror or error}); choose another path"
-        raise InputError(message) from error
+        with errors_of(path):
+            _remove(begin)
+            if has_own_name:
+                begin.mkdir()
+                temporary = begin / path.name
+            yield temporary
+            move_into_place(temporary, path)
     finally:
         with _removing:
             _remove(begin)
