@@ -12,13 +12,12 @@ from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar
 
 import bpy
-import numpy as np
 
 from ...solver import CubicCraftError
 from ...solver.mesh.mesh_checks import check_mesh
 from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
-from ...solver.pieces.reach import far_from, grown
+from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
 from ...solver.pieces.whole import Whole
 from .. import handles, mesh_bridge
@@ -51,10 +50,11 @@ class Member(Piece):
     in_world: Placement | None
     """None if it cannot be solved with others"""
 
-    def with_settings(self, settings: Settings) -> Member:
-        """Return the same with another cubeness."""
+    def with_cubeness(self, cubeness: float) -> Member:
+        """Return the same with another cubeness, but for its regions."""
+        settings = replace(self.settings, cubeness=cubeness)
         own, *regions = self.placement.styles
-        styles = (replace(own, cubeness=settings.cubeness), *regions)
+        styles = (replace(own, cubeness=cubeness), *regions)
         return replace(self, settings=settings, placement=replace(self.placement, styles=styles))
 
 
@@ -191,14 +191,13 @@ def _handle_of(obj, settings, V, F, known):
 
 
 def _rest_weights(settings, V, F, handle_of, known):
-    moved = [n for n, handle in enumerate(settings.handles) if handle.is_moved]
-    if not settings.hold_rest or not moved:
+    if not settings.hold_rest:
         return None
     if known and known.handle_of is handle_of and known.rest_weights is not None:
-        before = [n for n, handle in enumerate(known.settings.handles) if handle.is_moved]
-        if before == moved:
+        pairs = zip(settings.handles, known.settings.handles, strict=True)
+        if all(now.is_moved == before.is_moved for now, before in pairs):
             return known.rest_weights
-    return far_from(np.flatnonzero(np.isin(handle_of, moved)), V, F)
+    return rest_weights(settings.handles, handle_of, V, F)
 
 
 def _groups(settings):

@@ -11,7 +11,7 @@ from mathutils import Euler, Matrix
 
 from ... import solver
 from ...solver import CubicCraftError
-from ...solver.pieces.placement import Placement
+from ...solver.pieces.placement import Placement, polar
 from ...solver.styles.blending import Style
 from ...solver.styles.cube import proper
 from ..settings.values import Settings
@@ -167,8 +167,8 @@ def _turn_and_stretch(world):
     linear = np.array(world.to_3x3(), dtype=np.float64)
     if _is_flat(linear):
         return np.array(world.to_quaternion().to_matrix(), dtype=np.float64), np.eye(3)
-    U, sizes, Vt = np.linalg.svd(linear)
-    return np.asarray(U @ Vt, dtype=np.float64), _rounded(Vt.T @ np.diag(sizes) @ Vt)
+    turn, stretch = polar(linear)
+    return turn, _rounded(stretch)
 
 
 def _is_flat(world):

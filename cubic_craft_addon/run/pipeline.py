@@ -88,11 +88,8 @@ def settings_of_all(problem: MemberProblem) -> Settings:
 
 def with_cubeness(problem: MemberProblem, cubeness: float) -> MemberProblem:
     """Return the same with another cubeness."""
-    members = [
-        member.with_settings(replace(member.settings, cubeness=cubeness))
-        for member in problem.pieces
-    ]
-    return replace(problem, pieces=tuple(members))
+    members = tuple(member.with_cubeness(cubeness) for member in problem.pieces)
+    return replace(problem, pieces=members)
 
 
 def start(problem: MemberProblem) -> solver.Run:

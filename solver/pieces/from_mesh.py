@@ -14,7 +14,7 @@ from ..styles.blending import Style
 from .handle_pose import HandlePose
 from .piece import Piece
 from .placement import placement_by
-from .reach import far_from
+from .reach import rest_weights
 from .reflection import Reflection
 from .shape import Shape
 from .whole import Whole
@@ -104,10 +104,8 @@ def piece_of(
     _check((shares is None) == (not regions), "region_shares", expected)
     _check(shares is None or shares.shape == expected, "region_shares", expected)
     far = None
-    moved = [number for number, handle in enumerate(handles) if handle.is_moved]
-    if hold_rest and moved:
-        seeds = np.flatnonzero(np.isin(numbers, moved))
-        far = far_from(seeds, placement.place(original), triangles)
+    if hold_rest:
+        far = rest_weights(handles, numbers, placement.place(original), triangles)
     return Piece(
         name=name,
         shape=Shape(original, triangles),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..aliases import FloatArray
-from .piece import Piece
+from .piece import Piece, parts_of
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..rest import RestMesh
@@ -31,12 +31,11 @@ def holds_of(pieces: Sequence[Piece], rest: "RestMesh") -> list[Hold]:
     another handle stays in place and already anchors it. Components without handles float in
     place.
     """
-    total, found, end = len(rest.input_positions), [], 0
+    total, found = len(rest.input_positions), []
     component = np.full(total, -1)
     used, place = rest.place
     component[used] = rest.topology.component[place]
-    for piece in pieces:
-        part, end = slice(end, end + piece.solved), end + piece.solved
+    for piece, part in parts_of(pieces):
         for own, matrix in _groups(piece, component[part]):
             weights = np.zeros(total)
             weights[part] = own

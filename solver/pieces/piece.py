@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One object, placed where it is solved."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -145,3 +145,17 @@ class Piece:
         turned = self.placement.read_rotations_back(rotations)
         self.whole.settle_rotations(turned, is_held)
         return own, turned
+
+
+P = TypeVar("P", bound=Piece)
+
+
+def parts_of(pieces: Sequence[P]) -> Iterator[tuple[P, slice]]:
+    """Yield pieces that are solved together, each with its part of the arrays (N,...) of all.
+
+    The part begins with the vertices of the piece itself; those that its mirrors add follow.
+    """
+    end = 0
+    for piece in pieces:
+        begin, end = end, end + piece.solved
+        yield piece, slice(begin, end)

@@ -118,8 +118,13 @@ def placement_by(
     """
     matrix = np.asarray(matrix, dtype=np.float64)
     linear, offset = np.ascontiguousarray(matrix[:3, :3]), matrix[:3, 3].copy()
-    U, sizes, Vt = np.linalg.svd(linear)
-    turn = np.asarray(U @ Vt, dtype=np.float64)
-    stretch = np.asarray(Vt.T @ np.diag(sizes) @ Vt, dtype=np.float64)
+    turn, stretch = polar(linear)
     up = np.array([0.0, 0.0, 1.0])
     return Placement(linear, offset, turn, stretch, up, styles, capture)
+
+
+def polar(linear: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the rotation or mirroring T and the symmetric stretch S of A = T S, (3,3) each."""
+    U, sizes, Vt = np.linalg.svd(linear)
+    turn = np.asarray(U @ Vt, dtype=np.float64)
+    return turn, np.asarray(Vt.T @ np.diag(sizes) @ Vt, dtype=np.float64)

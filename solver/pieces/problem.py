@@ -4,7 +4,7 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..errors import CubicCraftError
 from ..symmetry import NO_PARTNER
 from .floor import kept_on_floor
 from .holds import Hold, holds_of
-from .piece import Piece
+from .piece import P, parts_of
 from .vertex_styles import captures, vertex_styles
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
@@ -21,8 +21,6 @@ if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..proxy.options import ProxyOptions
     from ..setup import Setup
     from ..stylization import Stylization
-
-P = TypeVar("P", bound=Piece)
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,12 +163,11 @@ class Problem(Generic[P]):
         is_held = np.zeros(len(at_rest), dtype=bool)
         is_held[self.setup.pinned_input] = True
         is_idle = bool(self.is_still.all())
-        found, begin = [], 0
-        for piece in self.pieces:
-            part = slice(begin, begin + piece.vertices)  # without those that mirrors have added
+        found = []
+        for piece, every in parts_of(self.pieces):
+            part = slice(every.start, every.start + piece.vertices)  # without those of mirrors
             own = positions[part], None if rotations is None else rotations[part]
             found.append(piece.read_back(*own, at_rest[part], is_held[part], is_idle=is_idle))
-            begin += piece.solved
         return found
 
 
@@ -255,10 +252,7 @@ def _rest(pieces, proxy, earlier):
         rest = other.setup.rest.with_options(proxy) if _has_shapes(other, pieces) else None
         if rest is not None:
             return rest
-    triangles, begin = [], 0
-    for piece in pieces:
-        triangles.append(begin + piece.F)
-        begin += piece.solved
+    triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
     return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy)
 
 
@@ -305,14 +299,13 @@ def _with_holds(setup, holds, earlier):
 
 def _mirrors(pieces):
     """Return the Mirrors of all pieces in the coordinates in which they are solved."""
-    total, found, begin = sum(piece.solved for piece in pieces), [], 0
-    for piece in pieces:
-        whole, part = piece.whole, slice(begin, begin + piece.solved)
+    total, found = sum(piece.solved for piece in pieces), []
+    for piece, part in parts_of(pieces):
+        whole = piece.whole
         for reflection, partner in zip(whole.mirrored, whole.partners, strict=True):
             everywhere = np.full(total, NO_PARTNER)
-            everywhere[part] = np.where(partner >= 0, partner + begin, NO_PARTNER)
+            everywhere[part] = np.where(partner >= 0, partner + part.start, NO_PARTNER)
             found.append(piece.placement.mirror(reflection.mirror(everywhere)))
-        begin = part.stop
     return found
 
 

@@ -63,3 +63,13 @@ def far_from(seeds: IntArray, V: FloatArray, F: IntArray) -> FloatArray:
         return np.zeros(len(V))
     t = np.clip((distance / largest - NEAR) / (FAR - NEAR), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
+
+
+def rest_weights(
+    handles: Sequence[HandlePose], handle_of: IntArray, V: FloatArray, F: IntArray
+) -> FloatArray | None:
+    """Return the weights (n,) of `far_from` for moved handles, None if none is moved."""
+    moved = [number for number, handle in enumerate(handles) if handle.is_moved]
+    if not moved:
+        return None
+    return far_from(np.flatnonzero(np.isin(handle_of, moved)), V, F)
