@@ -14,9 +14,9 @@ import numpy as np
 from ... import solver
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..form.normal_capture import strength_of
 from ..read.bones import read_pose
 from ..read.member import Member, ShapeRead, placed, read_member
-from ..read.normal_capture import strength_of
 from ..read.object_frame import placements
 from ..run import pipeline
 from ..run.up_to_date import what_matters

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -139,3 +140,11 @@ def has_normal_map(obj: bpy.types.Object) -> bool:
         for tree in filter(None, trees)
         for node in tree.nodes
     )
+
+
+def with_suffix(path: str, target: str) -> str:
+    """Return a path that ends as the kind of file does."""
+    for suffix in SUFFIXES.values():
+        if path.lower().endswith(suffix) and suffix != SUFFIXES[target]:
+            path = path[: -len(suffix)]
+    return bpy.path.ensure_ext(path, SUFFIXES[target]) if Path(path).name else path

@@ -171,7 +171,7 @@ def test_animated_settings_of_the_active_object_count_for_all(extension, bending
 
 @pytest.mark.parametrize("way", ["key", "driver", "track", "region"])
 def test_the_panel_names_the_settings_that_are_animated(part, empty_file, way):
-    panel = part("ui.animation_panel")
+    panel = part("animation.panel")
     obj = add_monkey()
     obj.keyframe_insert("location", frame=1)
     obj.driver_add("scale")

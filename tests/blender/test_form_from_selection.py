@@ -17,7 +17,7 @@ GIVEN = "0 0 1, 1 0 0, 0 1 0"
 @pytest.fixture
 def seen_sides(part):
     """Return a function that returns the normals of the form of an object in world space."""
-    settings_of, form_of = part("settings.properties").settings_of, part("read.form").form_of
+    settings_of, form_of = part("settings.properties").settings_of, part("form.body").form_of
     world_axes = part("read.object_frame").world_axes
 
     def sides(obj):
@@ -167,7 +167,7 @@ def test_many_directions_are_few(part, seen_sides):
     obj = bpy.context.object
     edit_faces(obj, [polygon.index for polygon in obj.data.polygons if polygon.center.z > 0.2])
     pick()
-    assert 20 <= len(seen_sides(obj)) <= part("read.form").MOST_DIRECTIONS
+    assert 20 <= len(seen_sides(obj)) <= part("form.body").MOST_DIRECTIONS
 
 
 def test_it_is_one_undo_step_back_into_edit_mode():

@@ -31,7 +31,7 @@ OPTIONS = {"refine": "OFF", "max_iterations": 200}
 @pytest.fixture
 def body_of(part):
     """Return a function that returns the form of an object."""
-    settings_of, form_of = part("settings.properties").settings_of, part("read.form").form_of
+    settings_of, form_of = part("settings.properties").settings_of, part("form.body").form_of
     return lambda obj: form_of(settings_of(obj))
 
 
@@ -92,7 +92,7 @@ def test_directions_of_half_a_box_are_completed(body_of):
 def test_of_a_ball_few_directions_are_taken(part, body_of):
     monkey = add_monkey()
     monkey.cubic_craft.form, monkey.cubic_craft.form_object = "OBJECT", add_solid("ball")
-    assert 20 <= len(body_of(monkey).normals) <= part("read.form").MOST_DIRECTIONS
+    assert 20 <= len(body_of(monkey).normals) <= part("form.body").MOST_DIRECTIONS
 
 
 @pytest.mark.parametrize(
@@ -244,7 +244,7 @@ def test_facets_of_the_form_can_be_made_planar(body_of, form):
 
 def test_the_overlay_draws_the_form(part):
     obj = add_monkey()
-    lines_of = part("ui.overlay").lines_of
+    lines_of = part("form.overlay").lines_of
     for form, edges in (("CUBE", 12), ("TETRAHEDRON", 6), ("DODECAHEDRON", 30)):
         obj.cubic_craft.form = form
         points, colors = lines_of(obj)

@@ -33,7 +33,7 @@ FOLDER = "cubic_craft_addon/assets/forms"
 
 @pytest.fixture
 def pictures(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.settings.form_pictures")
+    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.pictures")
 
 
 def groups(live):

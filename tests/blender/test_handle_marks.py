@@ -14,7 +14,7 @@ from scene import add_monkey, cubify
 
 @pytest.fixture
 def marks(part):
-    module = part("handle_gizmos.marks")
+    module = part("handles.gizmos.marks")
     yield module
     module.middles.forget()
 

@@ -19,7 +19,7 @@ THERE = {"location": (5, -3, 2), "rotation_euler": (0.4, 1.2, -2.0)}
 @pytest.fixture
 def places(extension):
     """Return the module of the installed extension."""
-    name = f"{extension.__name__}.cubic_craft_addon.handle_gizmos.places"
+    name = f"{extension.__name__}.cubic_craft_addon.handles.gizmos.places"
     return importlib.import_module(name)
 
 

@@ -36,7 +36,7 @@ def shape_ball(ball, power=8.0, stretch=(1.0, 1.0, 1.0)):
 def capture_of(part):
     """Return a function that returns the capture of an object."""
     of, settings_of = (
-        part("read.normal_capture").capture_of,
+        part("form.normal_capture").capture_of,
         part("settings.properties").settings_of,
     )
     return lambda obj: of(obj, settings_of(obj))

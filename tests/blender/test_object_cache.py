@@ -12,7 +12,7 @@ from solids import add_solid
 
 @pytest.fixture
 def cache(part):
-    module = part("read.object_cache")
+    module = part("environment.object_cache")
     module._kept.clear()
     yield module
     module._kept.clear()
@@ -30,7 +30,7 @@ def counted(part, monkeypatch):
 @pytest.fixture
 def body(part):
     """Return a function that returns the form of the monkey as numbers."""
-    settings_of, form_of = part("settings.properties").settings_of, part("read.form").form_of
+    settings_of, form_of = part("settings.properties").settings_of, part("form.body").form_of
 
     def sides():
         form = form_of(settings_of(bpy.data.objects["Suzanne"]))
@@ -241,8 +241,8 @@ def add_capture():
 def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache, counted, part):
     settings_of = part("settings.properties").settings_of
     capture_of, note_of = (
-        part("read.normal_capture").capture_of,
-        part("read.normal_capture").note_of,
+        part("form.normal_capture").capture_of,
+        part("form.normal_capture").note_of,
     )
     monkey, ball = add_capture()
 
@@ -264,7 +264,7 @@ def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache,
 
 def test_a_capture_is_another_one_once_its_ball_is_cubified_and_when_it_is_applied(cache, part):
     settings_of = part("settings.properties").settings_of
-    capture_of = part("read.normal_capture").capture_of
+    capture_of = part("form.normal_capture").capture_of
     monkey, ball = add_capture()
     before = capture_of(monkey, settings_of(monkey))
     select(ball)

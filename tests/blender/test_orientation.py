@@ -159,7 +159,7 @@ def test_auto_orient_is_of_each_object_and_starts_from_the_original():
 
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
 def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
     obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3), location=(5, 6, 7))
     obj.cubic_craft.frame = obj
     bpy.context.view_layer.update()
@@ -178,7 +178,7 @@ def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
 
 
 def test_the_overlay_shows_the_axes_of_the_world_also_of_a_mirrored_object(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
     obj = add_monkey(rotation=(0.3, 0.2, 0.5))
     obj.scale.x = -1.0
     bpy.context.view_layer.update()
@@ -225,7 +225,7 @@ def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
 
 
 def test_the_overlay_leaves_no_handler_behind(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.overlay")
+    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     assert overlay._handle is None
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)

@@ -32,7 +32,7 @@ def test_a_missing_group_is_named(problem):
 def test_a_missing_frame_is_named(problem):
     obj = add_monkey()
     obj.cubic_craft.space = "FRAME"
-    assert "No frame object is set" in problem(obj)
+    assert "from a frame object, but none is set" in problem(obj)
     obj.cubic_craft.frame = obj
     assert problem(obj) == ""
 
@@ -69,10 +69,10 @@ def test_in_other_modes_the_way_out_takes_the_place_of_a_message(
 
 @pytest.mark.parametrize(
     ("module", "count"),
-    [("panel", 4), ("buttons", 3), ("status_panel", 1), ("handles_panel", 6)],
+    [("ui.panel", 4), ("ui.buttons", 3), ("ui.status_panel", 1), ("handles.panel", 6)],
 )
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.{module}")
+    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")
     names = set(re.findall(r'\.operator\(\s*(?:(?:row|layout),\s*)?"([^"]+)"', text))
     assert len(names) >= count

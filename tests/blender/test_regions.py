@@ -66,7 +66,7 @@ def face_middles(obj):
 
 @pytest.mark.parametrize("weights", [upper, blended])
 def test_each_part_has_its_own_form(part, weights):
-    forms = part("read.form").forms
+    forms = part("form.body").forms
     ball = add_ball()
     heights = face_middles(ball)[:, 2]
     before = bits(ball)
@@ -183,7 +183,7 @@ def test_shares_never_add_up_to_more_than_all(extension):
         add_region(obj, name)
     addon = f"{extension.__name__}.cubic_craft_addon"
     settings = importlib.import_module(f"{addon}.settings.properties").settings_of(obj, handles=())
-    shares = importlib.import_module(f"{addon}.read.region_shares").region_shares(obj, settings)
+    shares = importlib.import_module(f"{addon}.regions.shares").region_shares(obj, settings.regions)
     assert shares is not None
     np.testing.assert_allclose(shares, np.tile([0.0, 0.5, 0.3, 0.2], (len(shares), 1)), atol=1e-6)
 
@@ -244,7 +244,7 @@ def test_facets_of_each_region_are_made_planar():
 
 @pytest.mark.parametrize("with_modifier", [False, True])
 def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
-    angles_now = part("ui.angles").angles_now
+    angles_now = part("angles.kept").angles_now
     ball = add_ball()
     add_group(ball, "Top", upper)
     add_region(ball, "Top", form="OCTAHEDRON", cubeness=2.0)
@@ -258,7 +258,7 @@ def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
 
 
 def test_outside_of_a_region_the_angles_are_those_without_it(part):
-    angles_now = part("ui.angles").angles_now
+    angles_now = part("angles.kept").angles_now
     ball = add_ball(3)
     add_group(ball, "Top", upper)
     add_region(ball, "Top", form="OCTAHEDRON")

@@ -23,7 +23,7 @@ def angles_now(part):
 
     def measure(obj):
         bpy.context.view_layer.update()
-        return part("ui.angles").angles_now(obj)
+        return part("angles.kept").angles_now(obj)
 
     return measure
 
@@ -47,7 +47,7 @@ def drawn(part):
             active_object=bpy.context.active_object,
             space_data=view,
         )
-        found = part("ui.angles_overlay").angles_to_draw(context)
+        found = part("angles.overlay").angles_to_draw(context)
         return found and found[0].name
 
     bpy.ops.wm.read_homefile(use_empty=False, use_factory_startup=True)
@@ -86,7 +86,7 @@ def test_a_turned_cube_is_off_by_its_turn_until_the_form_is_turned_alike(angles_
 def test_the_sides_of_a_dodecahedron_lie_in_their_form(angles_now, part):
     obj = add_cube(rotation=(0.3, 0.2, 0.1))
     obj.cubic_craft.form, obj.cubic_craft.space = "DODECAHEDRON", "OBJECT"
-    body = part("read.form").form_of(part("settings.properties").settings_of(obj))
+    body = part("form.body").form_of(part("settings.properties").settings_of(obj))
     with bmesh_of(obj.data) as edited:
         edited.clear()
         for corner in body.vertices:
@@ -111,7 +111,7 @@ def test_the_angles_are_those_that_are_seen_in_the_world(angles_now, part, form,
     settings.form_weights = (1.0, 0.5, 0.7)
     angles = angles_now(obj)
     plain = part("settings.properties").settings_of(obj)
-    body = part("read.form").form_of(plain)
+    body = part("form.body").form_of(plain)
     sides = np.concatenate([np.eye(3), -np.eye(3)]) if body is None else body.normals
     sides = sides @ part("read.object_frame").world_axes(obj, plain).T
     world = np.array(obj.matrix_world)[:3, :3]
@@ -247,9 +247,9 @@ def test_the_angles_follow_live(angles_now, begin, one_phase):
 def test_angles_of_few_objects_are_kept(angles_now, part):
     for name in "ABCD":
         angles_now(add_monkey(name))
-    assert len(part("ui.angles")._known._known) == part("screen.kept").MOST
+    assert len(part("angles.kept")._known._known) == part("screen.kept").MOST
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert part("ui.angles")._known.is_empty
+    assert part("angles.kept")._known.is_empty
 
 
 def test_what_is_drawn(drawn):
@@ -284,7 +284,7 @@ def test_nothing_is_drawn_for_what_is_no_mesh(drawn):
 
 
 def test_the_colors_become_brighter_with_the_angle(part):
-    legend = part("ui.angles_legend")
+    legend = part("angles.legend")
     colors = legend.colors_of(np.array([0.0, 6.0, 12.0, 18.0, 24.0, 30.0, 90.0]))
     assert colors.shape == (7, 4) and colors.dtype == np.float32
     gray = colors[:, :3] @ (0.2126, 0.7152, 0.0722)
@@ -300,7 +300,7 @@ def test_the_legend_is_beside_the_sidebar_and_above_a_header(part):
     tools = region("TOOLS", "LEFT", 100, 50, 60, 600)
     header = region("HEADER", "TOP", 100, 620, 900, 30)
     closed = region("UI", "RIGHT", 1000, 50, 1, 600)
-    corner = part("ui.angles_legend").free_corner
+    corner = part("angles.legend").free_corner
     assert corner(SimpleNamespace(regions=[view, tools, header, closed]), view) == (900, 0)
     sidebar = region("UI", "RIGHT", 700, 50, 300, 600)
     shelf = region("ASSET_SHELF", "BOTTOM", 100, 50, 900, 80)
@@ -308,7 +308,7 @@ def test_the_legend_is_beside_the_sidebar_and_above_a_header(part):
 
 
 def test_the_overlay_leaves_nothing_behind(extension, angles_now, part):
-    overlay, angles = part("ui.angles_overlay"), part("ui.angles")
+    overlay, angles = part("angles.overlay"), part("angles.kept")
     angles_now(add_monkey())
     assert len(overlay._handles) == 2
 

@@ -16,7 +16,7 @@ HINT = "Shirt lies on it and is not selected"
 @pytest.fixture
 def worn(part):
     """Return `worn_by`, which gives the names of what lies on an object."""
-    return lambda obj: [other.name for other in part("run.worn").worn_by(obj)]
+    return lambda obj: [other.name for other in part("worn.found").worn_by(obj)]
 
 
 def add_body():
@@ -109,7 +109,7 @@ def drawn(module, obj):
 
 
 def test_the_panel_says_so_and_one_click_selects_it(part):
-    module = part("ui.worn")
+    module = part("worn.panel")
     body, _ = add_body()
     select(body)
     assert drawn(module, body) == ("", {}) and module._worn.is_waiting
@@ -123,7 +123,7 @@ def test_the_panel_says_so_and_one_click_selects_it(part):
 
 
 def test_the_hint_goes_where_it_does_not_help(part, begin, live):
-    module = part("ui.worn")
+    module = part("worn.panel")
     body, _ = add_body()
     select(body)
 
@@ -144,7 +144,7 @@ def test_the_hint_goes_where_it_does_not_help(part, begin, live):
 
 
 def test_it_is_found_again_when_something_has_moved_and_shown_meanwhile(part):
-    module = part("ui.worn")
+    module = part("worn.panel")
     body, shirt = add_body()
     select(body)
     module._worn.find(body.session_uid)
@@ -169,7 +169,7 @@ def test_nothing_to_select_is_said():
 
 
 def test_sentences(part):
-    say = part("ui.worn").sentence
+    say = part("worn.panel").sentence
     assert say(["Shirt"]) == HINT
     assert say(["Shirt", "Hat"]) == "Shirt and Hat lie on it and are not selected"
     assert say(["A", "B", "C"]) == "A and 2 more meshes lie on it and are not selected"
