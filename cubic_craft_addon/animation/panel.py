@@ -13,7 +13,7 @@ from ..screen.text_fit import room_for_text, wrapped
 from ..ui import job_progress
 from .properties import bake_properties, source_of
 
-SECTION = "CUBIC_PT_animation"
+SECTION = "CUBIC_CRAFT_PT_animation"
 _BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
 
 

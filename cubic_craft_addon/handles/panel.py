@@ -9,11 +9,11 @@ from ..ui.group_lines import draw_groups
 from .owner import panel_object
 from .pose import live_target
 
-SECTION = "CUBIC_PT_handles"
+SECTION = "CUBIC_CRAFT_PT_handles"
 _ROWS, _FEWEST_ROWS = 5, 3  # as high as the buttons beside the list
 
 
-class CUBIC_UL_handles(bpy.types.UIList):
+class CUBIC_CRAFT_UL_handles(bpy.types.UIList):
     """The handles of an object, a row for each."""
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property):
@@ -25,7 +25,7 @@ class CUBIC_UL_handles(bpy.types.UIList):
         row.prop(item, "mode", text="", icon_only=True)
 
 
-class CUBIC_MT_handle_groups(bpy.types.Menu):
+class CUBIC_CRAFT_MT_handle_groups(bpy.types.Menu):
     """The vertex groups that can become handles."""
 
     bl_label = "Add Handle"
@@ -49,7 +49,7 @@ def draw(layout, obj):
     handles = properties.handles
     row = layout.row()
     row.template_list(
-        "CUBIC_UL_handles",
+        "CUBIC_CRAFT_UL_handles",
         "",
         properties,
         "handles",
@@ -60,7 +60,7 @@ def draw(layout, obj):
     buttons = row.column(align=True)
     buttons.operator("cubic_craft.handle_add", icon="ADD", text="").group = ""
     buttons.operator("cubic_craft.handle_remove", icon="REMOVE", text="")
-    buttons.menu("CUBIC_MT_handle_groups", icon="DOWNARROW_HLT", text="")
+    buttons.menu("CUBIC_CRAFT_MT_handle_groups", icon="DOWNARROW_HLT", text="")
     if len(handles) > 1:
         buttons.separator()
         buttons.operator("cubic_craft.handle_move", icon="TRIA_UP", text="").direction = "UP"
@@ -88,5 +88,5 @@ def _draw_active(layout, obj, handle):
 
 
 register, unregister = bpy.utils.register_classes_factory(
-    (CUBIC_UL_handles, CUBIC_MT_handle_groups)
+    (CUBIC_CRAFT_UL_handles, CUBIC_CRAFT_MT_handle_groups)
 )

@@ -9,11 +9,11 @@ from ..handles.owner import panel_object
 from ..object_properties import object_properties
 from ..ui.group_lines import draw_groups
 
-SECTION = "CUBIC_PT_regions"
+SECTION = "CUBIC_CRAFT_PT_regions"
 _ROWS = 3  # as high as the buttons beside the list
 
 
-class CUBIC_UL_regions(bpy.types.UIList):
+class CUBIC_CRAFT_UL_regions(bpy.types.UIList):
     """The regions of an object, a row for each."""
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property):
@@ -24,7 +24,7 @@ class CUBIC_UL_regions(bpy.types.UIList):
         row.prop(item, "form", text="", emboss=False)
 
 
-class CUBIC_MT_region_groups(bpy.types.Menu):
+class CUBIC_CRAFT_MT_region_groups(bpy.types.Menu):
     """The vertex groups that can become regions."""
 
     bl_label = "Add Region"
@@ -47,12 +47,12 @@ def draw(layout, obj):
     layout.active = live.own_properties(obj).use_regions
     row = layout.row()
     row.template_list(
-        "CUBIC_UL_regions", "", properties, "regions", properties, "active_region", rows=_ROWS
+        "CUBIC_CRAFT_UL_regions", "", properties, "regions", properties, "active_region", rows=_ROWS
     )
     buttons = row.column(align=True)
     buttons.operator("cubic_craft.region_add", icon="ADD", text="").group = ""
     buttons.operator("cubic_craft.region_remove", icon="REMOVE", text="")
-    buttons.menu("CUBIC_MT_region_groups", icon="DOWNARROW_HLT", text="")
+    buttons.menu("CUBIC_CRAFT_MT_region_groups", icon="DOWNARROW_HLT", text="")
     layout.operator("cubic_craft.region_from_selection", icon="RESTRICT_SELECT_OFF")
     if properties.active_region < len(properties.regions):
         region = properties.regions[properties.active_region]
@@ -63,5 +63,5 @@ def draw(layout, obj):
 
 
 register, unregister = bpy.utils.register_classes_factory(
-    (CUBIC_UL_regions, CUBIC_MT_region_groups)
+    (CUBIC_CRAFT_UL_regions, CUBIC_CRAFT_MT_region_groups)
 )

@@ -6,7 +6,7 @@ import bpy
 from .. import live
 from .properties import normal_image, normal_map_properties
 
-SECTION = "CUBIC_PT_send"
+SECTION = "CUBIC_CRAFT_PT_send"
 _BUTTONS = (
     ("GLTF", "Game Engine (glTF)", "WORLD"),
     ("FBX", "Unity, Unreal, Maya (FBX)", "EXPORT"),

@@ -30,11 +30,11 @@ from . import buttons, edited, header, job_progress, seen, status_panel
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
-_ADVANCED = "CUBIC_PT_shape_advanced"
+_ADVANCED = "CUBIC_CRAFT_PT_shape_advanced"
 _BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
-class CUBIC_PT_main(bpy.types.Panel):
+class CUBIC_CRAFT_PT_main(bpy.types.Panel):
     """All of CubicCraft."""
 
     bl_label = DEFAULT_TAB
@@ -190,15 +190,15 @@ def _draw_solver(layout, obj):
 
 
 _SECTIONS = (
-    ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
-    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, True),
+    ("CUBIC_CRAFT_PT_shape", "Form and Volume", _draw_shape, False),
+    ("CUBIC_CRAFT_PT_orientation", "Orientation", _draw_orientation, True),
     (handles_panel.SECTION, "Handles", handles_panel.draw, True),
     (regions_panel.SECTION, "Regions", regions_panel.draw, True),
-    ("CUBIC_PT_map", "Cubeness Map", _draw_map, True),
-    ("CUBIC_PT_result", "Result", _draw_result, True),
+    ("CUBIC_CRAFT_PT_map", "Cubeness Map", _draw_map, True),
+    ("CUBIC_CRAFT_PT_result", "Result", _draw_result, True),
     (animation_panel.SECTION, "Animation", animation_panel.draw, True),
     (send_panel.SECTION, "Send To", send_panel.draw, True),
-    ("CUBIC_PT_solver", "Solver", _draw_solver, True),
+    ("CUBIC_CRAFT_PT_solver", "Solver", _draw_solver, True),
 )
 _SWITCHES = {
     handles_panel.SECTION: handles_panel.draw_switch,
@@ -228,9 +228,9 @@ def _problem(context, obj):
 
 def move_to_tab(tab):
     """Show the panel in another tab of the sidebar."""
-    bpy.utils.unregister_class(CUBIC_PT_main)
-    CUBIC_PT_main.bl_category = tab or DEFAULT_TAB
-    bpy.utils.register_class(CUBIC_PT_main)
+    bpy.utils.unregister_class(CUBIC_CRAFT_PT_main)
+    CUBIC_CRAFT_PT_main.bl_category = tab or DEFAULT_TAB
+    bpy.utils.register_class(CUBIC_CRAFT_PT_main)
 
 
-register, unregister = bpy.utils.register_classes_factory((CUBIC_PT_main,))
+register, unregister = bpy.utils.register_classes_factory((CUBIC_CRAFT_PT_main,))

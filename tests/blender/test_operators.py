@@ -321,7 +321,7 @@ def test_enabling_again_and_again_leaves_no_trace(extension):
     for _ in range(3):
         bpy.ops.preferences.addon_disable(module=name)
         assert not hasattr(bpy.types.Object, "cubic_craft")
-        assert not hasattr(bpy.types, "CUBIC_PT_main")
+        assert not hasattr(bpy.types, "CUBIC_CRAFT_PT_main")
         bpy.ops.preferences.addon_enable(module=name)
     assert bpy.context.preferences.addons[name].preferences.tab == "Cubic Craft"
     add_monkey()
@@ -331,9 +331,9 @@ def test_enabling_again_and_again_leaves_no_trace(extension):
 def test_the_tab_can_be_renamed(extension):
     preferences = bpy.context.preferences.addons[extension.__name__].preferences
     preferences.tab = "Sculpture"
-    assert bpy.types.CUBIC_PT_main.bl_category == "Sculpture"
+    assert bpy.types.CUBIC_CRAFT_PT_main.bl_category == "Sculpture"
     preferences.tab = "Cubic Craft"
-    assert bpy.types.CUBIC_PT_main.bl_category == "Cubic Craft"
+    assert bpy.types.CUBIC_CRAFT_PT_main.bl_category == "Cubic Craft"
 
 
 def test_the_redo_panel_shows_what_holds_together():

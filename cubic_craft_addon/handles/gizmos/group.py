@@ -45,10 +45,10 @@ class _Grab:
     """radius of the rings in the world"""
 
 
-class CUBIC_GGT_handles(bpy.types.GizmoGroup):
+class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
     """The gizmos of the handles of the active mesh."""
 
-    bl_idname = "CUBIC_GGT_handles"
+    bl_idname = "CUBIC_CRAFT_GGT_handles"
     bl_label = "CubicCraft Handles"
     bl_space_type = "VIEW_3D"
     bl_region_type = "WINDOW"
@@ -262,4 +262,4 @@ def _paint(gizmo, color):
     gizmo.alpha, gizmo.alpha_highlight = _ALPHA, _ALPHA_HIGHLIGHT
 
 
-register, unregister = bpy.utils.register_classes_factory((CUBIC_GGT_handles,))
+register, unregister = bpy.utils.register_classes_factory((CUBIC_CRAFT_GGT_handles,))
