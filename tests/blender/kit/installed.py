@@ -12,7 +12,7 @@ import pytest
 
 __all__ = ("archive", "empty_file", "extension", "pytest_sessionfinish", "pytest_unconfigure")
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 NAME = "bl_ext.user_default.cubic_craft"
 
 # Before bpy is imported: an empty user folder, so that no setting or extension of the user matters.
