@@ -10,6 +10,7 @@ from .environment import ahead, object_cache
 from .form import overlay as form_overlay
 from .form import pictures as form_pictures
 from .handles import gizmos as handle_gizmos
+from .handles import overlay as handles_overlay
 from .handles import panel as handles_panel
 from .handles import properties as handles_properties
 from .regions import panel as regions_panel
@@ -31,6 +32,7 @@ _modules = (
     live,
     job,
     handle_gizmos,
+    handles_overlay,
     angles_kept,
     angles_overlay,
     form_overlay,  # its lines are drawn over the colors

@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from ..cubic_craft_addon.environment.file_names import file_stems
 from ..cubic_craft_addon.send.file import send
 from ..cubic_craft_addon.send.scale import SCALES, scale_of
-from ..cubic_craft_addon.send.targets import ITEMS, SUFFIXES, Options, exporter, with_suffix
+from ..cubic_craft_addon.send.targets import ITEMS, TARGETS, Options, exporter, with_suffix
 from ..solver import CubicCraftError
 from ._shared.selection import poll_meshes, poll_object_mode, report_all, selected_meshes
 from ._shared.unexpected_errors import reporting
@@ -79,8 +79,8 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         name = file_stems(bpy.data.objects)[selected_meshes(context)[0]]
         before = Path(self.filepath or bpy.data.filepath)
         folder = before.parent if before.is_absolute() else Path.home()
-        self.filepath = str(folder / f"{name}{SUFFIXES[self.target]}")
-        self.filter_glob = f"*{SUFFIXES[self.target]}"
+        self.filepath = str(folder / f"{name}{TARGETS[self.target].suffix}")
+        self.filter_glob = f"*{TARGETS[self.target].suffix}"
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -96,7 +96,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        if self.target == "STL":
+        if TARGETS[self.target].is_printed:
             layout.prop(self, "scale")
             if self.scale == "SIZE":
                 layout.prop(self, "size")
@@ -112,7 +112,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
             raise CubicCraftError("Type the name of the file to write")
         path = Path(bpy.path.abspath(with_suffix(self.filepath, self.target)))
         objects = selected_meshes(context)
-        is_printed = self.target == "STL"
+        is_printed = TARGETS[self.target].is_printed
         scale = scale_of(self.scale, self.size, context.scene, objects) if is_printed else 1.0
         options = Options(
             with_modifiers=self.modifiers,

@@ -16,7 +16,7 @@ from mathutils import Matrix
 
 from ...solver import CubicCraftError
 from ..handles.owner import panel_object
-from ..screen import glimpse
+from ..screen.redraw import redraw_views
 from . import legend
 from .kept import angles_now, forget
 from .measured import Angles
@@ -131,7 +131,7 @@ def _on_switch(_self, _context):
     global _drawn
     forget()
     _drawn = None
-    glimpse.redraw_views()
+    redraw_views()
 
 
 def register():

@@ -23,16 +23,6 @@ from .settings import FormSettings, check_directions, check_form_object
 
 MOST_DIRECTIONS = 64
 """of a form from another object, or from selected faces"""
-_NAMED = {
-    "ROUNDED": forms.rounded_cube,
-    "OCTAHEDRON": forms.octahedron,
-    "TETRAHEDRON": forms.tetrahedron,
-    "DODECAHEDRON": forms.dodecahedron,
-    "ICOSAHEDRON": forms.icosahedron,
-    "RHOMBIC": forms.rhombic_dodecahedron,
-    "CYLINDER": forms.cylinder,
-    "CONE": forms.cone,
-}
 
 
 def form_of(settings: FormSettings) -> Polytope | None:
@@ -58,13 +48,7 @@ def form_of(settings: FormSettings) -> Polytope | None:
 
 @lru_cache(maxsize=64)
 def _named(name, sides, weights):
-    if name == "BOX":
-        return None if len(set(weights)) == 1 and weights[0] == 1.0 else forms.box(weights)
-    if name == "PRISM":
-        return forms.prism(sides)
-    if name == "PYRAMID":
-        return forms.pyramid(sides)
-    return _NAMED[name]() if name in _NAMED else None
+    return forms.named(name.lower(), sides, weights)
 
 
 @lru_cache(maxsize=64)

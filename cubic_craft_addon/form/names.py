@@ -9,6 +9,7 @@ WITH_SIDES = ("PRISM", "PYRAMID")
 FORM_SETTINGS = ("form_sides", "form_weights", "form_object", "form_directions")
 """further settings, of which each form has those of `form_settings`"""
 
+# Only append: the place of a form is its number in files.
 FORMS = (
     ("CUBE", "Cube", "Six squares, as in the paper"),
     ("BOX", "Box", "A cube with a strength of its own along each axis, for pillars and slabs"),

@@ -19,6 +19,7 @@ from ..form.body import form_of
 from ..handles.owner import panel_object
 from ..read.object_frame import world_axes
 from ..screen import glimpse
+from ..screen.redraw import redraw_views
 
 PROPERTY = "cubic_craft_overlay"
 
@@ -84,7 +85,7 @@ def _draw():
 
 
 def _redraw(_self, _context):
-    glimpse.redraw_views()
+    redraw_views()
 
 
 def register():

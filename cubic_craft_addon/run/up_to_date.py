@@ -98,7 +98,8 @@ def _body(settings):
 
 def _handle(handle):
     matrix = np.reshape(handle.matrix, (4, 4))
-    return [handle.group, handle.threshold, _matrix(matrix[:3, :3]), _matrix(matrix[:3, 3])]
+    values = [handle.group, handle.threshold, _matrix(matrix[:3, :3]), _matrix(matrix[:3, 3])]
+    return [*values, True] if handle.is_cubic else values  # older notes have no such value
 
 
 def _matrix(array):

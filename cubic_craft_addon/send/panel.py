@@ -5,13 +5,9 @@ import bpy
 
 from .. import live
 from .properties import normal_image, normal_map_properties
+from .targets import TARGETS
 
 SECTION = "CUBIC_CRAFT_PT_send"
-_BUTTONS = (
-    ("GLTF", "Game Engine (glTF)", "WORLD"),
-    ("FBX", "Unity, Unreal, Maya (FBX)", "EXPORT"),
-    ("STL", "3D Print (STL)", "MESH_ICOSPHERE"),
-)
 _WIDTH = 8.0  # of the picture, in units of the panel
 
 
@@ -19,8 +15,9 @@ def draw(layout, obj):
     """Draw the section for a mesh object."""
     layout.active = live.current() is None
     column = layout.column(align=True)
-    for target, text, icon in _BUTTONS:
-        column.operator("cubic_craft.send_to", text=text, icon=icon).target = target
+    for key, target in TARGETS.items():
+        button = column.operator("cubic_craft.send_to", text=target.button, icon=target.icon)
+        button.target = key
     image = normal_image(obj)
     if image is not None:
         _draw_image(layout, image)

@@ -14,7 +14,7 @@ from scene import add_monkey, cubify
 
 @pytest.fixture
 def marks(part):
-    module = part("handles.gizmos.marks")
+    module = part("handles.overlay")
     yield module
     module.middles.forget()
 

@@ -6,7 +6,7 @@ import importlib
 import bpy
 import pytest
 from live_steps import add_monkey
-from posing import LEFT, add_posable, follow
+from posing import LEFT, add_posable, follow, pin
 from scene import add_empty, add_triangles, cubify, given, select
 
 
@@ -88,6 +88,18 @@ def test_what_would_not_change_the_shape_does_not_count(changes, name, value):
     cubify()
     setattr(obj.cubic_craft, name, value)
     assert changes(obj) == []
+
+
+def test_how_a_handle_holds_its_vertices_counts(changes):
+    obj, *_ = add_posable()
+    pin(obj, LEFT)
+    cubify()
+    obj.cubic_craft.handles[0].is_cubic = True
+    assert changes(obj) == ["Handles"]
+    cubify()
+    assert changes(obj) == []
+    obj.cubic_craft.handles[0].is_cubic = False
+    assert changes(obj) == ["Handles"]
 
 
 def test_how_the_object_stands_does_not_count(changes):

@@ -17,16 +17,16 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
-from ....solver import CubicCraftError
-from ... import live, mesh_bridge
-from ...environment import handlers
-from ...object_properties import object_properties
-from ...screen import glimpse
-from ...screen.found_later import FoundLater
-from .. import handle_of
-from ..owner import panel_object
-from ..pose import live_target, object_handles
-from .places import middle_of
+from ...solver import CubicCraftError
+from .. import live, mesh_bridge
+from ..environment import handlers
+from ..object_properties import object_properties
+from ..screen.found_later import FoundLater
+from ..screen.redraw import redraw_views
+from . import handle_of
+from .gizmos.places import middle_of
+from .owner import panel_object
+from .pose import live_target, object_handles
 
 _RADIUS, _WIDTH = 8.0, 2.0  # pixels at scale 1: those of the dots in Live
 _SEGMENTS = 24
@@ -72,7 +72,7 @@ def _key_of(obj):
     return obj.mode, held
 
 
-middles = FoundLater(middles_of, _key_of, glimpse.redraw_views)
+middles = FoundLater(middles_of, _key_of, redraw_views)
 
 
 def _draw():
