@@ -31,6 +31,7 @@ from ..cubic_craft_addon.settings.overrides import (
     values_of,
 )
 from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
+from ..cubic_craft_addon.ui.settings_rows import draw_advanced, draw_solver, draw_volume
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, selected_meshes, selected_sources
 from ._shared.watched_operator import WatchedOperator
@@ -110,15 +111,10 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
-        layout.prop(self, "keep_pose")
-        layout.prop(self, "detail", slider=True)
-        layout.prop(self, "solidity", slider=True)
-        layout.prop(self, "keep_apart")
-        layout.prop(self, "together")
+        draw_volume(layout, self)
         layout.row(align=True).prop(self, "symmetry", toggle=True)
         layout.prop(self, "floor")
-        layout.prop(self, "refine")
-        layout.prop(self, "rotation")
+        draw_advanced(layout, self)
         layout.prop(self, "use_handles")
         layout.prop(self, "hold_rest")
         groups = panel_object(context)
@@ -128,8 +124,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         layout.prop(self, "result")
         if self.result == "NEW_OBJECT":
             layout.prop(self, "with_modifiers")
-        for name in ("device", "max_iterations", "tolerance"):
-            layout.prop(self, name)
+        draw_solver(layout, self)
 
 
 def _asks_for_what_is_seen(operator, context):

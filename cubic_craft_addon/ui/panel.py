@@ -27,6 +27,7 @@ from ..send import panel as send_panel
 from ..settings.properties import settings_of
 from ..worn import panel as worn
 from . import buttons, edited, header, job_progress, seen, status_panel
+from .settings_rows import draw_advanced, draw_solver, draw_volume
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
@@ -139,19 +140,14 @@ def _draw_orientation(layout, obj):
 def _draw_shape(layout, obj):
     properties = live.shared_properties(obj)
     form_panel.draw(layout, properties)
-    layout.prop(properties, "keep_pose")
-    layout.prop(properties, "detail", slider=True)
-    layout.prop(properties, "solidity", slider=True)
-    layout.prop(properties, "keep_apart")
-    layout.prop(properties, "together")
+    draw_volume(layout, properties)
     draw_symmetry(layout, obj, properties)
     layout.prop(properties, "floor")
     title_row, body = layout.panel(_ADVANCED, default_closed=True)
     title_row.label(text="Advanced")
     if body is not None:
         form_panel.draw_capture(body, properties)
-        body.prop(properties, "refine")
-        body.prop(properties, "rotation")
+        draw_advanced(body, properties)
 
 
 def _draw_map(layout, obj):
@@ -177,9 +173,7 @@ def _draw_result(layout, obj):
 
 def _draw_solver(layout, obj):
     properties = live.shared_properties(obj)
-    layout.prop(properties, "device")
-    layout.prop(properties, "max_iterations")
-    layout.prop(properties, "tolerance")
+    draw_solver(layout, properties)
     session = live.current()
     mesh = session.mesh_of(obj) if session else None
     if mesh is not None and mesh.numbers:
