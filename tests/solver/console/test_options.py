@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the command lines offer is what there is."""
+
+from solver.console.options import FORMS, WITH_SIDES
+from solver.styles import forms
+
+
+def test_every_form_that_can_be_named_is_made():
+    assert set(FORMS) == {"cube", "box", *forms.PLAIN, *forms.WITH_SIDES}
+    assert set(WITH_SIDES) == set(forms.WITH_SIDES)
+    counts = {
+        name: None if form is None else len(form.normals)
+        for name in FORMS
+        for form in [forms.named(name, 5, (1.0, 1.0, 2.0))]
+    }
+    assert counts["cube"] is None and counts["box"] == 6
+    assert counts["prism"] == 7 and counts["pyramid"] == 6
+    assert forms.named("box", 5, (1.0, 1.0, 1.0)) is None, "that is the cube"
