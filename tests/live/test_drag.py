@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from pure import load
 
-drag = load("drag", "handle_gizmos")
+drag = load("drag", "handles/gizmos")
 
 IDENTITY = tuple(np.eye(4).ravel().tolist())
 TURNED = np.array([[0.36, -0.8, 0.48], [0.48, 0.6, 0.64], [-0.8, 0.0, 0.6]])
