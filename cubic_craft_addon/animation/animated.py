@@ -16,7 +16,6 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..read.bones import read_pose
 from ..read.member import Member, ShapeRead, placed, read_member
-from ..read.normal_capture import strength_of
 from ..read.object_frame import placements
 from ..run import pipeline
 from ..run.up_to_date import what_matters
@@ -279,7 +278,6 @@ class AnimatedGroup:
             shape=shape,
             settings=settings,
             handles=settings.handles,
-            capture_strength=strength_of(settings),
             alone=alone,
             in_world=in_world,
             bones=bones,

@@ -24,7 +24,6 @@ from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
-from .normal_capture import strength_of
 from .object_frame import placements
 from .reflections import modifier_reflections
 from .region_shares import region_shares
@@ -170,7 +169,6 @@ def read_member(
         rest_weights=_rest_weights(settings, V, shape.triangles, handle_of, known),
         map_weights=_map_weights(obj, settings, known),
         region_shares=_region_shares(obj, settings, known),
-        capture_strength=strength_of(settings),
         bones=bones,
         seconds=time.perf_counter() - begin,
     )

@@ -242,6 +242,6 @@ def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):
         assert expected[0] is elsewhere
         with quick_module_search():
             assert list(map(inspect.getmodule, frames)) == expected
-            assert inspect.getmodule(stylize) is sys.modules["solver.runner"]
+            assert inspect.getmodule(stylize) is sys.modules["solver.one_call"]
         """
     )
