@@ -2,6 +2,7 @@
 """A piece of plain arrays, for callers without an object in Blender."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,8 +46,8 @@ def piece_of(
     F : (m,3) int array, or faces with more corners
         Triangles. Polygons are split into triangles.
     style : Style, optional
-        What it is turned toward, one for all vertices; by default a cube of cubeness 0.4 along the
-        axes of the world. Its capture is also that of the regions.
+        What it is turned toward, the same for all vertices; by default a cube of cubeness 0.4 along
+        the axes of the world. Its capture is also that of the regions.
     name : str
         For messages.
     matrix : (4,4) array, optional
@@ -123,13 +124,13 @@ def piece_of(
 
 
 def _uniform(style, name):
-    """Return a Style that is one for all vertices."""
-    instance(style, name, Style)
+    """Return a Style that is the same for all vertices, with its only form and capture."""
+    forms, captures = instance(style, name, Style).forms, style.captures
     numbers = (style.cubeness, style.capture_strength)
     is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)
-    if not is_one or isinstance(style.form, Sequence) or isinstance(style.capture, Sequence):
-        raise CubicCraftError(f"{name} must be one for all vertices; regions may have others")
-    return style
+    if not is_one or len(forms) > 1 or len(captures) > 1:
+        raise CubicCraftError(f"{name} must be the same for all vertices of a piece")
+    return replace(style, form=next(iter(forms), None), capture=next(iter(captures), None))
 
 
 def _without_capture(style):

@@ -87,14 +87,18 @@ class Problem(Generic[P]):
     def pose(self) -> "Pose":
         """Where handles take the vertices and the groups that are held, and the limbs of bones."""
         from ..limbs import joined_limbs
-        from ..pose import Pose
 
         limbs = [piece.bones and piece.bones.limbs_at(piece.placement) for piece in self.pieces]
-        return Pose(
-            targets=np.concatenate([piece.targets for piece in self.pieces]),
-            hold_matrices=[hold.matrix for hold in self.holds],
-            limbs=joined_limbs(limbs, [piece.solved for piece in self.pieces]),
-        )
+        counts = [piece.solved for piece in self.pieces]
+        return replace(self.pose_of_handles, limbs=joined_limbs(limbs, counts))
+
+    @property
+    def pose_of_handles(self) -> "Pose":
+        """The pose without limbs, which take time: all that `Stylization.moved` looks at."""
+        from ..pose import Pose
+
+        targets = np.concatenate([piece.targets for piece in self.pieces])
+        return Pose(targets=targets, hold_matrices=[hold.matrix for hold in self.holds])
 
     def stylization(self, options: "SolverOptions | None" = None) -> "Stylization":
         """Return a new Stylization of the pieces.

@@ -17,8 +17,8 @@ from .polytope import Polytope
 class Style(Value):
     """What vertices are turned toward, and how strongly.
 
-    Everything may be one for all N vertices, or differ from vertex to vertex. Of a piece or a
-    region, it is one for all.
+    It may be the same for all N vertices of a mesh, or differ from vertex to vertex. That of a
+    piece or a region is the same for all.
 
     See Also
     --------

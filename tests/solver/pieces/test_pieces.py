@@ -221,17 +221,17 @@ CAPTURE = NormalCapture(DIRECTIONS, DIRECTIONS)
     [
         Style(np.full(42, 0.4)),
         Style(0.4, np.tile(np.eye(3), (42, 1, 1))),
-        Style(0.4, form=[octahedron()]),
-        Style(0.4, capture=[CAPTURE]),
+        Style(0.4, form=[octahedron(), octahedron()]),
+        Style(0.4, capture=[CAPTURE, CAPTURE]),
         Style(0.4, capture=CAPTURE, capture_strength=np.ones(42)),
     ],
 )
 def test_a_style_that_differs_from_vertex_to_vertex_is_refused(style):
     V, F = blob(1)
     shares = np.tile([0.5, 0.5], (len(V), 1))
-    with pytest.raises(CubicCraftError, match="style must be one for all vertices"):
+    with pytest.raises(CubicCraftError, match="style must be the same for all vertices"):
         piece_of(V, F, style)
-    with pytest.raises(CubicCraftError, match="regions must be one for all vertices"):
+    with pytest.raises(CubicCraftError, match="regions must be the same for all vertices"):
         piece_of(V, F, regions=[style], region_shares=shares)
 
 
