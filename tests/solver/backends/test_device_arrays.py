@@ -16,7 +16,16 @@ from engine_marks import PACKAGE, needs_engine
 from in_a_process import passes
 from optional_marks import needs
 
-from solver import CubicCraftError, Run, Setup, SolverOptions, Stylization, rest_mesh, stylize
+from solver import (
+    CubicCraftError,
+    Pose,
+    Run,
+    Setup,
+    SolverOptions,
+    Stylization,
+    rest_mesh,
+    stylize,
+)
 from solver.backends import arrays
 from solver.backends.engine import import_engine
 
@@ -63,8 +72,9 @@ def on_the_host(monkeypatch, make):
 def stylization(name="blob", pins=0, **options):
     V, F = shapes.ALL[name]()
     pinned = np.argsort(V[:, 2])[:pins]
-    options = {"targets": V + [0.0, 0.1, 0.2], "device": here.device, **options}
-    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, options=SolverOptions(**options))
+    pose = Pose(targets=V + [0.0, 0.1, 0.2])
+    options = SolverOptions(**{"device": here.device} | options)
+    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, pose, options)
 
 
 @pytest.mark.thorough(8)
