@@ -65,7 +65,7 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, in the oldest bpy that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 --ignore tests/blender/hostile \
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
-		$(patsubst %,--ignore tests/blender/test_%.py,assembly docs_examples edited faults flatten_facets floor \
+		$(patsubst %,--ignore-glob "*/test_%.py",assembly docs_examples edited faults flatten_facets floor \
 		form_from_selection form_settings handle_own_pose handle_reach handles leaks live_inputs live_poses \
 		live_transforms normal_capture orientation other_blenders process refusals regions rigged_limbs \
 		scenes symmetry up_to_date) tests/blender \
@@ -100,7 +100,7 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_FAULTS=1 CUBIC_CRAFT_ROUNDS=1000 CUBIC_CRAFT_OBJECTS=1000 \
 		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_BATCH=200 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
 		$(PY) $(PYTEST) --thorough tests/blender/test_faults.py tests/blender/mesh_bridge/test_bridge_faults.py tests/blender/test_leaks.py \
-		tests/blender/test_scenes.py tests/blender/test_other_blenders.py \
+		tests/blender/test_scenes.py tests/blender/environment/test_other_blenders.py \
 		tests/scripts/test_headless_interrupted.py tests/scripts/test_batch_workers.py
 
 # Of each test one case, as what differs is the device; without two comparisons of whole runs, of

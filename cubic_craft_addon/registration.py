@@ -1,27 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registers the Blender side that is not an operator."""
 
-from . import handle_gizmos, hidden_source, job, live, presets
+from . import hidden_source, job, live, presets
+from .angles import kept as angles_kept
+from .angles import overlay as angles_overlay
 from .animation import properties as animation_properties
 from .command_line import blender_command
-from .environment import ahead
+from .environment import ahead, object_cache
+from .form import overlay as form_overlay
+from .form import pictures as form_pictures
+from .handles import gizmos as handle_gizmos
+from .handles import overlay as handles_overlay
+from .handles import panel as handles_panel
 from .handles import properties as handles_properties
-from .read import object_cache
+from .regions import panel as regions_panel
+from .regions import properties as region_properties
 from .send import properties as send_properties
-from .settings import form_pictures, group_renames, properties, region_properties
-from .ui import (
-    angles,
-    angles_overlay,
-    edited,
-    handles_panel,
-    header,
-    menus,
-    overlay,
-    panel,
-    preferences,
-    regions_panel,
-    worn,
-)
+from .settings import group_renames, properties
+from .ui import edited, header, menus, panel, preferences
+from .worn import panel as worn_panel
 
 _modules = (
     handles_properties,
@@ -35,9 +32,10 @@ _modules = (
     live,
     job,
     handle_gizmos,
-    angles,
+    handles_overlay,
+    angles_kept,
     angles_overlay,
-    overlay,  # its lines are drawn over the colors
+    form_overlay,  # its lines are drawn over the colors
     handles_panel,
     regions_panel,
     presets,
@@ -45,7 +43,7 @@ _modules = (
     menus,
     header,
     edited,
-    worn,
+    worn_panel,
     group_renames,
     object_cache,
     ahead,

@@ -8,13 +8,7 @@ from bpy.props import StringProperty
 
 from ..cubic_craft_addon.animation.bake import Bake, BakeOptions
 from ..cubic_craft_addon.animation.properties import BakeProperties, bake_properties, source_of
-from ..cubic_craft_addon.object_properties import has_properties, object_properties
-from ..cubic_craft_addon.settings.overrides import (
-    OF_EACH_OBJECT,
-    SettingsOverrides,
-    asked_for,
-    values_of,
-)
+from ..cubic_craft_addon.animation.sources import OfSources, overrides_of
 from ..solver import CubicCraftError
 from ._shared.given_or_shared import given_or_shared
 from ._shared.selection import poll_sources, selected_sources
@@ -36,7 +30,7 @@ class _BakeOperator(WatchedOperator, BakeProperties):
         sources = list(dict.fromkeys(map(source_of, selected_sources(context))))
         if not sources:
             raise CubicCraftError("Select an object with a mesh first")
-        return Bake(_OfSources(sources), sources, self._options(context.scene))
+        return Bake(OfSources(sources), sources, self._options(context.scene))
 
     def _options(self, scene):
         values = given_or_shared(self, bake_properties(scene), BakeProperties)
@@ -99,32 +93,4 @@ class CUBIC_CRAFT_OT_bake_process(_BakeOperator, bpy.types.Operator):
             chosen = bpy.data.objects.get(self.process_from)
             if self.process_from and chosen is None:
                 raise CubicCraftError(f'there is no object "{self.process_from}"')
-        return None if chosen is None else _overrides([chosen], is_for_all=True)
-
-
-class _OfSources:
-    """The settings of some objects, read anew in each frame: they may be animated."""
-
-    def __init__(self, sources):
-        self._sources = sources
-
-    def settings_for(self, obj):
-        """Return those of one of the objects, in the present frame."""
-        return _overrides(self._sources).settings_for(obj)
-
-
-def _overrides(sources, *, is_for_all=False):
-    """Return the settings of the first object for all, except those that belong to each mesh.
-
-    A single object has its own settings, unless others have them, too.
-    """
-    first = sources[0]
-    if not is_for_all and not has_properties(first):
-        return SettingsOverrides({})
-    properties = object_properties(first)
-    values = values_of(properties)
-    is_for_all = is_for_all or len(sources) > 1
-    if is_for_all:
-        values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
-    pointers = {name: getattr(properties, name) for name in asked_for(values)}
-    return SettingsOverrides(values if is_for_all else {}, pointers)
+        return None if chosen is None else overrides_of([chosen], is_for_all=True)

@@ -11,6 +11,8 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty
 
 from ..cubic_craft_addon import job, mesh_bridge
+from ..cubic_craft_addon.form import panel as form_panel
+from ..cubic_craft_addon.form.names import form_settings
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
@@ -18,7 +20,6 @@ from ..cubic_craft_addon.mesh_bridge import last_run
 from ..cubic_craft_addon.object_properties import has_properties, object_properties
 from ..cubic_craft_addon.run.up_to_date import changes_since
 from ..cubic_craft_addon.screen import glimpse
-from ..cubic_craft_addon.settings.forms import form_settings
 from ..cubic_craft_addon.settings.overrides import (
     ALL,
     OF_EACH_OBJECT,
@@ -30,7 +31,6 @@ from ..cubic_craft_addon.settings.overrides import (
     values_of,
 )
 from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
-from ..cubic_craft_addon.ui import form_panel
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, selected_meshes, selected_sources
 from ._shared.watched_operator import WatchedOperator

@@ -8,13 +8,14 @@ after an undo. A single undo then reverts everything, back into Edit Mode.
 import bpy
 
 from ..cubic_craft_addon import live
+from ..cubic_craft_addon.form.direction_text import write_directions
+from ..cubic_craft_addon.form.picked_directions import picked_directions
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.read.picked_directions import picked_directions
-from ..cubic_craft_addon.settings.direction_text import write_directions
+from ..cubic_craft_addon.read.object_frame import stretch_and_orientation
+from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
-from ._shared.active_handle import poll_mesh
-from ._shared.selection import report_all
+from ._shared.selection import poll_mesh, report_all
 from ._shared.unexpected_errors import reporting
 
 
@@ -45,7 +46,8 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
         """Cluster the normals, and choose the form of them."""
         obj = panel_object(context)
         try:
-            directions, count = picked_directions(obj)
+            frame = stretch_and_orientation(obj, settings_of(obj, handles=()))
+            directions, count = picked_directions(obj, *frame)
         except CubicCraftError as error:
             return report_all(self, "", [str(error)])
         bpy.ops.object.mode_set(mode="OBJECT")

@@ -4,10 +4,10 @@
 import bpy
 from bpy.props import StringProperty
 
+from ..cubic_craft_addon.handles.active import add_handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver.errors import CubicCraftError
-from ._shared.active_handle import add_handle
 from ._shared.group_to_add import group_to_add, poll_groups
 from ._shared.selection import report_all
 

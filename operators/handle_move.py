@@ -6,7 +6,7 @@ from bpy.props import EnumProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ._shared.active_handle import poll_handle
+from ._shared.selection import poll_handle
 
 
 class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):

@@ -3,11 +3,11 @@
 
 import bpy
 
+from ..cubic_craft_addon.handles.active import add_handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..solver import CubicCraftError
-from ._shared.active_handle import add_handle, poll_mesh
 from ._shared.group_of_selection import group_of_selection
-from ._shared.selection import report_all
+from ._shared.selection import poll_mesh, report_all
 
 _GROUP = "Handle"
 

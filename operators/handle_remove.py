@@ -3,9 +3,11 @@
 
 import bpy
 
+from ..cubic_craft_addon.handles.active import active_handle
+from ..cubic_craft_addon.handles.empty import is_ours_alone
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ._shared.active_handle import active_handle, poll_handle
+from ._shared.selection import poll_handle
 
 
 class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
@@ -33,17 +35,9 @@ class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
         properties.active_handle = max(
             min(properties.active_handle, len(properties.handles) - 1), 0
         )
-        if target is not None and _is_ours_alone(target):
+        if target is not None and is_ours_alone(target):
             if context.view_layer.objects.active in (target, None):
                 context.view_layer.objects.active = obj
                 obj.select_set(True)
             bpy.data.objects.remove(target)
         return {"FINISHED"}
-
-
-def _is_ours_alone(target):
-    """Return whether we made the object and only collections and scenes still use it."""
-    if not object_properties(target).is_made_target or target.library is not None:
-        return False
-    users = bpy.data.user_map(subset=[target])[target]
-    return all(isinstance(user, (bpy.types.Collection, bpy.types.Scene)) for user in users)

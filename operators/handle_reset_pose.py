@@ -9,7 +9,7 @@ from ..cubic_craft_addon.handles.own_pose import set_own_pose
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
 from ..cubic_craft_addon.object_properties import object_properties
-from ._shared.active_handle import poll_mesh
+from ._shared.selection import poll_mesh
 
 
 class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):

@@ -5,7 +5,7 @@ import bpy
 
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
-from ._shared.active_handle import poll_mesh
+from ._shared.selection import poll_mesh
 from ._shared.unexpected_errors import reporting
 
 _GROUP = "Cubeness"

@@ -7,8 +7,8 @@ from bpy.props import StringProperty
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.regions.active import add_region
 from ..solver.errors import CubicCraftError
-from ._shared.active_region import add_region
 from ._shared.group_to_add import group_to_add, poll_groups
 from ._shared.selection import report_all
 

@@ -5,11 +5,10 @@ import bpy
 
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.regions.active import add_region
 from ..solver import CubicCraftError
-from ._shared.active_handle import poll_mesh
-from ._shared.active_region import add_region
 from ._shared.group_of_selection import group_of_selection
-from ._shared.selection import report_all
+from ._shared.selection import poll_mesh, report_all
 
 _GROUP = "Region"
 

@@ -5,8 +5,8 @@ import bpy
 
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ._shared.active_handle import poll_mesh
-from ._shared.active_region import active_region
+from ..cubic_craft_addon.regions.active import active_region
+from ._shared.selection import poll_mesh
 
 
 class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):

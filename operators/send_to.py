@@ -7,18 +7,12 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..cubic_craft_addon.environment.file_names import file_stems
-from ..cubic_craft_addon.send.file import extent, send
-from ..cubic_craft_addon.send.targets import ITEMS, SUFFIXES, Options, exporter
+from ..cubic_craft_addon.send.file import send
+from ..cubic_craft_addon.send.scale import SCALES, scale_of
+from ..cubic_craft_addon.send.targets import ITEMS, TARGETS, Options, exporter, with_suffix
 from ..solver import CubicCraftError
 from ._shared.selection import poll_meshes, poll_object_mode, report_all, selected_meshes
 from ._shared.unexpected_errors import reporting
-
-_MILLIMETERS = 1000.0  # in a meter
-_SCALES = (
-    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
-    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
-    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
-)
 
 
 class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
@@ -60,7 +54,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         default=True,
     )
     scale: EnumProperty(
-        name="Scale", description="How large the print becomes", items=_SCALES, default="SCENE"
+        name="Scale", description="How large the print becomes", items=SCALES, default="SCENE"
     )
     size: FloatProperty(
         name="Size",
@@ -85,14 +79,14 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         name = file_stems(bpy.data.objects)[selected_meshes(context)[0]]
         before = Path(self.filepath or bpy.data.filepath)
         folder = before.parent if before.is_absolute() else Path.home()
-        self.filepath = str(folder / f"{name}{SUFFIXES[self.target]}")
-        self.filter_glob = f"*{SUFFIXES[self.target]}"
+        self.filepath = str(folder / f"{name}{TARGETS[self.target].suffix}")
+        self.filter_glob = f"*{TARGETS[self.target].suffix}"
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
     def check(self, context):
         """Keep the suffix that belongs to the kind of file."""
-        path = _with_suffix(self.filepath, self.target)
+        path = with_suffix(self.filepath, self.target)
         is_changed = path != self.filepath
         self.filepath = path
         return is_changed
@@ -102,7 +96,7 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        if self.target == "STL":
+        if TARGETS[self.target].is_printed:
             layout.prop(self, "scale")
             if self.scale == "SIZE":
                 layout.prop(self, "size")
@@ -116,30 +110,15 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         """Write the file."""
         if not self.filepath:
             raise CubicCraftError("Type the name of the file to write")
-        path = Path(bpy.path.abspath(_with_suffix(self.filepath, self.target)))
+        path = Path(bpy.path.abspath(with_suffix(self.filepath, self.target)))
         objects = selected_meshes(context)
+        is_printed = TARGETS[self.target].is_printed
+        scale = scale_of(self.scale, self.size, context.scene, objects) if is_printed else 1.0
         options = Options(
             with_modifiers=self.modifiers,
             with_animation=self.animation,
             with_groups=self.groups,
-            scale=self._scale(context.scene, objects) if self.target == "STL" else 1.0,
+            scale=scale,
         )
         sent = send(self.target, objects, path, options)
         return report_all(self, sent.done, sent.problems)
-
-    def _scale(self, scene, objects):
-        """Return how many millimeters a unit of Blender becomes."""
-        if self.scale == "SIZE":
-            return self.size / max(extent(objects), 1e-12)
-        if self.scale == "MILLIMETERS":
-            return 1.0
-        units = scene.unit_settings
-        return _MILLIMETERS * (units.scale_length if units.system != "NONE" else 1.0)
-
-
-def _with_suffix(path, target):
-    """Return a path that ends as the kind of file does."""
-    for suffix in SUFFIXES.values():
-        if path.lower().endswith(suffix) and suffix != SUFFIXES[target]:
-            path = path[: -len(suffix)]
-    return bpy.path.ensure_ext(path, SUFFIXES[target]) if Path(path).name else path

@@ -9,12 +9,9 @@ momentum when the energy rises (O'Donoghue and Candes, "Adaptive Restart for Acc
 Schemes", 2015, function scheme). It costs one pass over the positions per iteration, and gains
 most from an exact local step.
 
-Iterations to a gap of 1 % of the energy, plain, with Nesterov's method, and with this one: 160, 32
-and 29 (bunny, cubeness 0.2); more than 300, more than 220, and 104 (horse, 0.4); 700, 77 and 43
-(spot, 0.4, where the plain iteration seems done in a stall); from a mesh of a quarter of the
-vertices (98,722, 0.4) 44 with Nesterov's and 26. To begin with the momentum of the 59th iteration,
-and to keep some of it when the energy has risen once, saves a tenth where many are needed and costs
-one or two where few are.
+To begin with the momentum of a later iteration, and to keep some of it when the energy has risen
+once, saves a tenth of the iterations where many are needed and costs one or two where few are.
+`docs/benchmarks_explained.md` has the numbers of iterations.
 """
 
 import numpy as np

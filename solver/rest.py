@@ -86,7 +86,7 @@ class RestMesh(Value):
     """the mesh that this is a pose of"""
 
     @property
-    def F(self) -> NDArray[np.int32]:  # noqa: N802 - as everywhere
+    def F(self) -> IntArray:  # noqa: N802 - as everywhere
         """(m,3) int32 triangles."""
         return self.topology.F
 

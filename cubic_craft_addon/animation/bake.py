@@ -85,7 +85,7 @@ class Bake:
     ):
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
-        check_format(SUFFIXES.get(options.file_format, ""))
+        check_format(SUFFIXES[options.file_format])
         self._stretch = stretch()
         self._places = Places(options)
         self._overrides, self._sources, self._options = overrides, sources, options

@@ -11,7 +11,8 @@ import bpy
 from ...solver import CubicCraftError
 from ..environment.scene_state import frame_kept, only_selected
 
-SUFFIXES = {"ALEMBIC": ".abc", "USD": ".usdc"}
+SUFFIXES = {"CACHE": ".pc2", "SHAPE_KEYS": ".pc2", "ALEMBIC": ".abc", "USD": ".usdc"}
+"""of the files of each format; shape keys are read from a point cache"""
 _NAMES = {".abc": "Alembic", ".usd": "USD", ".usdc": "USD", ".usda": "USD"}
 
 

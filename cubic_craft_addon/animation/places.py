@@ -18,7 +18,6 @@ from .properties import SOURCE
 
 _UNFINISHED = ".unfinished"  # suffix of the folders of recordings
 _PROCESS = ".process"
-_CACHE = ".pc2"
 
 
 class Places:
@@ -54,11 +53,11 @@ class Places:
         file_format, stem = self._options.file_format, self._stem(source)
         played = {_place(path) for path in _played_by_others(source)}
         names = itertools.chain([stem], (f"{stem}.{number}" for number in itertools.count(2)))
-        suffix = SUFFIXES.get(file_format, _CACHE)
+        suffix = SUFFIXES[file_format]
         paths = (self._options.folder / f"{name}{suffix}" for name in names)
         path = next(path for path in paths if _place(path) not in played)
         is_cache = file_format == "CACHE"
-        return path if is_cache else recording / f"{stem}{_CACHE}", path
+        return path if is_cache else recording / f"{stem}{SUFFIXES['CACHE']}", path
 
     def _stem(self, source):
         return f"{self._stems[source]}{_PROCESS if self._options.is_process else ''}"

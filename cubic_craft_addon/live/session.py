@@ -17,7 +17,7 @@ from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
 from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL
-from . import cancelled, elsewhere, handlers, poses, properties, status_bar, wake
+from . import cancelled_settings, elsewhere, handlers, poses, properties, status_bar, wake
 from .followed_mesh import FollowedMesh
 from .follower import remove_left
 from .following import Following
@@ -94,7 +94,7 @@ class Session:
         self._restart_changed()
         if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))
-        again = cancelled.recall(self._object_uids, self._own)
+        again = cancelled_settings.recall(self._object_uids, self._own)
         if again is not None:
             properties.set_live_values(again)  # seen by the first tick, and undone by Ctrl-Z
         try:
@@ -169,7 +169,7 @@ class Session:
     def on(self, event: Event) -> None:
         """Process an event and carry out the actions of the state machine."""
         if event is Event.CANCEL:
-            cancelled.remember(self._object_uids, self._own, properties.live_values())
+            cancelled_settings.remember(self._object_uids, self._own, properties.live_values())
         for action in self._machine.on(event):
             try:
                 _METHODS[action](self)

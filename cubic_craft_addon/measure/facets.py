@@ -17,7 +17,7 @@ from ..environment.requirements import check_requirements
 from ..mesh_bridge import LastRun
 from ..read.object_frame import placement_alone
 from ..read.reflections import modifier_reflections
-from ..read.region_shares import region_shares
+from ..regions.shares import region_shares
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 from .form_directions import directions_at
@@ -71,7 +71,7 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
     placement = placement_alone(obj, settings)
     V = placement.place(present)
     triangles = mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present)
-    directions, counts = directions_at(placement, triangles, region_shares(obj, settings))
+    directions, counts = directions_at(placement, triangles, region_shares(obj, settings.regions))
     flat = solver.flatten_facets(
         V,
         triangles,

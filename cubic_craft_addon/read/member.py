@@ -22,11 +22,11 @@ from ...solver.pieces.shape import Shape
 from ...solver.pieces.whole import Whole
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
+from ..regions.shares import region_shares
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
 from .object_frame import placements
 from .reflections import modifier_reflections
-from .region_shares import region_shares
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,7 +216,7 @@ def _region_shares(obj, settings, known):
     groups = [region.group for region in settings.regions]
     if known and groups == [region.group for region in known.settings.regions]:
         return known.region_shares
-    return region_shares(obj, settings)
+    return region_shares(obj, settings.regions)
 
 
 def _bones(obj, settings, whole, alone, shape, known, rigged):

@@ -15,9 +15,9 @@ from ...solver import CubicCraftError
 from ...solver.pieces.placement import Placement, polar
 from ...solver.styles.cube import proper
 from ...solver.styles.style import Style
+from ..form.body import form_of
+from ..form.normal_capture import capture_of, strength_of
 from ..settings.values import Settings
-from .form import form_of
-from .normal_capture import capture_of, strength_of
 from .rest_place import world_at_rest
 
 _SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
@@ -172,6 +172,21 @@ def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
     return Matrix(solver.nearest_to_identity(axes.T).T.tolist()).to_euler()
 
 
+def check_frame(obj: bpy.types.Object, settings: Settings) -> None:
+    """Refuse a space that is that of another object if none is set.
+
+    Raises
+    ------
+    CubicCraftError
+        None is set.
+    """
+    if settings.space == "FRAME" and settings.frame is None:
+        raise CubicCraftError(
+            f'"{obj.name}" takes its orientation from a frame object, but none is set;'
+            " pick one or choose another space"
+        )
+
+
 def _turn_and_stretch(world):
     linear = np.array(world.to_3x3(), dtype=np.float64)
     if _is_flat(linear):
@@ -202,11 +217,7 @@ def _into_space(obj, settings, turn):
         return np.eye(3)
     if settings.space == "WORLD":
         return turn
-    if settings.frame is None:
-        raise CubicCraftError(
-            f'"{obj.name}" takes its orientation from a frame object, but none is set;'
-            " pick one or choose another space"
-        )
+    check_frame(obj, settings)
     frame = settings.frame.matrix_world.to_quaternion().to_matrix()
     return np.array(frame, dtype=np.float64).T @ turn
 

@@ -9,11 +9,11 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ..form.body import form_of
+from ..form.names import FORM_SETTINGS, OF_OBJECT, form_settings
+from ..form.normal_capture import has_capture, note_of
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
-from ..read.form import form_of
-from ..read.normal_capture import has_capture, note_of
-from ..settings.forms import FORM_SETTINGS, OF_OBJECT, form_settings
 from ..settings.properties import settings_of
 from ..settings.values import Settings
 
@@ -98,7 +98,8 @@ def _body(settings):
 
 def _handle(handle):
     matrix = np.reshape(handle.matrix, (4, 4))
-    return [handle.group, handle.threshold, _matrix(matrix[:3, :3]), _matrix(matrix[:3, 3])]
+    values = [handle.group, handle.threshold, _matrix(matrix[:3, :3]), _matrix(matrix[:3, 3])]
+    return [*values, True] if handle.is_cubic else values  # older notes have no such value
 
 
 def _matrix(array):

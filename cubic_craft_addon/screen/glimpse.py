@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A brief view of the cube while it is rotated by hand, even if its overlay is off."""
+"""A brief view of the form while it is rotated by hand, even if its overlay is off."""
 
 import contextlib
 import time
@@ -7,15 +7,17 @@ from collections.abc import Iterator
 
 import bpy
 
+from .redraw import redraw_views
+
 SECONDS = 1.5
-"""seconds that the cube stays visible"""
+"""seconds that the form stays visible"""
 
 _until = 0.0
 _is_quiet = False
 
 
 def on_turn(_properties, _context):
-    """Show the cube from now on, as the update of a property that turns it."""
+    """Show the form from now on, as the update of a property that turns it."""
     global _until
     if _is_quiet:
         return
@@ -29,7 +31,7 @@ def on_turn(_properties, _context):
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Set properties without showing the cube: this is not the artist who rotates it."""
+    """Set properties without showing the form: this is not the artist who rotates it."""
     global _is_quiet
     before, _is_quiet = _is_quiet, True
     try:
@@ -39,20 +41,12 @@ def quiet() -> Iterator[None]:
 
 
 def is_seen() -> bool:
-    """Return whether the cube has just been rotated."""
+    """Return whether the form has just been rotated."""
     return time.monotonic() < _until
 
 
-def redraw_views() -> None:
-    """Redraw all 3D viewports."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-
-
 def _end():
-    """Hide the cube, or return the time to wait."""
+    """Hide the form, or return the time to wait."""
     remaining = _until - time.monotonic()
     if remaining > 0.0:
         return remaining

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Redraw the panel, which Blender does by itself only after changes by the artist."""
+"""Redraw what Blender redraws by itself only after changes by the artist."""
 
 import contextlib
 from collections.abc import Iterator
@@ -11,6 +11,14 @@ def redraw_panels() -> None:
     """Draw the sidebars of all viewports with the next redraw."""
     for _, _, region in _sidebars():
         region.tag_redraw()
+
+
+def redraw_views() -> None:
+    """Redraw all 3D viewports."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
 
 
 def find_button_under_mouse() -> None:

@@ -18,7 +18,7 @@ from ..environment.new_file import replacing
 from ..environment.scene_state import frame_kept, only_selected
 from .closed import find_faults
 from .marks import marks_of
-from .targets import Options, exporter, settings
+from .targets import TARGETS, Options, exporter, settings
 
 
 @dataclass
@@ -38,7 +38,7 @@ def send(target: str, objects: list[bpy.types.Object], path: Path, options: Opti
 
     Parameters
     ----------
-    target : one of `targets.ITEMS`
+    target : one of `TARGETS`
     objects : meshes in Object Mode
     path : pathlib.Path
         With the suffix of the target.
@@ -49,26 +49,27 @@ def send(target: str, objects: list[bpy.types.Object], path: Path, options: Opti
     CubicCraftError
         There is nothing to write, or no way to write it there.
     """
-    run = exporter(target)
+    run, kind = exporter(target), TARGETS[target]
     _check_path(path)
     for obj in objects:
         mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
         if not mesh_bridge.mesh_of(obj).polygons:
             raise CubicCraftError(f'"{obj.name}" has no faces to write')
     sent = Sent("")
-    is_modified = target == "STL" or _can_apply(objects, options, sent.problems)
+    is_modified = kind.is_printed or _can_apply(objects, options, sent.problems)
     facts = [f"{len(objects)} object{'s' * (len(objects) > 1)}"]
-    if target == "STL":
+    if kind.is_printed:
         facts.append(_check_printable(objects, options.scale, sent.problems))
     chosen = settings(target, objects, options, is_modified=is_modified)
-    armatures = {arm for obj in objects for arm in _armatures(obj)} if target != "STL" else set()
+    posed = [] if kind.is_printed else objects
+    armatures = {armature for obj in posed for armature in _armatures(obj)}
     with contextlib.ExitStack() as stack:
         for obj in {obj.data: obj for obj in objects}.values():
-            values, problems = marks_of(target, obj, with_groups=options.with_groups)
+            values, problems = marks_of(kind, obj, with_groups=options.with_groups)
             sent.problems += problems
             mesh = mesh_bridge.mesh_of(obj)
             stack.enter_context(
-                mesh_bridge.carried_attributes(mesh, values, are_colors=target == "FBX")
+                mesh_bridge.carried_attributes(mesh, values, are_colors=kind.groups == "COLORS")
             )
         stack.enter_context(frame_kept())
         missing = stack.enter_context(only_selected([*objects, *armatures]))

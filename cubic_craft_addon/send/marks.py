@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from .. import mesh_bridge
+from .targets import Target
 
 VERTEX = "_VERTEX"
 GROUP = "_GROUP_"
@@ -20,13 +21,13 @@ _LONGEST = 40  # characters of the name of a group; attributes have 63 bytes at 
 
 
 def marks_of(
-    target: str, obj: bpy.types.Object, *, with_groups: bool
+    target: Target, obj: bpy.types.Object, *, with_groups: bool
 ) -> tuple[dict[str, np.ndarray], list[str]]:
     """Return the attributes to add while an object is written.
 
     Parameters
     ----------
-    target : one of `targets.ITEMS`
+    target : Target
     obj : an object with a mesh
     with_groups : bool
         Whether vertex groups that belong to no bone are written.
@@ -37,14 +38,14 @@ def marks_of(
     problems : list of str
     """
     mesh = mesh_bridge.mesh_of(obj)
-    if target == "STL":
+    if not target.groups:
         return {}, []
     names = [group.name for group in obj.vertex_groups if group.name not in _bones(obj)]
     values = {}
-    if target == "GLTF":
+    if not target.keeps_vertices:
         values[VERTEX] = np.arange(len(mesh.vertices), dtype=np.float32)
     if mesh.library is not None or not mesh.is_editable:
-        lost = [VERTEX] if target == "GLTF" else []
+        lost = [] if target.keeps_vertices else [VERTEX]
         lost += names if with_groups else []
         return {}, [f'"{obj.name}" is linked: {", ".join(lost)} were not written'] if lost else []
     taken = {attribute.name.upper() for attribute in mesh.attributes}

@@ -1,28 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where results are sent to: the exporter of Blender for each, and the settings that suit it."""
+"""Where results are sent to: `TARGETS` has the exporter of Blender for each, and its settings."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
 import bpy
 
 from ...solver import CubicCraftError
-
-ITEMS = (
-    ("GLTF", "glTF", "A .glb file for game engines and the web"),
-    ("FBX", "FBX", "A .fbx file for Unity, Unreal, Maya and others"),
-    ("STL", "STL", "A .stl file for 3D printers, in millimeters"),
-)
-SUFFIXES = {"GLTF": ".glb", "FBX": ".fbx", "STL": ".stl"}
-
-_OPERATORS = {
-    "GLTF": ("export_scene", "gltf"),
-    "FBX": ("export_scene", "fbx"),
-    "STL": ("wm", "stl_export"),
-}
-_ADD_ONS = {"GLTF": "glTF 2.0 format", "FBX": "FBX format"}
 
 
 @dataclass(frozen=True)
@@ -37,19 +25,20 @@ class Options:
 
 
 def exporter(target: str) -> Any:
-    """Return the operator of Blender that writes the format.
+    """Return the operator of Blender that writes the format of one of `TARGETS`.
 
     Raises
     ------
     CubicCraftError
         This Blender has none.
     """
-    module, name = _OPERATORS[target]
+    module, name = TARGETS[target].operator.split(".")
     operator = getattr(getattr(bpy.ops, module), name)
     try:
         operator.get_rna_type()
     except KeyError as error:
-        where = f'enable the add-on "{_ADD_ONS[target]}"' if target in _ADD_ONS else "update it"
+        add_on = TARGETS[target].add_on
+        where = f'enable the add-on "{add_on}"' if add_on else "update it"
         raise CubicCraftError(f"this Blender cannot write {target} files: {where}") from error
     return operator
 
@@ -61,16 +50,25 @@ def settings(
 
     Parameters
     ----------
-    target : str
+    target : one of `TARGETS`
     objects : list of bpy.types.Object
         The meshes that are written.
     options : Options
     is_modified : bool
         Whether modifiers are applied.
     """
-    wanted = {"GLTF": _gltf, "FBX": _fbx, "STL": _stl}[target](objects, options, is_modified)
+    wanted = TARGETS[target].settings(objects, options, is_modified)
     known = exporter(target).get_rna_type().properties
     return {name: value for name, value in wanted.items() if name in known}
+
+
+def with_suffix(path: str, target: str) -> str:
+    """Return a path that ends as the kind of file does."""
+    own = TARGETS[target].suffix
+    for suffix in (other.suffix for other in TARGETS.values()):
+        if path.lower().endswith(suffix) and suffix != own:
+            path = path[: -len(suffix)]
+    return bpy.path.ensure_ext(path, own) if Path(path).name else path
 
 
 def _gltf(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
@@ -139,3 +137,65 @@ def has_normal_map(obj: bpy.types.Object) -> bool:
         for tree in filter(None, trees)
         for node in tree.nodes
     )
+
+
+@dataclass(frozen=True)
+class Target:
+    """A kind of file, and what is different about it."""
+
+    name: str
+    description: str
+    button: str
+    """text of its button in the panel"""
+    icon: str
+    suffix: str
+    operator: str
+    """of Blender, which writes it"""
+    settings: Callable[[list[bpy.types.Object], Options, bool], dict[str, Any]]
+    """makes the settings of the operator, of the meshes, and whether modifiers are applied"""
+    add_on: str = ""
+    """of Blender, which has the operator"""
+    groups: Literal["", "ATTRIBUTES", "COLORS"] = ""
+    """as what vertex groups are written"""
+    keeps_vertices: bool = True
+    """whether vertices come back in their order without being numbered"""
+    is_printed: bool = False
+    """whether it is a solid of a size in millimeters, and nothing else"""
+
+
+TARGETS = {
+    "GLTF": Target(
+        "glTF",
+        "A .glb file for game engines and the web",
+        button="Game Engine (glTF)",
+        icon="WORLD",
+        suffix=".glb",
+        operator="export_scene.gltf",
+        settings=_gltf,
+        add_on="glTF 2.0 format",
+        groups="ATTRIBUTES",
+        keeps_vertices=False,
+    ),
+    "FBX": Target(
+        "FBX",
+        "A .fbx file for Unity, Unreal, Maya and others",
+        button="Unity, Unreal, Maya (FBX)",
+        icon="EXPORT",
+        suffix=".fbx",
+        operator="export_scene.fbx",
+        settings=_fbx,
+        add_on="FBX format",
+        groups="COLORS",
+    ),
+    "STL": Target(
+        "STL",
+        "A .stl file for 3D printers, in millimeters",
+        button="3D Print (STL)",
+        icon="MESH_ICOSPHERE",
+        suffix=".stl",
+        operator="wm.stl_export",
+        settings=_stl,
+        is_printed=True,
+    ),
+}
+ITEMS = tuple((key, target.name, target.description) for key, target in TARGETS.items())

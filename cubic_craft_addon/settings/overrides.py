@@ -13,15 +13,15 @@ import bpy
 from bpy.props import StringProperty
 
 from ...solver import CubicCraftError
+from ..form.names import OF_OBJECT
 from ..handles import Handle
 from ..handles.own_pose import Pose
 from ..handles.pose import posed_handles
 from ..mesh_bridge import Start
 from ..object_properties import object_properties
+from ..regions.region import object_regions
 from ..screen import glimpse
-from .forms import OF_OBJECT
 from .properties import CubicCraftProperties, RunProperties, settings_of, value_of
-from .region import object_regions
 from .values import Settings
 
 ALL = tuple(RunProperties.__annotations__)

@@ -16,16 +16,16 @@ from bpy.props import (
     StringProperty,
 )
 
+from ..form import properties as form_properties
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
 from ..mesh_bridge import KINDS, last_run
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
+from ..regions.properties import CubicCraftRegion
+from ..regions.region import Region, object_regions
 from ..screen import glimpse
-from . import form_properties
-from .region import Region, object_regions
-from .region_properties import CubicCraftRegion
 from .values import Settings
 
 _SPACES = (

@@ -8,34 +8,18 @@ from dataclasses import dataclass, replace
 import bpy
 
 from ... import solver
+from ..form.settings import FormSettings
 from ..handles import Handle
 from ..mesh_bridge import Start
-from .region import Region
+from ..regions.region import Region
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings:
+class Settings(FormSettings):
     """The settings of one object. The defaults are those of the panel."""
 
-    cubeness: float = 0.4
-    form: str = "CUBE"
-    """what a ball would become: one of `forms.FORMS`"""
-    form_sides: int = 6
-    """of a prism or pyramid"""
-    form_weights: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """of the axes of a box"""
-    form_object: bpy.types.Object | None = None
-    """the object that an OBJECT or DIRECTIONS form is made from"""
-    capture_object: bpy.types.Object | None = None
-    """the ball whose normals say which way surfaces should face"""
-    capture_strength: float = 0.4
-    """of its normals, beside the cubeness"""
-    form_directions: str = ""
-    """of the sides of a form of FACES, in its own axes, see `direction_text`"""
-    orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Euler XYZ angles in radians"""
     space: str = "WORLD"
-    """what the angles are relative to: OBJECT, WORLD or FRAME"""
+    """what the angles of the orientation are relative to: OBJECT, WORLD or FRAME"""
     frame: bpy.types.Object | None = None
     """the object that is the FRAME"""
     handles: tuple[Handle, ...] = ()

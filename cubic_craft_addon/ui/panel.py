@@ -5,43 +5,36 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
+from ..angles import overlay as angles_overlay
+from ..animation import panel as animation_panel
 from ..environment.ahead import load_ahead
 from ..environment.engine_notes import engine_note
 from ..environment.modes import is_mode_usable
 from ..environment.requirements import check_known_requirements
+from ..form import overlay as form_overlay
+from ..form import panel as form_panel
+from ..form.settings import check_directions, check_form_object
+from ..handles import panel as handles_panel
 from ..handles.owner import panel_object
-from ..handles.pose import object_handles
 from ..mesh_bridge import last_run
 from ..object_properties import object_properties
+from ..presets import panel as presets_panel
+from ..read.object_frame import check_frame
+from ..regions import panel as regions_panel
 from ..run.up_to_date import changes_since
 from ..screen.text_fit import is_narrow, room_for_text, wrapped
-from ..settings.forms import OF_OBJECT
-from ..settings.region import object_regions
-from . import (
-    angles_overlay,
-    animation_panel,
-    buttons,
-    edited,
-    form_panel,
-    header,
-    job_progress,
-    overlay,
-    seen,
-    send_panel,
-    status_panel,
-    worn,
-)
-from . import handles_panel as handles_panel
-from . import presets_panel as presets_panel
-from . import regions_panel as regions_panel
+from ..send import panel as send_panel
+from ..settings.properties import settings_of
+from ..worn import panel as worn
+from . import buttons, edited, header, job_progress, seen, status_panel
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
-_ADVANCED = "CUBIC_PT_shape_advanced"
+_ADVANCED = "CUBIC_CRAFT_PT_shape_advanced"
 _BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
-class CUBIC_PT_main(bpy.types.Panel):
+class CUBIC_CRAFT_PT_main(bpy.types.Panel):
     """All of CubicCraft."""
 
     bl_label = DEFAULT_TAB
@@ -131,7 +124,7 @@ def _draw_problem(context, layout, text):
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
     row = layout.row(heading="Show")
-    row.prop(bpy.context.window_manager, overlay.PROPERTY, text="Form")
+    row.prop(bpy.context.window_manager, form_overlay.PROPERTY, text="Form")
     row.prop(bpy.context.window_manager, angles_overlay.PROPERTY, text="Angles")
     layout.prop(properties, "space")
     if properties.space == "FRAME":
@@ -197,15 +190,15 @@ def _draw_solver(layout, obj):
 
 
 _SECTIONS = (
-    ("CUBIC_PT_shape", "Form and Volume", _draw_shape, False),
-    ("CUBIC_PT_orientation", "Orientation", _draw_orientation, True),
+    ("CUBIC_CRAFT_PT_shape", "Form and Volume", _draw_shape, False),
+    ("CUBIC_CRAFT_PT_orientation", "Orientation", _draw_orientation, True),
     (handles_panel.SECTION, "Handles", handles_panel.draw, True),
     (regions_panel.SECTION, "Regions", regions_panel.draw, True),
-    ("CUBIC_PT_map", "Cubeness Map", _draw_map, True),
-    ("CUBIC_PT_result", "Result", _draw_result, True),
+    ("CUBIC_CRAFT_PT_map", "Cubeness Map", _draw_map, True),
+    ("CUBIC_CRAFT_PT_result", "Result", _draw_result, True),
     (animation_panel.SECTION, "Animation", animation_panel.draw, True),
     (send_panel.SECTION, "Send To", send_panel.draw, True),
-    ("CUBIC_PT_solver", "Solver", _draw_solver, True),
+    ("CUBIC_CRAFT_PT_solver", "Solver", _draw_solver, True),
 )
 _SWITCHES = {
     handles_panel.SECTION: handles_panel.draw_switch,
@@ -220,30 +213,24 @@ def _problem(context, obj):
     try:
         check_known_requirements()
         mesh_bridge.check_usable(obj)
-        object_handles(obj)
-        properties = object_properties(obj)
-        if properties.result == "SHAPE_KEY":
+        settings = settings_of(obj)
+        check_frame(obj, settings)
+        check_form_object(settings.form, settings.form_object)
+        check_directions(settings.form, settings.form_directions)
+        if settings.result == "SHAPE_KEY":
             mesh_bridge.check_relative_keys(obj)
-        if properties.use_regions:
-            object_regions(obj)
-        if properties.map_group:
-            mesh_bridge.vertex_group(obj, properties.map_group)
+        if settings.map_group:
+            mesh_bridge.vertex_group(obj, settings.map_group)
     except CubicCraftError as error:
         return str(error)
-    if properties.space == "FRAME" and properties.frame is None:
-        return "No frame object is set; pick one or choose another space"
-    if properties.form in OF_OBJECT and properties.form_object is None:
-        return "No form object is set; pick one or choose another form"
-    if properties.form == "FACES" and not properties.form_directions:
-        return "No faces are picked for the form; select some in Edit Mode and click Use Selection"
     return ""
 
 
 def move_to_tab(tab):
     """Show the panel in another tab of the sidebar."""
-    bpy.utils.unregister_class(CUBIC_PT_main)
-    CUBIC_PT_main.bl_category = tab or DEFAULT_TAB
-    bpy.utils.register_class(CUBIC_PT_main)
+    bpy.utils.unregister_class(CUBIC_CRAFT_PT_main)
+    CUBIC_CRAFT_PT_main.bl_category = tab or DEFAULT_TAB
+    bpy.utils.register_class(CUBIC_CRAFT_PT_main)
 
 
-register, unregister = bpy.utils.register_classes_factory((CUBIC_PT_main,))
+register, unregister = bpy.utils.register_classes_factory((CUBIC_CRAFT_PT_main,))

@@ -35,7 +35,7 @@ def register():
     bpy.utils.register_class(CubicCraftPreferences)
     addon = bpy.context.preferences.addons.get(ROOT_PACKAGE)
     if addon is not None:
-        panel.CUBIC_PT_main.bl_category = addon.preferences.tab or panel.DEFAULT_TAB
+        panel.CUBIC_CRAFT_PT_main.bl_category = addon.preferences.tab or panel.DEFAULT_TAB
 
 
 def unregister():

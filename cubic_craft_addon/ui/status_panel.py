@@ -17,7 +17,7 @@ from ..screen.text_fit import longest_that_fits, room_for_text, wrapped
 from . import edited
 from . import job_progress as job_panel
 
-_SECTION = "CUBIC_PT_last_run"
+_SECTION = "CUBIC_CRAFT_PT_last_run"
 _ARROW, _ICON = 1.0, 1.0  # widths in units of an icon
 _COLUMN = 0.42  # of the width, for the labels
 

@@ -9,22 +9,10 @@ from scipy.spatial.transform import Rotation
 from solver import CubicCraftError, ProxyOptions, Result, stylize
 from solver.console.errors import InputError
 from solver.styles import forms
-from solver.styles.polytope import Polytope
 
 from .surface import Surface
 
-__all__ = ("form_of", "orientation_of", "stylized")
-
-_NAMED = {
-    "rounded": forms.rounded_cube,
-    "octahedron": forms.octahedron,
-    "tetrahedron": forms.tetrahedron,
-    "dodecahedron": forms.dodecahedron,
-    "icosahedron": forms.icosahedron,
-    "rhombic": forms.rhombic_dodecahedron,
-    "cylinder": forms.cylinder,
-    "cone": forms.cone,
-}
+__all__ = ("orientation_of", "stylized")
 
 
 def stylized(surface: Surface, options: Namespace) -> Result:
@@ -51,7 +39,7 @@ def stylized(surface: Surface, options: Namespace) -> Result:
                 keep_apart=options.keep_apart == "on",
             ),
             orientation=orientation_of(options.orientation),
-            form=form_of(options),
+            form=forms.named(options.form, options.form_sides, options.form_weights),
             device=options.device,
             keep_rotation=options.rotation == "keep",
         )
@@ -59,18 +47,6 @@ def stylized(surface: Surface, options: Namespace) -> Result:
         raise InputError(str(error)) from error
     except MemoryError:
         raise InputError("there is not enough memory for it") from None
-
-
-def form_of(options: Namespace) -> Polytope | None:
-    """Return the form of the options, None for the cube."""
-    if options.form == "box":
-        is_cube = options.form_weights == [1.0, 1.0, 1.0]
-        return None if is_cube else forms.box(options.form_weights)
-    if options.form == "prism":
-        return forms.prism(options.form_sides)
-    if options.form == "pyramid":
-        return forms.pyramid(options.form_sides)
-    return _NAMED[options.form]() if options.form in _NAMED else None
 
 
 def orientation_of(degrees: list[float]) -> np.ndarray | None:

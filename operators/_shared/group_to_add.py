@@ -8,7 +8,7 @@ import bpy
 from ...cubic_craft_addon.handles.owner import panel_object
 from ...cubic_craft_addon.mesh_bridge import vertex_group
 from ...solver.errors import CubicCraftError
-from .active_handle import poll_mesh
+from .selection import poll_mesh
 
 
 def poll_groups(operator_class, context, other):

@@ -6,6 +6,7 @@ from typing import Any
 from ...cubic_craft_addon import job, live, mesh_bridge
 from ...cubic_craft_addon.environment.modes import MESSAGE, is_mode_usable
 from ...cubic_craft_addon.environment.requirements import check_known_requirements
+from ...cubic_craft_addon.handles.active import active_handle
 from ...cubic_craft_addon.handles.owner import panel_object, posed_mesh
 from ...cubic_craft_addon.ui import seen
 from ...solver import CubicCraftError
@@ -48,6 +49,36 @@ def poll_panel_mesh(operator_class, context):
         return False
     if panel_mesh(context) is None:
         operator_class.poll_message_set("Select a mesh object first")
+        return False
+    return True
+
+
+def poll_mesh(operator_class, context, modes=("OBJECT",)):
+    """Return whether there is a mesh that can be changed in one of these modes."""
+    if not poll_idle(operator_class):
+        return False
+    if context.mode not in modes:
+        is_edited = "OBJECT" not in modes
+        operator_class.poll_message_set(
+            "Select vertices in Edit Mode first" if is_edited else "Switch to Object Mode first"
+        )
+        return False
+    obj = panel_object(context)
+    if obj is None:
+        operator_class.poll_message_set("Make a mesh object active first")
+        return False
+    if not obj.is_editable:
+        operator_class.poll_message_set("The object is linked from another file; make it local")
+        return False
+    return True
+
+
+def poll_handle(operator_class, context):
+    """Return whether there is an active handle."""
+    if not poll_mesh(operator_class, context):
+        return False
+    if active_handle(panel_object(context)) is None:
+        operator_class.poll_message_set("Add a handle first")
         return False
     return True
 

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from cubic_craft.cubic_craft_addon.read.form import form_of
+from cubic_craft.cubic_craft_addon.form.body import form_of
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 

@@ -2,11 +2,9 @@
 """Start a large mesh from the cubic version of a coarser one.
 
 The iteration moves details at once and the whole only slowly, the more slowly the finer the mesh
-is. On a mesh of an eighth of the vertices an iteration costs an eighth, and fewer are needed;
-its rotations bring the fine mesh so near to its end that 30 iterations do what takes 57 from the
-rest shape (98,722 vertices, cubeness 0.4, to a gap of 1 %). The coarse mesh is started in the same
-way. From one of a sixteenth of the vertices it would be 36 iterations, of 394,882 vertices 94
-instead of 49.
+is. On a mesh of an eighth of the vertices an iteration costs an eighth, and fewer are needed; its
+rotations bring the fine mesh so near to its end that it takes about half of the iterations from the
+rest shape (figures: `docs/benchmarks_explained.md`). The coarse mesh is started in the same way.
 
 The problem has many minima, and this start may lead to another one than the start from rest. No
 part may turn as a whole on a coarse mesh: there it would soon find the orientation in which the

@@ -8,13 +8,14 @@ from typing import NoReturn
 
 from .errors import InputError
 
-__all__ = ("FORMS", "OneLineParser", "number")
+__all__ = ("FORMS", "WITH_SIDES", "OneLineParser", "number")
 
 FORMS = (
     *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
     *("rhombic", "prism", "pyramid", "cylinder", "cone"),
 )
-"""those that need no more than a number of sides or weights"""
+"""those that need no more than a number of sides or weights: the names of `styles.forms.named`"""
+WITH_SIDES = ("prism", "pyramid")
 
 
 class OneLineParser(argparse.ArgumentParser):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
 from .crossings import crossings
 from .gaps import Gaps
@@ -33,10 +34,10 @@ class _State:
 
     count: int
     """of triangles that cross and did not at rest"""
-    pairs: np.ndarray
+    pairs: IntArray
     """(k,2) int of triangles"""
-    U: np.ndarray
-    R: np.ndarray
+    U: FloatArray
+    R: FloatArray
     is_pushed: bool = False
 
 
@@ -76,7 +77,7 @@ class KeepApart:
         if now.count > max(FEW * len(self._shown), FEWEST):
             return True
         self._push(now, stylization)
-        return self._best.count > 0 and not self._rounds
+        return self._best_so_far().count > 0 and not self._rounds
 
     def renewed(self, stylization):
         """Return a Stylization with links against what crosses, from the same state.
@@ -88,6 +89,7 @@ class KeepApart:
             self._gaps = Gaps(self._rest.V, self._rest.normals, self._rest.F)
         U, R = stylization.positions, stylization.rotations
         is_wide = self._rounds > 0  # fewer links have not been enough
+        assert self._now is not None, "there has been no check"
         pairs = self._now.pairs
         found = links_against(self._rest, self._gaps, self._shown, pairs, U, R, is_wide)
         if self._share_linked(pairs, found) < HELPED:
@@ -99,9 +101,10 @@ class KeepApart:
 
     def finish(self, stylization):
         """Go to the best state, and push apart what still crosses there."""
-        if self._best.count and not self._best.is_pushed:
-            self._push(self._best, stylization)
-        best = self._best
+        best = self._best_so_far()
+        if best.count and not best.is_pushed:
+            self._push(best, stylization)
+            best = self._best_so_far()
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
         crossing = self._triangles(best.pairs)
@@ -118,6 +121,10 @@ class KeepApart:
         pairs = state.pairs[~is_moved[state.pairs].any(axis=1)]
         pairs = np.concatenate([pairs, self._new(U, is_moved)])
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
+
+    def _best_so_far(self) -> "_State":
+        assert self._best is not None, "there has been no check"
+        return self._best
 
     def _count(self, pairs):
         return len(np.unique(self._triangles(pairs)))

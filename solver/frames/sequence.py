@@ -32,9 +32,8 @@ from ..values import described, is_same
 STEPS = 12
 """for each frame but the first"""
 FORGOTTEN = 0.85
-"""f. A frame then has 1 to 2 % more energy than it would have alone, as with 0.5. But with 0.5, a
-cloth over a ball hangs only two thirds as far as it would alone, and with 1, what is far from its
-end, such as 41,000 vertices, has 3 % more."""
+"""f. With much less, a cloth over a ball does not hang as far as it would alone, and with 1, large
+meshes have more energy; see `docs/benchmarks_explained.md`."""
 SETTLING = 3
 """How often the first frame is solved like all others, from itself, so that it is like them."""
 _ORTHONORMALIZATIONS = 4

@@ -133,7 +133,7 @@ class _Lengths:
         return min(float(_BINS[min(at, len(_BINS) - 1)]), self.largest)
 
     @property
-    def measures(self):
+    def measures(self) -> tuple[float, float]:
         """The largest, and the 99th percentile."""
         return self.largest, self.percentile(99)
 
@@ -183,8 +183,11 @@ class Motion(Jumps):
         if not self._steps.largest > 0.0:
             return 0.0, 0.0
         unseen = _UNSEEN * float(np.max(self._high - self._low))
-        pairs = zip(super().measures, self._steps.measures, strict=True)
-        return tuple(max(jump, _STEADY * step, unseen) for jump, step in pairs)
+        jumps, steps = super().measures, self._steps.measures
+        largest, percentile = (
+            max(jump, _STEADY * step, unseen) for jump, step in zip(jumps, steps, strict=True)
+        )
+        return largest, percentile
 
 
 def least_width(

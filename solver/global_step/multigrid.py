@@ -4,12 +4,10 @@
 The local-global iteration needs no exact solve: any positive definite matrix above the Laplacian
 makes it descend, and has the same fixed points. One V-cycle of algebraic multigrid by smoothed
 aggregation (Vanek, Mandel and Brezina, 1996) is near enough to the inverse that the iteration takes
-about a third more steps (98,721 vertices, cubeness 0.4: 40 instead of 30 to a gap of 1 %), and its
-set-up takes time and memory in proportion to the mesh: 395 k vertices in a quarter of the time of
-the Cholesky factorisation.
+about a third more steps, and its set-up takes time and memory in proportion to the mesh, which is
+less than the Cholesky factorization takes of large ones (figures: `docs/benchmarks_explained.md`).
 
-With Taichi the cycle runs in its kernels, which need 40 ms of processor time instead of 115
-for 395 k vertices, and 100 instead of 280 for a million; both cores share it.
+With Taichi the cycle runs in its kernels on all cores.
 """
 
 from functools import cached_property

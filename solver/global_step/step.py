@@ -15,8 +15,8 @@ from .no_turning import NoTurning
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
-"""Larger components get multigrid. Of 98,722 vertices its set-up takes a tenth of the factorisation
-but a third more iterations are needed, so a run ends as soon; of 400 k it is four times faster."""
+"""Larger components get multigrid: where a run ends as soon with either, and the more of its time
+is set-up, the larger the mesh is; see `docs/benchmarks_explained.md`."""
 _CYCLES = 4
 """of multigrid, in place of the solution"""
 _POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Products of matrices of many rows and few columns, on one core.
 
-OpenBLAS computes them on all cores. They have next to nothing to compute, and where another program
-uses a core, one of 0.03 ms waits 4 to 10 ms for it, in every iteration. It leaves small ones to one
-core, so here they are cut into blocks. With those, a result has the same bits on any number of
-cores.
+OpenBLAS computes them on all cores. They have next to nothing to compute, but where another program
+uses a core, each waits for it a hundred times as long as it takes, in every iteration. It leaves
+small ones to one core, so here they are cut into blocks. With those, a result has the same bits on
+any number of cores.
 """
 
 import numpy as np

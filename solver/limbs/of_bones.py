@@ -12,6 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from ..aliases import FloatArray, IntArray
 from ..inputs import vectors
 from .limbs import KnownLimbs
 from .turns import smallest_turns
@@ -42,13 +43,13 @@ _LEAST = 1e-6  # sum of weights
 class _Measured(NamedTuple):
     """Of b bones; those that move nothing, or have no length, have the length and width 0."""
 
-    directions: np.ndarray
+    directions: FloatArray
     """(b,3)"""
-    lengths: np.ndarray
+    lengths: FloatArray
     """(b,)"""
-    widths: np.ndarray
+    widths: FloatArray
     """(b,) of a round limb, its diameter"""
-    parents: np.ndarray
+    parents: IntArray
     """(b,) the nearest one that is measured, or -1"""
 
 

@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components, dijkstra
 
+from ..aliases import FloatArray, IntArray
 from .limbs import Limbs, no_limbs
 
 CELL = 0.35
@@ -58,11 +59,11 @@ FEWEST = 6
 class Skeleton(NamedTuple):
     """The nodes, m of them."""
 
-    place: np.ndarray
+    place: FloatArray
     """(m,3)"""
-    thickness: np.ndarray
+    thickness: FloatArray
     """(m,) mean distance of both sides"""
-    node: np.ndarray
+    node: IntArray
     """(n,) int of each vertex, -1 where a part has none"""
     graph: sp.csr_matrix
     """(m,m) lengths between neighbors"""

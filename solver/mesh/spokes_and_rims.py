@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from ..aliases import FloatArray, IntArray
 from ..values import Value
 from .edge_vectors import edge_vectors
 from .edges import Edges, stable_order
@@ -33,15 +34,15 @@ from .edges import Edges, stable_order
 class SpokesAndRims(Value):
     """Rows are vertices, columns their neighbours and themselves; all arrays share one pattern."""
 
-    indptr: np.ndarray
+    indptr: IntArray
     """(n+1,) int32"""
-    indices: np.ndarray
+    indices: IntArray
     """(nnz,) int32, ascending in each row"""
-    laplacian: np.ndarray
+    laplacian: FloatArray
     """(nnz,) L[i,j]"""
-    gather: np.ndarray
+    gather: FloatArray
     """(nnz,3) H_c[i,j] for the local step"""
-    scatter: np.ndarray
+    scatter: FloatArray
     """(nnz,3) H_c[j,i] for the global step"""
 
     def matrix(self, values):

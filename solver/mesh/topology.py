@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from ..aliases import IntArray
 from ..values import Value
 from .components import components
 
@@ -22,12 +23,12 @@ class Topology(Value):
     It is the same for a deformed mesh, and for all frames of an animation.
     """
 
-    F: np.ndarray
+    F: IntArray
     """(m,3) int32 triangles"""
-    part: np.ndarray
+    part: IntArray
     """(n,) int connected part of each vertex, without links"""
     component_count: int
-    component: np.ndarray
+    component: IntArray
     """(n,) int component of each vertex: linked parts are one component"""
 
     def linked(self, pairs):

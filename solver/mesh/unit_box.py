@@ -8,8 +8,7 @@ origin and scaled so that its largest extent is 1.
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from ..aliases import FloatArray
 from ..values import Value
 
 
@@ -17,7 +16,7 @@ from ..values import Value
 class UnitBox(Value):
     """The similarity between the user's coordinates and those of the solver."""
 
-    origin: np.ndarray
+    origin: FloatArray
     """(3,) the corner with the smallest coordinates"""
     size: float
     """largest extent, in the user's unit; 1 where the mesh is a single point"""

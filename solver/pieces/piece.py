@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..aliases import BoolArray, FloatArray, IntArray
 from .bones import Bones
@@ -71,7 +71,7 @@ class Piece:
         """Number of triangles."""
         return len(self.shape.triangles)
 
-    def everywhere(self, values: ArrayLike) -> np.ndarray:
+    def everywhere(self, values: ArrayLike) -> NDArray[Any]:
         """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
         every = np.broadcast_to(values, (self.vertices, *np.shape(values)[1:]))
         return every[self.whole.source]

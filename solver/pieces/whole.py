@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..aliases import BoolArray, FloatArray, IntArray
+from ..aliases import BoolArray, FloatArray, IntArray, RealArray
 from ..symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 from .reflection import Reflection, flip
 
@@ -44,7 +44,7 @@ class Whole:
 
     def __init__(
         self,
-        original: np.ndarray,
+        original: RealArray,
         triangles: IntArray,
         reflections: Sequence[Reflection] = (),
         symmetry: Sequence[bool] = (False, False, False),

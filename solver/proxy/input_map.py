@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..aliases import IntArray
 from ..values import Value
 
 
@@ -17,15 +18,15 @@ class InputMap(Value):
     reordered.
     """
 
-    group: np.ndarray
+    group: IntArray
     """(N,) int welded vertex of each vertex of the input; -1 for loose ones"""
-    first: np.ndarray
+    first: IntArray
     """(w,) int vertex of the input that gives each welded vertex its position"""
-    parents: np.ndarray
+    parents: IntArray
     """(n-w,2) int the two earlier vertices that each midpoint lies between"""
-    rounds: np.ndarray
+    rounds: IntArray
     """(r+1,) int index in `parents` where each round of midpoints begins, and the end"""
-    order: np.ndarray | None = None
+    order: IntArray | None = None
     """(n,) int index of each solved vertex among them; None for the same order"""
 
     def ordered(self, order):

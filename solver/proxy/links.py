@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..aliases import FloatArray, IntArray
 from ..values import Value
 
 
@@ -25,11 +26,11 @@ from ..values import Value
 class Links(Value):
     """`k` links between up to four vertices each; unused ones have the coefficient 0."""
 
-    vertices: np.ndarray
+    vertices: IntArray
     """(k,4) int"""
-    coefficients: np.ndarray
+    coefficients: FloatArray
     """(k,4) float64, each row sums to 0"""
-    weights: np.ndarray
+    weights: FloatArray
     """(k,4) float64 weight of the rotation at each vertex, not negative"""
 
     def __len__(self):

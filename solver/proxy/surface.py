@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
 from ..mesh.unit_box import UnitBox, unit_box
 from ..mesh.vertex_order import vertex_order
@@ -19,9 +20,9 @@ class Surface:
 
     input_map: InputMap
     box: UnitBox
-    V: np.ndarray
+    V: FloatArray
     """(n,3) float64 rest positions in the unit box"""
-    F: np.ndarray
+    F: IntArray
     """(m,3) int32 triangles"""
 
 

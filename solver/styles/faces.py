@@ -12,24 +12,27 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..aliases import FloatArray, IntArray
+from .polytope import Polytope
+
 
 class FaceArrays(NamedTuple):
     """One row per face (k of them), and one row per link from a face to one next to it."""
 
-    points: np.ndarray
+    points: FloatArray
     """(k,3) the vertex, the first end of the edge, the foot point of the facet"""
-    axes: np.ndarray
+    axes: FloatArray
     """(k,3) zero, unit direction of the edge, normal of the facet"""
-    lengths: np.ndarray
+    lengths: FloatArray
     """(k,) zero, length of the edge, zero"""
-    vertices: np.ndarray
+    vertices: IntArray
     """(k,2) int, the vertices of the body: from, and up to but without"""
-    links: np.ndarray
+    links: IntArray
     """(k,2) int, the links of the face: from, and up to but without"""
-    targets: np.ndarray
+    targets: IntArray
     """(l,) int, the face that a link leads to: from a vertex and from a facet to edges, from an
     edge to its facets"""
-    ways: np.ndarray
+    ways: FloatArray
     """(l,3) unit vectors: along the edge from its vertex; from an edge into the facet, whichever of
     the two the link belongs to"""
 
@@ -48,14 +51,14 @@ class Faces:
     """number of the first edge: how many vertices there are"""
     facet_start: int
     """number of the first facet"""
-    edge_ends: np.ndarray
+    edge_ends: IntArray
     """(e,2) int, the vertices of each edge"""
-    between: np.ndarray
+    between: IntArray
     """(b,) int, for each vertex and all vertices of its body, the edge or the facet that both
     share; where there is none, the other vertex"""
-    between_start: np.ndarray
+    between_start: IntArray
     """(v,) int, where in `between` those of a vertex begin"""
-    bodies: tuple
+    bodies: tuple[Polytope, ...]
 
     def ends_of(self, edge):
         """Return the two vertices of edges (n,)."""

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The forms that have names.
 
-Each is given by the directions that its sides face, all equally far from the origin. Where nothing
-else is asked for, the cube's local step has code of its own, which is faster.
+Each is given by the directions that its sides face, all equally far from the origin. So all are
+convex: a star or an hourglass would be its convex hull. Where nothing else is asked for, the cube's
+local step has code of its own, which is faster.
 """
 
 import itertools
+from collections.abc import Sequence
 from functools import cache, partial
 
 import numpy as np
@@ -106,6 +108,46 @@ def cylinder() -> Polytope:
 def cone() -> Polytope:
     """Return a pyramid with so many sides that nobody sees them."""
     return pyramid(ROUND)
+
+
+PLAIN = {
+    "rounded": rounded_cube,
+    "octahedron": octahedron,
+    "tetrahedron": tetrahedron,
+    "dodecahedron": dodecahedron,
+    "icosahedron": icosahedron,
+    "rhombic": rhombic_dodecahedron,
+    "cylinder": cylinder,
+    "cone": cone,
+}
+"""forms without settings by their names"""
+WITH_SIDES = {"prism": prism, "pyramid": pyramid}
+"""forms with a number of sides"""
+
+
+def named(name: str, sides: int, weights: Sequence[float]) -> Polytope | None:
+    """Return the form of a name, None for the cube.
+
+    Parameters
+    ----------
+    name : str
+        "cube", "box", or one of `PLAIN` and `WITH_SIDES`.
+    sides : int
+        Of a form with sides.
+    weights : sequence of 3 floats
+        Of a box.
+
+    Examples
+    --------
+    >>> from solver.styles.forms import named
+    >>> len(named("prism", 5, (1.0, 1.0, 1.0)).normals)
+    7
+    """
+    if name == "cube":
+        return None
+    if name == "box":
+        return None if all(weight == 1.0 for weight in weights) else box(weights)
+    return WITH_SIDES[name](sides) if name in WITH_SIDES else PLAIN[name]()
 
 
 def _signs(count):

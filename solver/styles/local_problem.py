@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..algebra import columns, from_columns, product, take, times, trace
+from ..aliases import FloatArray
 from .cube import CUBE
 
 BETTER = 1e-9
@@ -21,17 +22,17 @@ class LocalProblem:
     of S, as mu n t', and costs nothing more to minimise.
     """
 
-    S: np.ndarray
+    S: FloatArray
     """(n,3,3) covariances, divided by the vertex areas, and mu n t'"""
-    normals: np.ndarray
+    normals: FloatArray
     """(n,3) unit normals, or zero where `lam` is"""
-    Q: np.ndarray
+    Q: FloatArray
     """(n,3,3) or (1,3,3) orientations of the form"""
-    lam: np.ndarray
+    lam: FloatArray
     """(n,) cubeness"""
     form: Any = CUBE
     """Cube or Polytopes: what the costs h are"""
-    captured: np.ndarray | None = None
+    captured: FloatArray | None = None
     """(n,4) t and mu, both zero where nothing is captured; None for nowhere"""
 
     def part(self, rows):

@@ -52,7 +52,7 @@ def test():
     before = scene.positions(HAT)
     yield from gui.open_sidebar("Cubic Craft")
     yield from make_narrow()
-    shown = importlib.import_module(f"{scene.EXTENSION}.cubic_craft_addon.ui.worn")
+    shown = importlib.import_module(f"{scene.EXTENSION}.cubic_craft_addon.worn.panel")
     monkey, hat = (bpy.data.objects[name] for name in (scene.NAME, HAT))
     known = shown._worn._known.values()  # to ask would put off that it is looked for
     yield from gui.wait_until(lambda: any(names == (HAT,) for _, names in known), what="the hint")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from headless import PATIENCE
 from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import OF_FILE
-from scripts.cubic_craft.cubic_craft_addon.settings.forms import FORMS
+from scripts.cubic_craft.cubic_craft_addon.form.names import FORMS
 
 from solver import PAPER, ProxyOptions
 from solver.console import options

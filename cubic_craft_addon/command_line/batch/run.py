@@ -16,7 +16,7 @@ from ....solver.console.errors import InputError
 from ..process.one_line import one_line
 from ..process.output_files import check_writable, replacing, write_json
 from ..process.progress import ProgressBar
-from ..trust.links import refuse_links
+from ..trust.symlinks import refuse_links
 from .engine import results_of, workers_for
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources

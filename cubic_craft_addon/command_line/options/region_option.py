@@ -5,9 +5,9 @@ import argparse
 import re
 from typing import NamedTuple
 
-__all__ = ("GivenRegion", "region_of", "region_option")
+from ....solver.console.options import WITH_SIDES
 
-_WITH_SIDES = ("prism", "pyramid")
+__all__ = ("GivenRegion", "region_of", "region_option")
 
 
 class GivenRegion(NamedTuple):
@@ -32,7 +32,7 @@ def region_of(text: str) -> GivenRegion:
     if not group or not found:
         raise ValueError
     name, sides = found[1], int(found[2] or 6)
-    if (found[2] and name not in _WITH_SIDES) or not 3 <= sides <= 64:
+    if (found[2] and name not in WITH_SIDES) or not 3 <= sides <= 64:
         raise ValueError
     value = float(cubeness)
     if not 0.0 <= value <= 10.0:

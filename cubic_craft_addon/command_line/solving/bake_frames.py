@@ -22,7 +22,7 @@ from ..process.output_files import replacing
 from ..process.progress import ProgressBar
 from ..process.quiet import captured
 from ..reading.load_meshes import Loaded
-from ..trust.links import refuse_links_in
+from ..trust.symlinks import refuse_links_in
 from .cubify_all import check_groups, settings_of_object
 from .pose import handles_of_all
 

@@ -12,6 +12,7 @@ from ....solver import Progress
 from ....solver.console.errors import InputError
 from ...handles import Handle
 from ...read.member import Member, assemblies, read_member
+from ...regions.region import Region
 from ...run.pipeline import (
     MemberProblem,
     Solution,
@@ -21,7 +22,6 @@ from ...run.pipeline import (
     solve,
     with_cubeness,
 )
-from ...settings.region import Region
 from ...settings.values import Settings
 from ..options.region_option import region_of
 from ..process.progress import ProgressBar

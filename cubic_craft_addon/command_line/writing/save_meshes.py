@@ -163,21 +163,32 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
 
 
 def _exporter(path: Path) -> Callable[..., Any]:
-    suffix = path.suffix.lower()
-    if suffix == ".ply":
-        # A .ply knows one UV per vertex: seams would split vertices.
-        return partial(
-            operator("wm.ply_export", path),
-            export_selected_objects=True,
-            apply_modifiers=False,
-            export_uv=False,
-        )
-    if suffix == ".abc":
-        return partial(operator("wm.alembic_export", path), selected=True, start=1, end=1)
+    return _EXPORTERS[path.suffix.lower()](path)
+
+
+def _ply_exporter(path: Path) -> Callable[..., Any]:
+    # A .ply knows one UV per vertex: seams would split vertices.
+    options = {"export_selected_objects": True, "apply_modifiers": False, "export_uv": False}
+    return partial(operator("wm.ply_export", path), **options)
+
+
+def _alembic_exporter(path: Path) -> Callable[..., Any]:
+    return partial(operator("wm.alembic_export", path), selected=True, start=1, end=1)
+
+
+def _usd_exporter(path: Path) -> Callable[..., Any]:
     usd_export: Any = operator("wm.usd_export", path)
     wanted = {"convert_world_material": False}
-    if suffix != ".usdz":
+    if path.suffix.lower() != ".usdz":
         wanted |= {"export_textures_mode": "KEEP"}  # no folder of textures beside the file
     known = usd_export.get_rna_type().properties
     options = {name: value for name, value in wanted.items() if name in known}
     return partial(usd_export, selected_objects_only=True, **options)
+
+
+_EXPORTERS = {
+    ".ply": _ply_exporter,
+    ".abc": _alembic_exporter,
+    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), _usd_exporter),
+}
+"""by the suffix of the file, but for .obj and .blend"""

@@ -77,8 +77,8 @@ def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarra
 def has_original(mesh: bpy.types.Mesh | None) -> bool:
     """Return whether the mesh holds a result of ours that `restore` can undo.
 
-    It compares the positions (2 ms per 100 000 vertices, more where they have changed). False where
-    there is no mesh, or one that cannot be read, as in Edit Mode.
+    It compares the positions. False where there is no mesh, or one that cannot be read, as in Edit
+    Mode.
     """
     if not isinstance(mesh, bpy.types.Mesh) or mesh.is_editmode:
         return False

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The section "Animation" of the panel."""
+
+import re
+from typing import Any
+
+import bpy
+
+from .. import live
+from ..environment.curves import animated_paths
+from ..object_properties import PROPERTY, object_properties
+from ..screen.text_fit import room_for_text, wrapped
+from ..ui import job_progress
+from .properties import bake_properties, source_of
+
+SECTION = "CUBIC_CRAFT_PT_animation"
+_BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
+
+
+_SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
+_BOX = 2.0  # widths of an icon that a box and its icon take from a line
+
+
+def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None:
+    """Say that a change of the frame does not move the mesh, if settings are animated."""
+    names = animated_settings(obj)
+    if not names or source_of(obj) != obj:
+        return
+    column = layout.box().column()
+    lines = column.column(align=True)
+    icon = "INFO"
+    are, them = ("is", "it") if len(names) == 1 else ("are", "them")
+    text = f"{', '.join(names)} {are} animated: Cubify Animation bakes {them}"
+    for line in wrapped(text, room_for_text(context, _BOX)):
+        lines.label(text=line, icon=icon)
+        icon = "BLANK1"
+    row = column.row()
+    row.enabled = live.current() is None
+    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
+
+
+def animated_settings(obj: bpy.types.Object) -> list[str]:
+    """Return the labels of the settings that keyframes or drivers change."""
+    found = (_SETTING.match(path) for path in animated_paths(obj))
+    known = object_properties(obj).bl_rna.properties
+    names = (known[match[1]].name for match in found if match and match[1] in known)
+    return list(dict.fromkeys(names))
+
+
+def draw(layout, obj):
+    """Draw the section for a mesh object."""
+    scene = bpy.context.scene
+    properties = bake_properties(scene)
+    source = source_of(obj)
+    if source != obj:
+        layout.label(text=f"Baked from {source.name}", icon="ACTION")
+    layout.prop(properties, "use_range")
+    if properties.use_range:
+        column = layout.column(align=True)
+        column.prop(properties, "frame_start")
+        column.prop(properties, "frame_end")
+    layout.prop(properties, "format")
+    layout.prop(properties, "folder")
+    row = layout.row()
+    row.enabled = live.current() is None
+    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
+    layout.prop(properties, "process_from")
+    row = layout.row()
+    row.enabled = live.current() is None
+    job_progress.operator(row, "cubic_craft.bake_process", text="Bake Process", icon="MOD_TIME")

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings with which the objects of an animation are cubified."""
+
+from collections.abc import Sequence
+
+import bpy
+
+from ..object_properties import has_properties, object_properties
+from ..settings.overrides import OF_EACH_OBJECT, SettingsOverrides, asked_for, values_of
+from ..settings.values import Settings
+
+
+class OfSources:
+    """The settings of some objects, read anew in each frame: they may be animated."""
+
+    def __init__(self, sources: Sequence[bpy.types.Object]):
+        self._sources = sources
+
+    def settings_for(self, obj: bpy.types.Object) -> Settings:
+        """Return those of one of the objects, in the present frame."""
+        return overrides_of(self._sources).settings_for(obj)
+
+
+def overrides_of(
+    sources: Sequence[bpy.types.Object], *, is_for_all: bool = False
+) -> SettingsOverrides:
+    """Return the settings of the first object for all, except those that belong to each mesh.
+
+    A single object has its own settings, unless others have them, too.
+    """
+    first = sources[0]
+    if not is_for_all and not has_properties(first):
+        return SettingsOverrides({})
+    properties = object_properties(first)
+    values = values_of(properties)
+    is_for_all = is_for_all or len(sources) > 1
+    if is_for_all:
+        values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
+    pointers = {name: getattr(properties, name) for name in asked_for(values)}
+    return SettingsOverrides(values if is_for_all else {}, pointers)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The form of the settings, as a body for the solver."""
+
+from __future__ import annotations  # the solver is loaded when it is needed, not for its names
+
+from functools import lru_cache
+
+import bpy
+import numpy as np
+
+from ... import solver
+from ...solver import CubicCraftError
+from ...solver.styles import forms
+from ...solver.styles.clusters import directions_of, enclosing
+from ...solver.styles.hulls import simple_hull
+from ...solver.styles.polytope import Polytope, from_directions
+from .. import mesh_bridge
+from ..environment.object_cache import kept, once
+from ..environment.requirements import check_requirements
+from .direction_text import read_directions
+from .names import OF_OBJECT
+from .settings import FormSettings, check_directions, check_form_object
+
+MOST_DIRECTIONS = 64
+"""of a form from another object, or from selected faces"""
+
+
+def form_of(settings: FormSettings) -> Polytope | None:
+    """Return the form, None for the cube.
+
+    The same settings give the same object, so that forms can be compared by identity.
+
+    Raises
+    ------
+    CubicCraftError
+        The form is that of another object which is not set or cannot be used, or that of faces
+        of which none were picked.
+    """
+    if settings.form != "CUBE":
+        check_requirements()
+    if settings.form in OF_OBJECT:
+        return _of_object(settings)
+    if settings.form == "FACES":
+        check_directions(settings.form, settings.form_directions)
+        return _picked(settings.form_directions)
+    return _named(settings.form, settings.form_sides, settings.form_weights)
+
+
+@lru_cache(maxsize=64)
+def _named(name, sides, weights):
+    return forms.named(name.lower(), sides, weights)
+
+
+@lru_cache(maxsize=64)
+def _picked(text):
+    directions = enclosing(read_directions(text))
+    if len(directions) > MOST_DIRECTIONS:
+        raise CubicCraftError(
+            f"the form has {len(directions)} directions; give at most {MOST_DIRECTIONS}"
+        )
+    return from_directions(directions)
+
+
+def _of_object(settings):
+    obj = settings.form_object
+    check_form_object(settings.form, obj)
+    bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
+    linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+    what = (settings.form, linear.tobytes())
+    return kept(obj, what, lambda: _made_of(obj, settings.form, linear))
+
+
+def _made_of(obj, form, linear):
+    points, triangles = mesh_bridge.read_evaluated(obj)
+    points = points @ linear.T  # in the axes of the world, about the object's origin
+    try:
+        if form == "OBJECT":
+            return once(_hull, points)
+        areas, normals = solver.triangle_areas_and_normals(points, triangles)
+        normals *= np.sign(np.linalg.det(linear))
+        return once(_facing, normals, areas)
+    except CubicCraftError as error:
+        raise CubicCraftError(f'"{obj.name}" gives no form: {error}') from error
+
+
+def _hull(points):
+    return simple_hull(points, MOST_DIRECTIONS)
+
+
+def _facing(normals, areas):
+    return from_directions(directions_of(normals, areas, MOST_DIRECTIONS))

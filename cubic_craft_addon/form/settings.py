@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of the form as plain values, and what is wrong with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from ...solver.errors import CubicCraftError
+from .names import OF_OBJECT
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormSettings:
+    """What the surface of an object, or of a region, is turned toward, and how strongly.
+
+    The defaults are those of the panel.
+    """
+
+    cubeness: float = 0.4
+    form: str = "CUBE"
+    """what a ball would become: one of `names.FORMS`"""
+    form_sides: int = 6
+    """of a prism or pyramid"""
+    form_weights: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    """of the axes of a box"""
+    form_object: bpy.types.Object | None = None
+    """the object that an OBJECT or DIRECTIONS form is made from"""
+    capture_object: bpy.types.Object | None = None
+    """the ball whose normals say which way surfaces should face"""
+    capture_strength: float = 0.4
+    """of its normals, beside the cubeness"""
+    form_directions: str = ""
+    """of the sides of a form of FACES, in its own axes, see `direction_text`"""
+    orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Euler XYZ angles in radians"""
+
+
+def check_form_object(
+    form: str, form_object: bpy.types.Object | None, whose: str = "the form"
+) -> None:
+    """Refuse a form that is to be made from another object if none is set.
+
+    Raises
+    ------
+    CubicCraftError
+        None is set.
+    """
+    if form in OF_OBJECT and form_object is None:
+        raise CubicCraftError(f"no object is set for {whose}; pick one or choose another form")
+
+
+def check_directions(form: str, form_directions: str) -> None:
+    """Refuse a form of faces if none were picked.
+
+    Raises
+    ------
+    CubicCraftError
+        None were picked.
+    """
+    if form == "FACES" and not form_directions.strip():
+        raise CubicCraftError(
+            "no faces were picked for the form; select some in Edit Mode and click Use"
+            " Selection, or choose another form"
+        )

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The empty that is made for a handle to follow."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .. import mesh_bridge
+from ..object_properties import object_properties
+from .active import members
+
+_MARGIN = 1.1  # size of the empty relative to the vertices it moves
+_SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
+
+
+def add_empty(context: bpy.types.Context, obj: Any, handle: Any) -> bpy.types.Object:
+    """Return a new empty around the vertices of a handle, as they are seen.
+
+    Raises
+    ------
+    CubicCraftError
+        The handle has no vertices.
+    """
+    is_member = members(obj, handle)
+    shown = _shown_positions(context, obj)
+    held = shown[is_member]
+    empty = bpy.data.objects.new(f"{obj.name} {handle.group}", None)
+    object_properties(empty).is_made_target = True
+    low, high = held.min(axis=0), held.max(axis=0)
+    radius = max(
+        float((high - low).max()) / 2 * _MARGIN, float(np.ptp(shown, axis=0).max()) * _SMALLEST
+    )
+    empty.empty_display_type = "SPHERE"
+    empty.empty_display_size = radius
+    empty.show_in_front = True  # otherwise the mesh would hide it
+    empty.parent = obj  # without an inverse: its own location is in the object's coordinates
+    empty.location = (low + high) / 2
+    collections = [c for c in obj.users_collection if c.is_editable]
+    for collection in collections or [context.scene.collection]:
+        collection.objects.link(empty)
+    return empty
+
+
+def is_ours_alone(target: bpy.types.Object):
+    """Return whether we made the object and only collections and scenes still use it."""
+    if not object_properties(target).is_made_target or target.library is not None:
+        return False
+    users = bpy.data.user_map(subset=[target])[target]
+    return all(isinstance(user, (bpy.types.Collection, bpy.types.Scene)) for user in users)
+
+
+def _shown_positions(context, obj):
+    """Return the visible positions (n,3), if the modifiers keep the vertices."""
+    count = len(obj.data.vertices)
+    seen = obj.evaluated_get(context.evaluated_depsgraph_get()).data
+    if len(seen.vertices) != count:
+        return mesh_bridge.read_positions(obj.data).astype(np.float64)
+    positions = np.empty(3 * count, dtype=np.float32)
+    seen.vertices.foreach_get("co", positions)
+    return positions.reshape(-1, 3).astype(np.float64)

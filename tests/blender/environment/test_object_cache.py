@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is made from other objects is kept while nothing changes, and never longer."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from scene import add_monkey, cubify, select
+from solids import add_solid
+
+
+@pytest.fixture
+def cache(part):
+    module = part("environment.object_cache")
+    module._kept.clear()
+    yield module
+    module._kept.clear()
+
+
+@pytest.fixture
+def counted(part, monkeypatch):
+    """Return a list that grows when an object's mesh is read."""
+    bridge, reads = part("mesh_bridge"), []
+    read = bridge.read_evaluated
+    monkeypatch.setattr(bridge, "read_evaluated", lambda obj: reads.append(obj.name) or read(obj))
+    return reads
+
+
+@pytest.fixture
+def body(part):
+    """Return a function that returns the form of the monkey as numbers."""
+    settings_of, form_of = part("settings.properties").settings_of, part("form.body").form_of
+
+    def sides():
+        form = form_of(settings_of(bpy.data.objects["Suzanne"]))
+        return form.normals * form.offsets[:, None]
+
+    return sides
+
+
+def prepare(kind="OBJECT"):
+    """Add the monkey and a gem that is its form, both seen."""
+    gem = add_solid("cone", "Gem", location=(9, 0, 0))
+    monkey = add_monkey()
+    monkey.cubic_craft.form, monkey.cubic_craft.form_object = kind, gem
+    return gem
+
+
+def stretch(mesh):
+    for vertex in mesh.vertices:
+        vertex.co.z *= 2.0 if vertex.co.z > 0 else 1.0
+
+
+def edit_vertices(gem):
+    stretch(gem.data)
+    gem.data.update()
+
+
+def edit_by_transform(gem):
+    gem.data.transform(Matrix.Diagonal((1, 1, 3, 1)))
+    gem.data.update()
+
+
+def in_edit_mode(gem):
+    bpy.context.view_layer.objects.active = gem
+    bpy.ops.object.mode_set(mode="EDIT")
+    edited = bmesh.from_edit_mesh(gem.data)
+    bmesh.ops.scale(edited, vec=(1, 1, 3), verts=edited.verts)
+    bmesh.update_edit_mesh(gem.data)
+
+
+def turn(gem):
+    gem.rotation_euler = (0.3, 0.4, 0.5)
+
+
+def turn_by_parent(gem):
+    empty = bpy.data.objects.new("Parent", None)
+    bpy.context.collection.objects.link(empty)
+    gem.parent = empty
+    bpy.context.view_layer.update()
+    empty.scale = (1, 2, 3)
+
+
+def add_modifier(gem):
+    modifier = gem.modifiers.new("Cast", "CAST")
+    modifier.cast_type, modifier.factor = "CUBOID", 0.9
+
+
+def change_data(gem):
+    mesh = gem.data.copy()
+    stretch(mesh)
+    gem.data = mesh
+
+
+def edit_through_another_user(gem):
+    other = bpy.data.objects.new("Other", gem.data)
+    bpy.context.collection.objects.link(other)
+    edit_vertices(other)
+
+
+CHANGES = (
+    *(edit_vertices, edit_by_transform, in_edit_mode, turn, turn_by_parent, add_modifier),
+    *(change_data, edit_through_another_user),
+)
+
+
+@pytest.fixture(autouse=True)
+def object_mode():
+    yield
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def check_is_new(cache, body, before):
+    """Check that the form is another one: the one that is made without what was kept."""
+    found = body()
+    assert found.shape != before.shape or np.abs(found - before).max() > 1e-3
+    cache._kept.clear()
+    np.testing.assert_array_equal(found, body())
+
+
+@pytest.mark.parametrize("kind", ["OBJECT", "DIRECTIONS"])
+@pytest.mark.parametrize("change", CHANGES)
+def test_each_change_is_seen_and_nothing_is_read_twice(cache, counted, body, change, kind):
+    gem = prepare(kind)
+    before = body()
+    reads = len(counted)
+    for _ in range(3):
+        np.testing.assert_array_equal(body(), before)
+    assert len(counted) == reads == 1
+    change(gem)
+    check_is_new(cache, body, before)
+
+
+def test_what_a_modifier_depends_on_is_seen(cache, body):
+    gem = prepare()
+    hook = bpy.data.objects.new("Hook", None)
+    bpy.context.collection.objects.link(hook)
+    modifier = gem.modifiers.new("Cast", "CAST")
+    modifier.object, modifier.factor = hook, 0.5
+    bpy.context.view_layer.update()
+    before = body()
+    hook.location = gem.location + gem.location.normalized() * 0.4
+    check_is_new(cache, body, before)
+    before = body()
+    modifier.factor = 1.0
+    check_is_new(cache, body, before)
+
+
+def test_shape_keys_and_frames_are_seen(cache, body):
+    gem = prepare()
+    gem.shape_key_add(name="Basis")
+    key = gem.shape_key_add(name="High")
+    for point in key.data:
+        point.co.z *= 3.0 if point.co.z > 0 else 1.0
+    key.value = 0.0
+    before = body()
+    key.value = 1.0
+    check_is_new(cache, body, before)
+    key.keyframe_insert("value", frame=1)
+    key.value = 0.2
+    key.keyframe_insert("value", frame=10)
+    bpy.context.scene.frame_set(1)
+    before = body()
+    bpy.context.scene.frame_set(10)
+    check_is_new(cache, body, before)
+
+
+def test_undo_and_redo_are_seen(cache, body):
+    gem = prepare()
+    bpy.ops.ed.undo_push(message="Before")
+    before = body()
+    edit_vertices(gem)
+    bpy.ops.ed.undo_push(message="Edit")
+    after = body()
+    bpy.ops.ed.undo()
+    np.testing.assert_array_equal(body(), before)
+    bpy.ops.ed.redo()
+    np.testing.assert_array_equal(body(), after)
+
+
+def test_another_file_is_another_form(cache, body, reopen):
+    prepare()
+    before = body()
+    reopen("Suzanne")
+    assert not cache._kept
+    edit_vertices(bpy.data.objects["Gem"])
+    check_is_new(cache, body, before)
+
+
+def test_an_object_in_no_scene_is_read_each_time(cache, counted, body):
+    gem = prepare()
+    bpy.context.collection.objects.unlink(gem)
+    body()
+    gem.data.transform(Matrix.Diagonal((1, 1, 3, 1)))
+    before = len(counted)
+    body()
+    assert len(counted) == before + 1 and not cache._kept
+
+
+def test_a_hidden_object_is_read_each_time(cache, counted, body):
+    gem = prepare()
+    gem.hide_set(True)
+    before = len(counted)
+    body()
+    body()
+    assert len(counted) == before + 2 and not cache._kept
+
+
+def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch):
+    prepare()
+    bpy.app.handlers.depsgraph_update_post.remove(cache._on_update)
+    try:
+        body()
+        body()
+        assert len(counted) == 2 and not cache._kept
+    finally:
+        bpy.app.handlers.depsgraph_update_post.append(cache._on_update)
+
+
+def test_few_forms_are_kept(cache, body):
+    gem = prepare()
+    for k in range(40):
+        gem.scale.z = 1.0 + k / 10
+        bpy.context.view_layer.update()
+        body()
+    assert 0 < len(cache._kept) <= cache._MOST
+
+
+def add_capture():
+    """Add the monkey and a stretched ball that is its normal capture."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, location=(9, 0, 0))
+    ball = bpy.context.object
+    ball.data.transform(Matrix.Diagonal((1, 1, 2, 1)))
+    monkey = add_monkey()
+    monkey.cubic_craft.capture_object = ball
+    return monkey, ball
+
+
+def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache, counted, part):
+    settings_of = part("settings.properties").settings_of
+    capture_of, note_of = (
+        part("form.normal_capture").capture_of,
+        part("form.normal_capture").note_of,
+    )
+    monkey, ball = add_capture()
+
+    def look():
+        settings = settings_of(monkey)
+        return capture_of(monkey, settings), note_of(settings)
+
+    first = look()
+    assert look() == first and look() == first
+    assert len(counted) == 2
+    stretch(ball.data)
+    ball.data.update()
+    again = look()
+    assert again[0] is not first[0] and again[1] != first[1]
+    assert len(counted) == 4
+    ball.rotation_euler.x = 0.5
+    assert look()[0] is not again[0]
+
+
+def test_a_capture_is_another_one_once_its_ball_is_cubified_and_when_it_is_applied(cache, part):
+    settings_of = part("settings.properties").settings_of
+    capture_of = part("form.normal_capture").capture_of
+    monkey, ball = add_capture()
+    before = capture_of(monkey, settings_of(monkey))
+    select(ball)
+    cubify(max_iterations=20, refine="OFF")
+    cubic = capture_of(monkey, settings_of(monkey))
+    assert cubic is not before
+    bpy.ops.cubic_craft.apply()
+    assert capture_of(monkey, settings_of(monkey)).key != cubic.key

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Forms in Blender: each by its name, of another object, followed live, mirrored and restored."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from lumps import FLIP_X, add_lump, partner_of
+from mathutils import Euler, Matrix
+from rich_mesh import position_of
+from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
+from solids import add_solid, share_facing
+
+NAMES = (
+    *(
+        "CUBE",
+        "BOX",
+        "ROUNDED",
+        "OCTAHEDRON",
+        "TETRAHEDRON",
+        "DODECAHEDRON",
+        "ICOSAHEDRON",
+        "RHOMBIC",
+    ),
+    *("PRISM", "PYRAMID", "CYLINDER", "CONE", "OBJECT", "DIRECTIONS"),
+)
+OPTIONS = {"refine": "OFF", "max_iterations": 200}
+
+
+@pytest.fixture
+def body_of(part):
+    """Return a function that returns the form of an object."""
+    settings_of, form_of = part("settings.properties").settings_of, part("form.body").form_of
+    return lambda obj: form_of(settings_of(obj))
+
+
+@pytest.mark.thorough(4)
+@pytest.mark.parametrize("name", NAMES)
+def test_the_surface_turns_to_the_sides_and_comes_back(body_of, name):
+    form = add_solid("cone", location=(9, 0, 0))
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    ball = bpy.context.object
+    before = bits(ball)
+    ball.cubic_craft.form, ball.cubic_craft.form_object = name, form
+    body = body_of(ball)
+    assert (body is None) == (name == "CUBE" or name == "BOX")  # a box of equal sides is the cube
+    normals = np.concatenate([np.eye(3), -np.eye(3)]) if body is None else body.normals
+    was = share_facing(ball, normals)
+    cubify(cubeness=1.0, solidity=0.0, **OPTIONS)
+    assert share_facing(ball, normals) > max(was + 0.1, 0.6)
+    bpy.ops.cubic_craft.restore()
+    assert bits(ball) == before
+
+
+def test_a_cube_as_an_object_is_the_cube():
+    one, other = add_triangles(), add_triangles()
+    form = add_solid("cube", location=(9, 0, 0))
+    select(one)
+    cubify(**OPTIONS)
+    select(other)
+    cubify(form="OBJECT", form_object=form.name, **OPTIONS)
+    assert other.cubic_craft.form == "OBJECT" and other.cubic_craft.form_object == form
+    np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=2e-5)
+    form.rotation_euler.z = 0.5
+    bpy.context.view_layer.update()
+    cubify(form="OBJECT", form_object=form.name, **OPTIONS)
+    select(one)
+    cubify(orientation=(0, 0, 0.5), **OPTIONS)
+    np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-3)
+
+
+def test_a_box_of_equal_sides_is_the_cube_for_a_mirrored_object_too():
+    shapes = []
+    for form in ("CUBE", "BOX"):
+        obj = add_triangles()
+        obj.scale.x, obj.rotation_euler = -1.0, (0.3, 0.4, 0.5)
+        bpy.context.view_layer.update()
+        cubify(form=form, **OPTIONS)
+        shapes.append(bits(obj))
+    assert shapes[0] == shapes[1]
+
+
+def test_directions_of_half_a_box_are_completed(body_of):
+    ball = add_triangles()
+    ball.cubic_craft.form, ball.cubic_craft.form_object = "DIRECTIONS", add_solid("plane")
+    body = body_of(ball)
+    assert len(body.normals) == 6
+    assert np.abs(body.normals @ [0, 0, 1]).max() == pytest.approx(1.0)
+
+
+def test_of_a_ball_few_directions_are_taken(part, body_of):
+    monkey = add_monkey()
+    monkey.cubic_craft.form, monkey.cubic_craft.form_object = "OBJECT", add_solid("ball")
+    assert 20 <= len(body_of(monkey).normals) <= part("form.body").MOST_DIRECTIONS
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: "", "no object is set for the form"),
+        (lambda: "Nobody", 'no object "Nobody"; pick another form object'),
+        (lambda: add_empty("Nothing").name, '"Nothing" has no surface'),
+        (lambda: add_solid("plane").name, '"Form" gives no form: a form needs at least four'),
+    ],
+)
+def test_what_gives_no_form_is_said(make, words):
+    name, monkey = make(), add_monkey()
+    before = bits(monkey)
+    with pytest.raises(RuntimeError, match=words):
+        cubify(form="OBJECT", form_object=name)
+    assert bits(monkey) == before
+
+
+def test_an_origin_outside_is_said():
+    form, monkey = add_solid("cube"), add_monkey()
+    form.data.transform(Matrix.Translation((3, 0, 0)))
+    with pytest.raises(RuntimeError, match="the origin of the form must lie inside"):
+        cubify(form="OBJECT", form_object=form.name)
+    assert not monkey.cubic_craft.status
+
+
+def test_live_follows_the_object_while_it_is_edited(live, begin):
+    obj, form = add_triangles(), add_solid("cone", location=(9, 0, 0))
+    session = begin(obj, form="OBJECT", form_object=form)
+    assert live.live_properties().form_object == form.name
+    tick_to_rest(session)
+    before = bits(obj)
+    for vertex in form.data.vertices:
+        vertex.co.z *= 2.0 if vertex.co.z > 0.5 else 1.0
+    form.data.update()
+    tick_to_rest(session)
+    edited = bits(obj)
+    assert edited != before
+    form.rotation_euler.x = 0.4
+    tick_to_rest(session)
+    assert bits(obj) != edited
+    live.live_properties().form = "DODECAHEDRON"
+    tick_to_rest(session)
+    confirm(live, session)
+    assert obj.cubic_craft.form == "DODECAHEDRON"
+    check_same_as_cubify(obj)
+
+
+def test_the_object_may_be_deleted_in_live(live, begin):
+    obj, form = add_triangles(), add_solid("cone")
+    session = tick_to_rest(begin(obj, form="OBJECT", form_object=form))
+    bpy.data.objects.remove(form)
+    live.live_properties().cubeness = 0.5
+    tick_to_rest(session)
+    assert "Form" in session.all_problems[0]
+    live.live_properties().form = "PRISM"
+    confirm(live, session)
+    assert session.written.summary
+
+
+@pytest.mark.parametrize("form", ["TETRAHEDRON", "PRISM", "DODECAHEDRON"])
+def test_halves_stay_mirror_images(form):
+    obj = add_lump()
+    partner = partner_of(position_of(obj.data), 1e-6)
+    cubify(form=form, symmetry=(True, False, False), orientation=(0.2, 0.3, 0.1), **OPTIONS)
+    after = position_of(obj.data)
+    np.testing.assert_array_equal(after[partner], after * FLIP_X)
+
+
+def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
+    """Both look alike in the world, where the form is."""
+    one = add_triangles()
+    other = add_copy(one)
+    other.data.transform(Matrix.Diagonal((-1, 1, 1, 1)))
+    other.data.flip_normals()
+    other.scale.x = -1.0
+    bpy.context.view_layer.update()
+    for obj in (one, other):
+        select(obj)
+        cubify(form="TETRAHEDRON", orientation=(0.2, 0.3, 0.4), **OPTIONS)
+    np.testing.assert_allclose(position_of(other.data) * FLIP_X, position_of(one.data), atol=2e-3)
+
+
+def test_flipped_normals_do_not_turn_the_form_upside_down():
+    one = add_triangles()
+    other = add_copy(one)
+    other.data.flip_normals()
+    for obj in (one, other):
+        select(obj)
+        cubify(form="PYRAMID", **OPTIONS)
+    np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-4)
+
+
+def test_objects_that_are_solved_together_may_have_different_forms():
+    one, other = add_triangles(), add_triangles()
+    other.location.x = 9.0
+    one.cubic_craft.form, other.cubic_craft.form = "OCTAHEDRON", "CUBE"
+    bpy.context.view_layer.update()
+    select(one)
+    cubify(cubeness=0.8)
+    octahedron = bits(one)
+    select(other)
+    cubify(cubeness=0.8)
+    assert bits(other) != octahedron
+
+
+@pytest.mark.thorough(3)
+@pytest.mark.parametrize("scale", [1.0, -1.0])
+@pytest.mark.parametrize("form", ["OCTAHEDRON", "TETRAHEDRON", "PYRAMID", "PRISM"])
+def test_auto_orient_finds_how_the_form_is_turned(part, body_of, form, scale):
+    """A mesh that is the form, turned, and seen as such through a mirroring scale, too."""
+    obj = add_monkey()
+    obj.cubic_craft.form = form
+    body = body_of(obj)
+    turn = np.array(Euler((0.2, -0.3, 0.25)).to_matrix())
+    corners = body.vertices @ turn.T * [scale, 1.0, 1.0]
+    hull = bmesh.new()
+    for corner in corners:
+        hull.verts.new(corner)
+    bmesh.ops.convex_hull(hull, input=hull.verts[:])
+    bmesh.ops.recalc_face_normals(hull, faces=hull.faces[:])
+    hull.to_mesh(obj.data)
+    hull.free()
+    obj.scale.x = scale
+    select(obj)
+    bpy.context.view_layer.update()
+    bpy.ops.cubic_craft.auto_orient()
+    axes = np.array(Euler(obj.cubic_craft.orientation).to_matrix())
+    directions = body.normals @ turn.T  # as they are seen
+    costs = body.cost(directions @ axes)
+    np.testing.assert_allclose(costs, body.offsets, rtol=5e-3)
+
+
+@pytest.mark.parametrize("form", ["OCTAHEDRON", "DODECAHEDRON", "PRISM"])
+def test_facets_of_the_form_can_be_made_planar(body_of, form):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    ball = bpy.context.object
+    ball.cubic_craft.form = form
+    ball.cubic_craft.orientation = (0.1, 0.2, 0.3)
+    cubify(cubeness=1.0, solidity=0.0, **OPTIONS)
+    turn = np.array(Euler((0.1, 0.2, 0.3)).to_matrix())
+    normals = body_of(ball).normals @ turn.T
+    assert share_facing(ball, normals, 0.05) < 0.2
+    ball.cubic_craft.form, ball.cubic_craft.form_sides = "CONE", 3  # not what it was made with
+    assert bpy.ops.cubic_craft.flatten(tolerance=0.05) == {"FINISHED"}
+    assert share_facing(ball, normals, 0.05) > 0.5
+
+
+def test_the_overlay_draws_the_form(part):
+    obj = add_monkey()
+    lines_of = part("form.overlay").lines_of
+    for form, edges in (("CUBE", 12), ("TETRAHEDRON", 6), ("DODECAHEDRON", 30)):
+        obj.cubic_craft.form = form
+        points, colors = lines_of(obj)
+        assert len(points) == len(colors) == 2 * (3 + edges)
+    corners = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+    assert (points[6:].min(axis=0) < corners.min(axis=0)).all()
+    assert (points[6:].max(axis=0) > corners.max(axis=0)).all()
