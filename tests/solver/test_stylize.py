@@ -9,7 +9,16 @@ import shapes
 from devices import by_device
 from procrustes import best_rotation
 
-from solver import CubicCraftError, Setup, SolverOptions, Stylization, rest_mesh, run, stylize
+from solver import (
+    CubicCraftError,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    rest_mesh,
+    run,
+    stylize,
+)
 from solver.styles import forms
 
 FIXED = {"max_iterations": 40, "tolerance": 1e-12}
@@ -238,6 +247,21 @@ def test_bad_options_are_refused(options, message):
     with pytest.raises(CubicCraftError, match=message) as caught:
         stylize(V, F, **{"cubeness": 0.3, "device": "numpy", **options})
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ((0.4, np.eye(3)), "pose must be of the type Pose, not float64"),
+        ((0.4, None, {"device": "numpy"}), "options must be of the type SolverOptions, not dict"),
+        ((Style("0.4"),), "cubeness must be real numbers, not text"),
+        ((Style(0.4, capture=3),), "capture must be of the type NormalCapture, not int"),
+    ],
+)
+def test_what_is_no_style_pose_or_options_is_refused(given, message):
+    setup = Setup(rest_mesh(*shapes.blob(1)))
+    with pytest.raises(CubicCraftError, match=message):
+        Stylization(setup, *given)
 
 
 def test_options_that_are_not_there_are_named():
