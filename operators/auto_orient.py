@@ -60,9 +60,9 @@ def _best_angles(obj, settings, shape):
     placement = placement_alone(obj, settings)
     V = placement.place(shape.original)
     areas, normals = solver.triangle_areas_and_normals(unit_box(V).to_unit(V), shape.triangles)
-    if placement.style.form is None:
+    if not placement.style.forms:
         return angles_of(obj, settings, solver.auto_orient(normals, areas))
     # In the axes of the angles, so that a mirrored object has its normals as they are seen.
     seen = normals @ axes_of_angles(obj, settings).T
-    axes = solver.auto_orient(seen, areas, placement.style.form).T
+    axes = solver.auto_orient(seen, areas, placement.style.forms[0]).T
     return Matrix(axes.tolist()).to_euler()

@@ -22,6 +22,7 @@ from solver import (
     FrameSequence,
     ProxyOptions,
     Setup,
+    SolverOptions,
     Stylization,
     frame_of,
     least_width,
@@ -97,7 +98,7 @@ def _bent(V, angle):
 
 def stylization(setup):
     """Return the Stylization of a frame."""
-    return Stylization(setup, CUBENESS, keep_rotation=True)
+    return Stylization(setup, CUBENESS, options=SolverOptions(keep_rotation=True))
 
 
 def recorded(frames, F):

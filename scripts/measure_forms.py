@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from benchmark.shapes import ball
 from figures.forms import HALF_LENGTH, HOUSE
 
-from solver import Setup, Stylization, rest_mesh, stylize
+from solver import Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
 from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles import forms
 from solver.styles.hulls import simple_hull, spiral
@@ -73,7 +73,8 @@ def share(U, F, directions):
 
 def rises(V, F, form):
     """Return in how many steps of the plain iteration the energy rises."""
-    run = Stylization(Setup(rest_mesh(V, F)), CUBENESS, form=form, is_accelerated=False)
+    options = SolverOptions(is_accelerated=False)
+    run = Stylization(Setup(rest_mesh(V, F)), Style(CUBENESS, form=form), options=options)
     energies = []
     for _ in range(STEPS):
         run.step()

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
     from .meshes import stylize_mesh as stylize_mesh
     from .normal_capture import NormalCapture as NormalCapture
+    from .one_call import stylize as stylize
+    from .options import SolverOptions as SolverOptions
     from .orientation.auto_orientation import auto_orient as auto_orient
     from .pieces.from_mesh import piece_of as piece_of
     from .pieces.handle_pose import HandlePose as HandlePose
@@ -42,20 +44,20 @@ if TYPE_CHECKING:
     from .pieces.problem import join_pieces as join_pieces
     from .pieces.reflection import Reflection as Reflection
     from .pieces.reflection import flip as flip
+    from .pose import Pose as Pose
     from .progress import Progress as Progress
     from .proxy.options import PAPER as PAPER
     from .proxy.options import ProxyOptions as ProxyOptions
     from .rest import RestMesh as RestMesh
     from .rest import rest_mesh as rest_mesh
+    from .result import Result as Result
     from .rotation_fit import svd_rotations as svd_rotations
-    from .runner import Result as Result
     from .runner import Run as Run
     from .runner import run as run
-    from .runner import stylize as stylize
     from .setup import Setup as Setup
     from .stop_rule import StopRule as StopRule
-    from .styles.blending import Style as Style
     from .styles.cube import nearest_to_identity as nearest_to_identity
+    from .styles.style import Style as Style
     from .stylization import Stylization as Stylization
     from .symmetry import MATCHING as MATCHING
     from .symmetry import NO_PARTNER as NO_PARTNER

@@ -4,56 +4,35 @@
 Neither library is imported.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from copy import deepcopy
-from typing import Any, TypedDict, TypeVar, Unpack
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .aliases import Device, FloatArray, Precision
+from .aliases import Faces, FloatArray
 from .errors import CubicCraftError
-from .limbs import KnownLimbs
 from .mesh.mesh_checks import check_mesh
-from .normal_capture import NormalCapture
-from .proxy import ProxyOptions
-from .runner import OnIteration, stylize
-from .styles.admm import AdmmOptions
-from .styles.polytope import Polytope
+from .one_call import stylize
 
 M = TypeVar("M")
+P = ParamSpec("P")
 
 FACES = ("triangle", "quad", "polygon")
 """meshio's names of the cells of a surface"""
 _NORMALS = ("nx", "ny", "nz")
 
 
-class Options(TypedDict, total=False):
-    """What `stylize` takes besides."""
-
-    max_iterations: int
-    tolerance: float
-    on_iteration: OnIteration | None
-    progress: bool
-    proxy: ProxyOptions
-    orientation: ArrayLike | None
-    targets: ArrayLike | None
-    form: Polytope | Sequence[Polytope] | None
-    form_of: ArrayLike | None
-    capture: NormalCapture | Sequence[NormalCapture] | None
-    capture_strength: ArrayLike
-    capture_of: ArrayLike | None
-    limbs: KnownLimbs | None
-    keep_rotation: bool
-    device: Device
-    precision: Precision | None
-    admm: AdmmOptions | None
-    is_accelerated: bool
+def _with_arguments_of(
+    function: Callable[Concatenate[ArrayLike, Faces, P], object],
+) -> Callable[[Callable[..., Any]], Callable[Concatenate[M, P], M]]:
+    """Tell type checkers that a function of a mesh takes what another one of V and F does."""
+    return lambda decorated: decorated
 
 
-def stylize_mesh(
-    mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Unpack[Options]
-) -> M:
+@_with_arguments_of(stylize)
+def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Any) -> M:
     """Return the cubic version of a mesh of trimesh or meshio.
 
     Colors, UVs, materials and other data stay. Normals of points that meshio has read turn with the
@@ -134,7 +113,7 @@ def _any(mesh: object) -> Any:
     return mesh
 
 
-def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: Options) -> M:
+def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: dict[str, Any]) -> M:
     given, made = _any(mesh), _any(deepcopy(mesh))
     faces: list[NDArray[Any]] = []
     for block in given.cells:

@@ -134,7 +134,7 @@ def targets_for(captures, numbers, strength, Q, normals):
 
     Parameters
     ----------
-    captures : NormalCapture or sequence of NormalCaptures
+    captures : list of NormalCapture
     numbers : (n,) int array
         Which of them each vertex has.
     strength : (n,) array
@@ -147,7 +147,6 @@ def targets_for(captures, numbers, strength, Q, normals):
     (n,4) array
         Unit normals and strengths; all zero where there is nothing to face.
     """
-    captures = [captures] if isinstance(captures, NormalCapture) else captures
     Q = np.broadcast_to(Q, (len(normals), 3, 3))
     found = np.zeros((len(normals), 4))
     for number, capture in enumerate(captures):

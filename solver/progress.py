@@ -28,13 +28,14 @@ class Progress:
     --------
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import Progress, Setup, Stylization, rest_mesh, run
+    >>> from solver import Progress, Setup, SolverOptions, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> progress, shown = Progress(max_iterations=1000, tolerance=1e-3), []
-    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, keep_rotation=True, device="numpy")
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
+    >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, options=options)
     >>> _ = run(stylization, on_iteration=lambda state: shown.append(progress.update(state)))
     >>> [f"{shown[done - 1]:.2f}" for done in (1, 5, 10, 20)]  # iterations
     ['0.00', '0.30', '0.51', '0.78']

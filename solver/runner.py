@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A complete run in one call: mesh in, cubic mesh out."""
+"""A run from the first iteration to the last, in one call or phase by phase."""
 
 import logging
 import math
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from collections.abc import Callable
+from typing import TypeAlias
 
-from numpy.typing import ArrayLike
-
-from .aliases import Device, Faces, FloatArray, IntArray, Precision
+from .aliases import FloatArray
 from .coarse_to_fine.start import (
     MAX_ITERATIONS,
     TOLERANCE,
@@ -22,213 +19,19 @@ from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
 from .inputs import instance, real_number, switch
-from .limbs import KnownLimbs
-from .normal_capture import NormalCapture
 from .progress_bar import progress_bar
-from .proxy import PAPER, ProxyOptions
-from .rest import rest_mesh
-from .setup import Setup
+from .result import Reason, Result
 from .stop_rule import StopRule
-from .styles.admm import AdmmOptions
-from .styles.polytope import Polytope
 from .stylization import Stylization
-from .values import Value
 
 _log = logging.getLogger(__name__)
 
-Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
 OnIteration: TypeAlias = Callable[[Stylization], object]
 
 OF_ROUND = 8
 LEAST_ROUND = 10
 """A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Result(Value):
-    """The result of a run.
-
-    Two results are equal if they agree bit for bit, apart from the times that they took.
-
-    See Also
-    --------
-    stylize, run : Return it.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import stylize
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
-    >>> result.reason, result.device, result.positions.shape, result.rotations.shape
-    ('converged', 'numpy', (700, 3), (700, 3, 3))
-    >>> round(float(np.linalg.norm(result.positions - V, axis=1).max()), 2)  # the largest movement
-    0.25
-    """
-
-    positions: FloatArray
-    """(n,3) float64, in the units of the input"""
-    rotations: FloatArray
-    """(n,3,3) float64 rotation of each vertex; the identity for loose vertices"""
-    energy: Energy
-    """of the result, in the unit box"""
-    iterations: int
-    reason: Reason
-    """"converged", "max_iterations" or "cancelled" """
-    device: str
-    """name of the device that ran the local step, such as "taichi-cpu" """
-    compile_seconds: float = field(compare=False)
-    """time to compile the kernels or to load them from a cache"""
-    solve_seconds: float = field(compare=False)
-    """time of the iterations"""
-    crossings: int | None = None
-    """number of triangles that cross others and did not at rest; None if not looked for"""
-    crossing_vertices: IntArray | None = None
-    """(k,) int vertices of these triangles"""
-
-    @property
-    def converged(self) -> bool:
-        """Whether the stop rule ended the run."""
-        return self.reason == "converged"
-
-
-def stylize(
-    V: ArrayLike,
-    F: Faces,
-    cubeness: ArrayLike = 0.4,
-    pinned: ArrayLike = (),
-    *,
-    max_iterations: int = 1000,
-    tolerance: float = 1e-3,
-    on_iteration: OnIteration | None = None,
-    progress: bool = False,
-    proxy: ProxyOptions = PAPER,
-    orientation: ArrayLike | None = None,
-    targets: ArrayLike | None = None,
-    form: Polytope | Sequence[Polytope] | None = None,
-    form_of: ArrayLike | None = None,
-    capture: NormalCapture | Sequence[NormalCapture] | None = None,
-    capture_strength: ArrayLike = 0.0,
-    capture_of: ArrayLike | None = None,
-    limbs: KnownLimbs | None = None,
-    keep_rotation: bool = False,
-    device: Device = "auto",
-    precision: Precision | None = None,
-    admm: AdmmOptions | None = None,
-    is_accelerated: bool = True,
-) -> Result:
-    """Return the cubic version of a mesh.
-
-    Parameters
-    ----------
-    V : (n,3) numpy array
-        Rest positions, in any unit. Vertices that belong to no triangle do not move.
-    F : (m,3) numpy int array, or faces with more corners
-        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
-    cubeness : float or (n,) numpy array
-        0 keeps the shape; 0.1 to 1 are common.
-    pinned : (k,) numpy int array or (n,) numpy bool array
-        Vertices held exactly in place: their numbers, or a mask.
-    max_iterations : int
-        Limit, even if the run has not converged.
-    tolerance : float
-        See `StopRule`.
-    on_iteration : callable, optional
-        Called with the Stylization after each iteration; a true value cancels the run.
-    progress : bool
-        Whether to show a progress bar on standard error.
-    proxy : ProxyOptions
-        How to prepare the surface: weld it, refine it, and link it to its neighbors and its
-        opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
-        defaults of the extension.
-    orientation : (3,3) or (n,3,3) numpy array, optional
-        See `Stylization`, also for all that follow.
-    targets : (n,3) numpy array, optional
-        Where the pinned vertices go; by default they stay.
-    form : Polytope or sequence of Polytopes, optional
-        What a ball would become; by default the cube.
-    form_of : (n,) numpy int array, optional
-        Which of several forms each vertex has.
-    capture : NormalCapture or sequence of NormalCaptures, optional
-        How the normals should turn.
-    capture_strength : float or (n,) numpy array
-        How strongly they do.
-    capture_of : (n,) numpy int array, optional
-        Which of several captures each vertex has.
-    limbs : KnownLimbs, optional
-        Limbs that are known, as from bones.
-    keep_rotation : bool
-        Whether each component keeps its orientation.
-    device : {"auto", "cpu", "gpu", "numpy"}
-        What computes.
-    precision : "f64" or "f32", optional
-        Of the local step in Taichi.
-    admm : AdmmOptions, optional
-        Where the exact local step is not used.
-    is_accelerated : bool
-        False for the plain iteration.
-
-    Returns
-    -------
-    Result
-
-    Raises
-    ------
-    CubicCraftError
-        The mesh or an option is invalid; the message gives the reason.
-
-    See Also
-    --------
-    run : The same for a prepared Stylization.
-    auto_orient : Finds an orientation for ``orientation``.
-
-    Notes
-    -----
-    Minimizes the energy of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
-    38(6), 2019.
-
-    Examples
-    --------
-    A ball becomes a cube with round corners: much more of its surface then faces an axis.
-
-    >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import stylize, triangle_areas_and_normals
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
-    >>> for positions in (V, result.positions):
-    ...     areas, normals = triangle_areas_and_normals(positions, F)
-    ...     faces_an_axis = np.abs(normals).max(axis=1) > 0.98  # within 11 degrees
-    ...     print(f"{areas[faces_an_axis].sum() / areas.sum():.2f} of the area")
-    0.06 of the area
-    0.67 of the area
-    """
-    stylization = Stylization(
-        Setup(rest_mesh(V, F, proxy), pinned),
-        cubeness,
-        orientation,
-        targets,
-        form,
-        form_of,
-        capture=capture,
-        capture_strength=capture_strength,
-        capture_of=capture_of,
-        limbs=limbs,
-        keep_rotation=keep_rotation,
-        device=device,
-        precision=precision,
-        admm=admm,
-        is_accelerated=is_accelerated,
-    )
-    return run(stylization, max_iterations, tolerance, on_iteration, progress)
 
 
 def run(
@@ -272,14 +75,15 @@ def run(
 
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import Setup, Stylization, rest_mesh, run
+    >>> from solver import Setup, SolverOptions, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> for cubeness in (0.0, 0.1, 0.6):
-    ...     result = run(Stylization(setup, cubeness, keep_rotation=True, device="numpy"))
+    ...     result = run(Stylization(setup, cubeness, options=options))
     ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
     0.00
     0.07
@@ -331,13 +135,13 @@ class Run:
     --------
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import Run, Setup, Stylization, rest_mesh
+    >>> from solver import Run, Setup, SolverOptions, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> setup = Setup(rest_mesh(V, F))
-    >>> run = Run(Stylization(setup, 0.6, keep_rotation=True, device="numpy"))
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
+    >>> run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, options=options))
     >>> for _ in range(4):
     ...     run.advance()  # a local or a global step
     >>> round(float(np.linalg.norm(run.positions() - V, axis=1).max()), 2)  # on its way

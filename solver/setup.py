@@ -71,14 +71,16 @@ class Setup(Stored):
 
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import Setup, Stylization, rest_mesh, run
+    >>> from solver import Setup, SolverOptions, Stylization, rest_mesh, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> is_lower = V[:, 2] < 0
     >>> setup = Setup(rest_mesh(V, F), pinned=is_lower)
-    >>> moved = np.linalg.norm(run(Stylization(setup, 0.6, device="numpy")).positions - V, axis=1)
+    >>> options = SolverOptions(device="numpy")
+    >>> result = run(Stylization(setup, 0.6, options=options))
+    >>> moved = np.linalg.norm(result.positions - V, axis=1)
     >>> f"{moved[is_lower].max():.2f} below, {moved[~is_lower].max():.2f} above"
     '0.00 below, 0.35 above'
     """

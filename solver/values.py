@@ -99,4 +99,6 @@ def _short(value: Any) -> str:
         return repr(value.tolist())
     if isinstance(value, Value):
         return type(value).__name__ + "(...)"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_short, value))}]"
     return repr(value)

@@ -14,7 +14,6 @@ import numpy as np
 from ... import solver
 from ...solver import CubicCraftError
 from .. import mesh_bridge
-from ..form.normal_capture import strength_of
 from ..read.bones import read_pose
 from ..read.member import Member, ShapeRead, placed, read_member
 from ..read.object_frame import placements
@@ -279,7 +278,6 @@ class AnimatedGroup:
             shape=shape,
             settings=settings,
             handles=settings.handles,
-            capture_strength=strength_of(settings),
             alone=alone,
             in_world=in_world,
             bones=bones,

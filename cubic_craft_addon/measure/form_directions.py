@@ -4,7 +4,7 @@
 import numpy as np
 
 from ...solver.pieces.placement import Placement
-from ...solver.styles.blending import Style
+from ...solver.styles.style import Style
 
 _LEAST_SHARE = 0.25
 """of a region: a triangle with less does not face its sides"""
@@ -12,10 +12,10 @@ _LEAST_SHARE = 0.25
 
 def form_directions(style: Style) -> np.ndarray:
     """Return the outward unit normals (k,3) of the sides of the form, where it is solved."""
-    axes = style.orientation  # the rows of Q, which maps into the frame of the form
-    if style.form is None:
+    axes = np.asarray(style.orientation)  # the rows of Q, which maps into the frame of the form
+    if not style.forms:
         return np.concatenate([axes, -axes]) + 0.0
-    return style.form.normals @ axes
+    return style.forms[0].normals @ axes
 
 
 def directions_at(

@@ -22,7 +22,6 @@ from ...solver.pieces.shape import Shape
 from ...solver.pieces.whole import Whole
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
-from ..form.normal_capture import strength_of
 from ..regions.shares import region_shares
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
@@ -170,7 +169,6 @@ def read_member(
         rest_weights=_rest_weights(settings, V, shape.triangles, handle_of, known),
         map_weights=_map_weights(obj, settings, known),
         region_shares=_region_shares(obj, settings, known),
-        capture_strength=strength_of(settings),
         bones=bones,
         seconds=time.perf_counter() - begin,
     )

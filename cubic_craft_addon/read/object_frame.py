@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import math
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -12,10 +13,10 @@ from mathutils import Euler, Matrix
 from ... import solver
 from ...solver import CubicCraftError
 from ...solver.pieces.placement import Placement, polar
-from ...solver.styles.blending import Style
 from ...solver.styles.cube import proper
+from ...solver.styles.style import Style
 from ..form.body import form_of
-from ..form.normal_capture import capture_of
+from ..form.normal_capture import capture_of, strength_of
 from ..settings.values import Settings
 from .rest_place import world_at_rest
 
@@ -55,8 +56,9 @@ def placement_alone(
     """
     capture = capture_of(obj, settings)
     turn, stretch = _turn_and_stretch(_world(obj, is_posed))
-    styles = tuple(_style(obj, one, turn, None, form_of(one), capture) for one in _all(settings))
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, turn[2], styles, capture)
+    own, *regions = (_style(obj, one, turn, capture) for one in _all(settings))
+    own = replace(own, capture=capture, capture_strength=strength_of(settings))
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, turn[2], (own, *regions))
 
 
 def _world(obj, is_posed=False):
@@ -79,12 +81,13 @@ def _in_world(obj, world, settings, alone):
     turn, stretch = _turn_and_stretch(world)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
+    capture = alone.style.capture
     styles = tuple(
-        _style(obj, one, turn, turn.T, style.form, alone.capture)
+        replace(style, orientation=_orientation(obj, one, turn, turn.T, style.form, capture))
         for one, style in zip(_all(settings), alone.styles, strict=True)
     )
     up = np.array([0.0, 0.0, 1.0])
-    return Placement(linear, offset, turn, stretch, up, styles, alone.capture)
+    return Placement(linear, offset, turn, stretch, up, styles)
 
 
 def _all(settings):
@@ -92,13 +95,19 @@ def _all(settings):
     return [settings, *(settings.of_region(region) for region in settings.regions)]
 
 
-def _style(obj, settings, turn, into, form, capture):
-    """Return the style of an object or a region; `into` leads back from another place."""
+def _style(obj, settings, turn, capture):
+    """Return the style of an object or a region, without its capture."""
+    form = form_of(settings)
+    orientation = _orientation(obj, settings, turn, None, form, capture)
+    return Style(settings.cubeness, orientation, form)
+
+
+def _orientation(obj, settings, turn, into, form, capture):
+    """Return the orientation of a form; `into` leads back from another place."""
     orientation = _axes(settings).T @ _into_space(obj, settings, turn)
     if into is not None:
         orientation = orientation @ into
-    orientation = _simplest(orientation, form is None and capture is None)
-    return Style(settings.cubeness, orientation, form)
+    return _simplest(orientation, form is None and capture is None)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):

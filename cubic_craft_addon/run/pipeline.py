@@ -123,7 +123,7 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
         As `start`, without the name.
     """
     settings = settings_of_all(problem)
-    stylization = run.stylization.moved(problem.setup, problem.targets, problem.hold_matrices)
+    stylization = run.stylization.moved(problem.setup, problem.pose_of_handles)
     return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
 
 
@@ -137,11 +137,12 @@ def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> so
     """
     use_extension_folder()
     settings = settings_of_all(problem)
-    return problem.stylization(
+    options = solver.SolverOptions(
         device=cast("Device", settings.device.lower()),
         keep_rotation=settings.rotation == "KEEP",
         is_accelerated=is_accelerated,
     )
+    return problem.stylization(options)
 
 
 def solve(

@@ -3,7 +3,7 @@
 
 import time
 
-from solver import PAPER, ProxyOptions, Setup, Stylization, rest, rest_mesh
+from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest, rest_mesh
 from solver import Run as SlicedRun
 
 from .machine import peak_memory
@@ -68,10 +68,11 @@ def ticks(path, cubeness):
     settings = SETTINGS["defaults"]
     solve(V, F, cubeness, max_iterations=3, **settings)
     setup = Setup(rest_mesh(V, F, settings["proxy"]))
+    options = SolverOptions(keep_rotation=settings["keep_rotation"])
     seconds = []
     for value in (cubeness, DRAGGED):
         begin = time.perf_counter()
-        run = SlicedRun(Stylization(setup, value, keep_rotation=settings["keep_rotation"]))
+        run = SlicedRun(Stylization(setup, value, options=options))
         while run.reason is None and (value == DRAGGED or len(seconds) < FIRST_TICKS):
             while run.reason is None and time.perf_counter() < begin + SLICE:
                 run.advance()

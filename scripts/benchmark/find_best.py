@@ -8,7 +8,7 @@ which the whole shape is turned; they are no measure for a run that begins at re
 
 import time
 
-from solver import Run, Setup, Stylization, rest_mesh
+from solver import Run, Setup, SolverOptions, Stylization, rest_mesh
 
 from .meshes import read
 from .our_solver import energy_of
@@ -23,7 +23,7 @@ def find_best(path, cubeness, seconds):
     state = Stylization(setup, cubeness)
     positions = _descend(state, Run(state, tolerance=1e-12, max_iterations=10**9).advance, seconds)
     accelerated = energy_of(setup, cubeness, positions)
-    state = Stylization(setup, cubeness, is_accelerated=False)
+    state = Stylization(setup, cubeness, options=SolverOptions(is_accelerated=False))
     state.energy_of(positions)
     plain = energy_of(setup, cubeness, _descend(state, state.step, seconds))
     if accelerated <= plain:

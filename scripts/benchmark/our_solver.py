@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver import PAPER, Setup, Stylization, rest_mesh, run
+from solver import PAPER, Setup, SolverOptions, Stylization, rest_mesh, run
 
 from .shapes import blob
 
@@ -54,8 +54,10 @@ def solve(
     is_over = is_over or over(LIMIT_SECONDS)
     begin = time.perf_counter()
     setup = Setup(rest_mesh(V, F, proxy))
-    options = {"is_accelerated": is_accelerated, "keep_rotation": keep_rotation}
-    stylization = Stylization(setup, cubeness, device=device, **options)
+    options = SolverOptions(
+        device=device, is_accelerated=is_accelerated, keep_rotation=keep_rotation
+    )
+    stylization = Stylization(setup, cubeness, options=options)
     begin += stylization.compile_seconds
     setup_seconds = time.perf_counter() - begin
 
@@ -82,11 +84,12 @@ def energy_of(setup, cubeness, positions):
     best without cubeness, whichever ends lower: of a million vertices, the first alone finds 1.4 %
     more energy than the run had itself.
     """
-    fit = Stylization(setup, 0.0, is_accelerated=False)
+    options = SolverOptions(is_accelerated=False)
+    fit = Stylization(setup, 0.0, options=options)
     fit.energy_of(positions, 1)
-    from_fit = Stylization(setup, cubeness, is_accelerated=False)
+    from_fit = Stylization(setup, cubeness, options=options)
     from_fit.start_from(fit.rotations, fit.positions)
-    from_rest = Stylization(setup, cubeness, is_accelerated=False)
+    from_rest = Stylization(setup, cubeness, options=options)
     return min(
         judge.energy_of(positions, EVALUATION_STEPS).total for judge in (from_fit, from_rest)
     )

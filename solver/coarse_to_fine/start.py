@@ -37,7 +37,7 @@ def coarse_stylization(fine):
     None for small meshes, for the plain iteration, for one that has been started from elsewhere
     than rest, and where there is no coarser mesh.
     """
-    if fine.is_started or not fine.is_accelerated:
+    if fine.is_started or not fine.options.is_accelerated:
         return None
     count = fine.rest.topology.largest_component  # many small parts are no slower than one of them
     least = COARSEST_VERTICES if fine.is_coarse else LEAST_VERTICES

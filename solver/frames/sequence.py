@@ -23,8 +23,9 @@ import numpy as np
 
 from ..aliases import FloatArray
 from ..rest import RestMesh
+from ..result import Result
 from ..rotation_fit import fit_rotations, orthonormalize
-from ..runner import Result, Run
+from ..runner import Run
 from ..stylization import Stylization
 from ..values import described, is_same
 
@@ -51,16 +52,17 @@ class SequenceState(NamedTuple):
 
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, Setup, SolverOptions, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
     >>> stopped = FrameSequence(setup.rest)
-    >>> first = stopped.solve(Stylization(setup, 0.6, keep_rotation=True, device="numpy"))
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
+    >>> first = stopped.solve(Stylization(setup, 0.6, options=options))
     >>> pose = setup.posed(V * [1, 1, 1.1])
-    >>> frame = Stylization(pose, 0.6, keep_rotation=True, device="numpy")
+    >>> frame = Stylization(pose, 0.6, options=options)
     >>> second = FrameSequence(setup.rest, stopped.state).solve(frame)
     >>> second.iterations, round(float(np.abs(second.positions - first.positions).max()), 2)
     (12, 0.11)
@@ -113,16 +115,16 @@ class FrameSequence:
 
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import FrameSequence, Setup, Stylization, rest_mesh
+    >>> from solver import FrameSequence, Setup, SolverOptions, Stylization, rest_mesh
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
     >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
     >>> setup = Setup(rest_mesh(V, F))
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> sequence, shown = FrameSequence(setup.rest), []
     >>> for height in (1.0, 1.05, 1.1):
-    ...     pose = setup.posed(V * [1, 1, height])
-    ...     frame = Stylization(pose, 0.6, keep_rotation=True, device="numpy")
+    ...     frame = Stylization(setup.posed(V * [1, 1, height]), 0.6, options=options)
     ...     shown.append(sequence.solve(frame).positions)
     >>> [f"{np.linalg.norm(b - a, axis=1).max():.2f}" for a, b in zip(shown, shown[1:])]
     ['0.05', '0.06']

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame of the form at each vertex, in which limbs keep their direction."""
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..aliases import Faces, FloatArray
+from ..options import SolverOptions
 from ..proxy.options import ProxyOptions
 from ..rest import rest_mesh
 from ..setup import Setup
+from ..styles.style import Style
 from ..stylization import Stylization
 
 
@@ -32,7 +35,7 @@ def pose_frames(
     Returns
     -------
     (n,3,3) numpy array
-        As `Stylization` takes it, and as it uses it by itself with `ProxyOptions.keep_pose`.
+        As a `Style` has it, and as `Stylization` uses it by itself with `ProxyOptions.keep_pose`.
 
     Raises
     ------
@@ -61,4 +64,6 @@ def pose_frames(
     '30 degrees'
     """
     setup = Setup(rest_mesh(V, F, proxy or ProxyOptions()))
-    return Stylization(setup, 0.0, orientation, device="numpy", keep_rotation=True).orientations
+    style = Style(0.0, np.eye(3) if orientation is None else orientation)
+    options = SolverOptions(device="numpy", keep_rotation=True)
+    return Stylization(setup, style, options=options).orientations

@@ -2,15 +2,16 @@
 """A piece of plain arrays, for callers without an object in Blender."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..aliases import Faces
 from ..errors import CubicCraftError
+from ..inputs import instance, whole_numbers
 from ..mesh.mesh_checks import check_mesh
-from ..normal_capture import NormalCapture
-from ..styles.blending import Style
+from ..styles.style import Style
 from .handle_pose import HandlePose
 from .piece import Piece
 from .placement import placement_by
@@ -35,8 +36,6 @@ def piece_of(
     regions: Sequence[Style] = (),
     region_shares: ArrayLike | None = None,
     map_weights: ArrayLike | None = None,
-    capture: NormalCapture | None = None,
-    capture_strength: float = 0.0,
 ) -> Piece:
     """Return an object as a piece that is solved in the coordinates of the world.
 
@@ -47,7 +46,8 @@ def piece_of(
     F : (m,3) int array, or faces with more corners
         Triangles. Polygons are split into triangles.
     style : Style, optional
-        What it is turned toward; by default a cube of cubeness 0.4 along the axes of the world.
+        What it is turned toward, the same for all vertices; by default a cube of cubeness 0.4 along
+        the axes of the world. Its capture is also that of the regions.
     name : str
         For messages.
     matrix : (4,4) array, optional
@@ -63,19 +63,17 @@ def piece_of(
     hold_rest : bool
         Whether regions far from moved handles keep their place.
     regions : sequence of Style
+        Without captures of their own.
     region_shares : (n,1+k) array, optional
         Shares of the object's own style and of each region; each row adds up to 1.
     map_weights : (n,) array, optional
-        Factors of the cubeness.
-    capture : NormalCapture, optional
-        See `Stylization`.
-    capture_strength : float
-        See `Stylization`.
+        Factors of the cubeness, and of the strength of the capture.
 
     Raises
     ------
     CubicCraftError
-        The mesh is invalid, or an array has another shape than the mesh asks for.
+        The mesh is invalid, an array has another shape than the mesh asks for, a vertex belongs to
+        a handle that is not there, or a style differs from vertex to vertex.
 
     See Also
     --------
@@ -93,12 +91,18 @@ def piece_of(
     """
     original, triangles = check_mesh(V, F)
     count = len(original)
-    own = Style(0.4) if style is None else style
-    placement = placement_by(np.eye(4) if matrix is None else matrix, (own, *regions), capture)
-    numbers = np.full(count, -1) if handle_of is None else np.asarray(handle_of)
+    own = _uniform(Style(0.4) if style is None else style, "style")
+    others = [_without_capture(_uniform(region, "regions")) for region in regions]
+    placement = placement_by(np.eye(4) if matrix is None else matrix, (own, *others))
+    numbers = np.full(count, -1) if handle_of is None else whole_numbers(handle_of, "handle_of")
     shares = None if region_shares is None else np.asarray(region_shares, dtype=np.float64)
     weights = 1.0 if map_weights is None else np.asarray(map_weights, dtype=np.float64)
     _check(numbers.shape == (count,), "handle_of", (count,))
+    if numbers.min() < -1 or numbers.max() >= len(handles):
+        raise CubicCraftError(
+            f"handle_of refers to handles {numbers.min()} to {numbers.max()}, but there are only"
+            f" {len(handles)}; -1 is for none"
+        )
     _check(np.shape(weights) in ((), (count,)), "map_weights", (count,))
     expected = (count, 1 + len(regions))
     _check((shares is None) == (not regions), "region_shares", expected)
@@ -116,8 +120,23 @@ def piece_of(
         rest_weights=far,
         map_weights=weights,
         region_shares=shares,
-        capture_strength=capture_strength,
     )
+
+
+def _uniform(style, name):
+    """Return a Style that is the same for all vertices, with its only form and capture."""
+    forms, captures = instance(style, name, Style).forms, style.captures
+    numbers = (style.cubeness, style.capture_strength)
+    is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)
+    if not is_one or len(forms) > 1 or len(captures) > 1:
+        raise CubicCraftError(f"{name} must be the same for all vertices of a piece")
+    return replace(style, form=next(iter(forms), None), capture=next(iter(captures), None))
+
+
+def _without_capture(style):
+    if style.capture is not None:
+        raise CubicCraftError("regions cannot have captures; the one of the style is for all")
+    return style
 
 
 def _check(is_right, name, shape):

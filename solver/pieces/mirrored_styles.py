@@ -21,9 +21,9 @@ def orientations(whole: Whole, placement: Placement) -> list[FloatArray]:
         linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
         U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
         turns += [turn @ U @ Vt for turn in turns]
-    axes = [style.orientation for style in placement.styles]
+    axes = [np.asarray(style.orientation) for style in placement.styles]
     pairs = list(zip(axes, (style.form for style in placement.styles), strict=True))
-    is_captured = placement.capture is not None
+    is_captured = placement.style.capture is not None
     if all(_looks_alike(Q @ turn @ Q.T, form, is_captured) for Q, form in pairs for turn in turns):
         return [Q[None] for Q in axes]
     sides = whole.sides()

@@ -51,8 +51,6 @@ class Piece:
     """(n,) factors of the cubeness, or one for all"""
     region_shares: FloatArray | None = None
     """(n,1+k) shares of the object's own style and of each of its k regions; None for k = 0"""
-    capture_strength: float = 0.0
-    """of the placement's normal capture"""
     bones: Bones | None = None
     """what moves it; None if limbs are found from the shape"""
     seconds: float = 0.0

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray
-from ..normal_capture import NormalCapture
 from ..rotation_fit import svd_rotations
-from ..styles.blending import Style
+from ..styles.style import Style
 from ..symmetry import Mirror
 
 
@@ -36,9 +35,7 @@ class Placement:
     styles: tuple[Style, ...]
     """of the object itself and of each of its regions. Each orientation maps these coordinates into
     the form's frame; for a cube without a capture it is one of the 24 that are the same, else of a
-    mirrored object a reflection"""
-    capture: NormalCapture | None = None
-    """which way normals should face, in the form's frame"""
+    mirrored object a reflection. The capture of the first is that of all"""
 
     @property
     def style(self) -> Style:
@@ -52,10 +49,10 @@ class Placement:
 
     @property
     def key(self) -> tuple[Any, ...]:
-        """All values but the cubeness, for comparison bit for bit."""
-        capture = self.capture and self.capture.key
+        """All values but the cubeness and strengths, for comparison bit for bit."""
+        shape, capture = self.shape_key, _key_of(self.style.captures)
         own, *regions = (
-            (self.shape_key, style.orientation.tobytes(), style.form and style.form.key, capture)
+            (shape, np.asarray(style.orientation).tobytes(), _key_of(style.forms), capture)
             for style in self.styles
         )
         return own, *((region,) for region in regions)
@@ -103,9 +100,12 @@ class Placement:
         return svd_rotations(maps.swapaxes(1, 2))
 
 
-def placement_by(
-    matrix: ArrayLike, styles: tuple[Style, ...], capture: NormalCapture | None = None
-) -> Placement:
+def _key_of(values):
+    """Return the key of the only value, None for none."""
+    return values[0].key if values else None
+
+
+def placement_by(matrix: ArrayLike, styles: tuple[Style, ...]) -> Placement:
     """Return the Placement of an object in the world.
 
     Parameters
@@ -114,13 +114,12 @@ def placement_by(
         From the object's coordinates to those of the world; its linear part is invertible.
     styles : tuple of Style
         Of the object and of each of its regions, with orientations of the world.
-    capture : NormalCapture, optional
     """
     matrix = np.asarray(matrix, dtype=np.float64)
     linear, offset = np.ascontiguousarray(matrix[:3, :3]), matrix[:3, 3].copy()
     turn, stretch = polar(linear)
     up = np.array([0.0, 0.0, 1.0])
-    return Placement(linear, offset, turn, stretch, up, styles, capture)
+    return Placement(linear, offset, turn, stretch, up, styles)
 
 
 def polar(linear: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -8,18 +8,20 @@ from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 
-from ..aliases import BoolArray, Device, FloatArray
+from ..aliases import BoolArray, FloatArray
 from ..errors import CubicCraftError
 from ..symmetry import NO_PARTNER
 from .floor import kept_on_floor
 from .holds import Hold, holds_of
+from .joined_style import joined_style
 from .piece import P, parts_of
-from .vertex_styles import captures, vertex_styles
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
-    from ..limbs import KnownLimbs
+    from ..options import SolverOptions
+    from ..pose import Pose
     from ..proxy.options import ProxyOptions
     from ..setup import Setup
+    from ..styles.style import Style
     from ..stylization import Stylization
 
 
@@ -77,56 +79,45 @@ class Problem(Generic[P]):
         return sum(piece.shape.components for piece in self.pieces)
 
     @property
-    def targets(self) -> FloatArray:
-        """(N,3) where handles take the vertices."""
-        return np.concatenate([piece.targets for piece in self.pieces])
+    def style(self) -> "Style":
+        """What the vertices of all pieces are turned toward."""
+        return joined_style(self.pieces)
 
     @property
-    def hold_matrices(self) -> list[FloatArray]:
-        """(4,4) goal of each group that is held."""
-        return [hold.matrix for hold in self.holds]
-
-    @property
-    def known_limbs(self) -> "KnownLimbs | None":
-        """The limbs that bones tell, None if there are none."""
-        if not any(piece.bones for piece in self.pieces):
-            return None
+    def pose(self) -> "Pose":
+        """Where handles take the vertices and the groups that are held, and the limbs of bones."""
         from ..limbs import joined_limbs
 
         limbs = [piece.bones and piece.bones.limbs_at(piece.placement) for piece in self.pieces]
-        return joined_limbs(limbs, [piece.solved for piece in self.pieces])
+        counts = [piece.solved for piece in self.pieces]
+        return replace(self.pose_of_handles, limbs=joined_limbs(limbs, counts))
 
-    def stylization(
-        self,
-        *,
-        device: Device = "auto",
-        keep_rotation: bool = True,
-        is_accelerated: bool = True,
-    ) -> "Stylization":
-        """Return a new Stylization with the styles of the pieces.
+    @property
+    def pose_of_handles(self) -> "Pose":
+        """The pose without limbs, which take time: all that `Stylization.moved` looks at."""
+        from ..pose import Pose
+
+        targets = np.concatenate([piece.targets for piece in self.pieces])
+        return Pose(targets=targets, hold_matrices=[hold.matrix for hold in self.holds])
+
+    def stylization(self, options: "SolverOptions | None" = None) -> "Stylization":
+        """Return a new Stylization of the pieces.
+
+        Parameters
+        ----------
+        options : SolverOptions, optional
+            By default, each component keeps its orientation.
 
         Raises
         ------
         CubicCraftError
             A style is invalid, or the device is not available.
         """
+        from ..options import SolverOptions
         from ..stylization import Stylization
 
-        styles = vertex_styles(self.pieces)
-        return Stylization(
-            self.setup,
-            styles.cubeness,
-            styles.orientation,
-            self.targets,
-            styles.form,
-            styles.form_of,
-            device=device,
-            keep_rotation=keep_rotation,
-            hold_matrices=self.hold_matrices,
-            is_accelerated=is_accelerated,
-            limbs=self.known_limbs,
-            **captures(self.pieces),
-        )
+        options = SolverOptions(keep_rotation=True) if options is None else options
+        return Stylization(self.setup, self.style, self.pose, options)
 
     def posed(self, pieces: Sequence[P]) -> "Problem[P]":
         """Return the same objects in another pose and with other settings, without a factorization.
@@ -203,7 +194,7 @@ def join_pieces(
 
     >>> import numpy as np
     >>> from scipy.spatial import ConvexHull
-    >>> from solver import PAPER, ProxyOptions, Style, join_pieces, piece_of, run
+    >>> from solver import PAPER, ProxyOptions, SolverOptions, Style, join_pieces, piece_of, run
     >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
     >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
     >>> F = ConvexHull(V).simplices
@@ -212,9 +203,10 @@ def join_pieces(
     >>> place[:3, 3] = 0, -1, 0
     >>> head = piece_of(V, F, Style(0.6), name="head")
     >>> eye = piece_of(0.2 * V, F, Style(0.0), name="eye", matrix=place)
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> for proxy in (PAPER, ProxyOptions()):
     ...     problem = join_pieces([head, eye], proxy)
-    ...     result = run(problem.stylization(device="numpy"))
+    ...     result = run(problem.stylization(options))
     ...     _, (positions, _) = problem.split(result.positions, result.rotations)
     ...     print(f"{np.linalg.norm((positions - 0.2 * V).mean(axis=0)):.2f}")
     0.00

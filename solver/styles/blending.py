@@ -6,12 +6,11 @@ function of the Minkowski sum c_1 W_1 + c_2 W_2 (Schneider, Convex Bodies: The B
 Theory, section 1.7), another convex body, so the local step stays exact.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from ..aliases import FloatArray
 from .forms import cube
 from .polytope import Polytope, minkowski_sum
 
@@ -20,30 +19,6 @@ LEVELS = 8
 MOST_SUMS = 8000
 """of two vertices; between bodies with more, such as a cylinder and a cone, there is no third"""
 _ALIKE = 1e-6  # rotations that differ less are the same
-
-
-@dataclass(frozen=True, eq=False)
-class Style:
-    """What vertices are turned toward, and how strongly.
-
-    See Also
-    --------
-    piece_of : An object with a style, and others in regions.
-
-    Examples
-    --------
-    >>> from solver import Style
-    >>> from solver.styles.forms import octahedron
-    >>> gem = Style(0.4, form=octahedron())
-    >>> len(gem.form.normals), Style(0.4).form is None
-    (8, True)
-    """
-
-    cubeness: float
-    orientation: FloatArray = field(default_factory=lambda: np.eye(3))
-    """(3,3) rotation into the frame of the form, or (n,3,3) for each vertex of the mesh"""
-    form: Polytope | None = None
-    """None for the cube"""
 
 
 def blended(styles, weights):
@@ -55,6 +30,7 @@ def blended(styles, weights):
     Parameters
     ----------
     styles : sequence of Style
+        Each with one cubeness and one form.
     weights : (n,k) numpy array
         Share of each style; each row adds up to 1.
 
@@ -70,9 +46,10 @@ def blended(styles, weights):
     Examples
     --------
     >>> import numpy as np
-    >>> from solver.styles.blending import Style, blended
+    >>> from solver import Style
+    >>> from solver.styles.blending import blended
     >>> from solver.styles.forms import octahedron
-    >>> cube, gem = Style(0.4, np.eye(3), None), Style(0.2, np.eye(3), octahedron())
+    >>> cube, gem = Style(0.4), Style(0.2, form=octahedron())
     >>> weights = np.array([[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]])
     >>> cubeness, _, bodies, body_of = blended([cube, gem], weights)
     >>> cubeness.round(6).tolist(), len(bodies), body_of.tolist()

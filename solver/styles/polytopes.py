@@ -5,24 +5,22 @@ import numpy as np
 
 from .cube import CUBE
 from .faces import faces_of
-from .polytope import Polytope
 
 NEAREST_FACET = 0.9
 """cosine of the angle between a normal and that of a facet to which it may go at once"""
 
 
-def polytopes(form, body):
-    """Return the form of local problems: of a Polytope, of several, or the cube for None.
+def polytopes(forms, body):
+    """Return the form of local problems.
 
     Parameters
     ----------
-    form : Polytope, sequence of Polytopes or None
+    forms : list of Polytope
+        Without any, it is the cube.
     body : (n,) int array
-        Which of several; ignored for the cube.
+        Which of several.
     """
-    if form is None:
-        return CUBE
-    return Polytopes(faces_of([form] if isinstance(form, Polytope) else list(form)), body)
+    return Polytopes(faces_of(forms), body) if forms else CUBE
 
 
 class Polytopes:

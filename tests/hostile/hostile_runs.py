@@ -9,7 +9,7 @@ from hostile_options import options_for
 from hypothesis import strategies as st
 
 import solver
-from solver import Setup, Stylization, rest_mesh
+from solver import Pose, Setup, SolverOptions, Style, Stylization, rest_mesh
 
 ITERATIONS = 6
 ROUNDING = 1e-9
@@ -40,12 +40,9 @@ def run(setup, options, device, *, keep_apart=True, **more):
     """
     state = Stylization(
         setup,
-        options.cubeness,
-        targets=options.targets,
-        orientation=options.orientation,
-        keep_rotation=options.keep_rotation,
-        device=device,
-        **more,
+        Style(options.cubeness, options.orientation),
+        Pose(targets=options.targets),
+        SolverOptions(keep_rotation=options.keep_rotation, device=device, **more),
     )
     energies, setups = [], []
 

@@ -8,7 +8,7 @@ from budget import examples
 from hostile_runs import NOTHING, ROUNDING, cases, check_result, prepared, run
 from hypothesis import event, given
 
-from solver import Stylization
+from solver import SolverOptions, Style, Stylization
 
 
 @examples(60)
@@ -53,12 +53,11 @@ def energy_at_rest(setup, options):
     rest = setup.rest
     state = Stylization(
         setup,
-        options.cubeness,
-        options.orientation,
-        device="numpy",
-        keep_rotation=options.keep_rotation,
+        Style(options.cubeness, options.orientation),
+        options=SolverOptions(device="numpy", keep_rotation=options.keep_rotation),
     )
+    style = state._style
     cube_normals = np.einsum(
-        "nij,nj->ni", np.broadcast_to(state._Q, (len(rest.V), 3, 3)), state._drawn
+        "nij,nj->ni", np.broadcast_to(style.Q, (len(rest.V), 3, 3)), style.normals
     )
-    return (state._lam * rest.areas * np.abs(cube_normals).sum(axis=1)).sum()
+    return (style.lam * rest.areas * np.abs(cube_normals).sum(axis=1)).sum()

@@ -10,11 +10,9 @@ from plain_energy import plain_energy
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
+from solver import Setup, SolverOptions, Style, Stylization, rest_mesh
 from solver.backends import local_step_class
-from solver.rest import rest_mesh
-from solver.setup import Setup
 from solver.styles.admm import AdmmOptions
-from solver.stylization import Stylization
 
 Q = shapes.rotation(25, -10, 40)
 
@@ -92,7 +90,11 @@ def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, toleran
     # In 32 bit the tolerances cannot be smaller, and the comparison must not be one of tolerances.
     admm = AdmmOptions() if precision == "f64" else AdmmOptions(absolute=1e-5, relative=1e-3)
     for device, kind in (("numpy", None), ("cpu", precision)):
-        run = Stylization(Setup(rest_mesh(V, F)), 0.4, Q, device=device, precision=kind, admm=admm)
+        run = Stylization(
+            Setup(rest_mesh(V, F)),
+            Style(0.4, Q),
+            options=SolverOptions(device=device, precision=kind, admm=admm),
+        )
         for _ in range(5):
             run.step()
         results.append(run.placed()[0])
@@ -102,8 +104,12 @@ def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, toleran
 def test_per_vertex_cubeness_and_orientation_equal_their_scalars(device):
     V, F = shapes.blob(2)
     setup = Setup(rest_mesh(V, F))
-    one = Stylization(setup, 0.3, Q, device=device)
-    many = Stylization(setup, np.full(len(V), 0.3), np.tile(Q, (len(V), 1, 1)), device=device)
+    one = Stylization(setup, Style(0.3, Q), options=SolverOptions(device=device))
+    many = Stylization(
+        setup,
+        Style(np.full(len(V), 0.3), np.tile(Q, (len(V), 1, 1))),
+        options=SolverOptions(device=device),
+    )
     for _ in range(4):
         one.step()
         many.step()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shapes import blob
 
-from solver import ProxyOptions, Run, Setup, Stylization, rest_mesh, run
+from solver import Pose, ProxyOptions, Run, Setup, SolverOptions, Stylization, rest_mesh, run
 
 OPTIONS = (ProxyOptions(refine=False), ProxyOptions(refine=False, detail=0.0, keep_pose=False))
 
@@ -28,11 +28,13 @@ def ended(stylization, steps=200):
 def test_it_ends_near_a_new_run_after_fewer_steps(proxy):
     V, F = blob(3)
     setup = Setup(rest_mesh(V, F, proxy))
-    before = Stylization(setup, 0.4, device="numpy")
+    before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     run(before)
     W = pushed(V)
     moved = ended(before.moved(setup.posed(W)))
-    anew = ended(Stylization(Setup(rest_mesh(W, F, proxy)), 0.4, device="numpy"))
+    anew = ended(
+        Stylization(Setup(rest_mesh(W, F, proxy)), 0.4, options=SolverOptions(device="numpy"))
+    )
     assert moved.converged and moved.iterations < anew.iterations
     assert moved.energy.total == pytest.approx(anew.energy.total, rel=0.03)
     change = np.abs(anew.positions - W).max()
@@ -42,7 +44,7 @@ def test_it_ends_near_a_new_run_after_fewer_steps(proxy):
 def test_its_energy_falls_from_the_start():
     V, F = blob(3)
     setup = Setup(rest_mesh(V, F))
-    before = Stylization(setup, 0.4, device="numpy", is_accelerated=False)
+    before = Stylization(setup, 0.4, options=SolverOptions(device="numpy", is_accelerated=False))
     for _ in range(30):
         before.step()
     moved, energies = before.moved(setup.posed(pushed(V))), []
@@ -55,7 +57,7 @@ def test_its_energy_falls_from_the_start():
 def test_the_run_that_it_goes_on_from_is_left_alone():
     V, F = blob(2)
     setup = Setup(rest_mesh(V, F))
-    before = Stylization(setup, 0.4, device="numpy")
+    before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     for _ in range(5):
         before.step()
     positions, rotations = before.positions.copy(), before.rotations.copy()
@@ -68,7 +70,7 @@ def test_the_run_that_it_goes_on_from_is_left_alone():
 def test_a_shape_that_is_only_shifted_keeps_its_solution():
     V, F = blob(2)
     setup = Setup(rest_mesh(V, F))
-    before = Stylization(setup, 0.4, device="numpy")
+    before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     first = run(before)
     moved = before.moved(setup.posed(V + [0.5, 0.0, 0.0]))
     assert np.allclose(moved.placed_positions(), first.positions + [0.5, 0.0, 0.0], atol=1e-9)
@@ -77,12 +79,12 @@ def test_a_shape_that_is_only_shifted_keeps_its_solution():
 def test_pins_go_to_their_new_targets():
     V, F = blob(2)
     setup = Setup(rest_mesh(V, F), [0, 5])
-    before = Stylization(setup, 0.4, device="numpy")
+    before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     before.step()
     W = pushed(V)
     targets = W.copy()
     targets[5] += 0.1
-    moved = before.moved(setup.posed(W), targets)
+    moved = before.moved(setup.posed(W), Pose(targets=targets))
     moved.step()
     assert (moved.placed_positions()[[0, 5]] == targets[[0, 5]]).all()
 

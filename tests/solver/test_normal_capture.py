@@ -13,6 +13,8 @@ from solver import (
     CubicCraftError,
     NormalCapture,
     Setup,
+    SolverOptions,
+    Style,
     Stylization,
     rest_mesh,
     run,
@@ -122,7 +124,7 @@ def random_problem(many, lam, mu, form_of_name, seed):
     from solver.styles.cube import CUBE
     from solver.styles.polytopes import polytopes
 
-    body = polytopes(form_of_name(), np.zeros(many, int)) if form_of_name else CUBE
+    body = polytopes([form_of_name()], np.zeros(many, int)) if form_of_name else CUBE
     nothing = np.zeros((many, 3, 3))
     problem = LocalProblem(nothing, normals, turns, np.full(many, lam), body, captured)
     return problem.with_covariances(S), S
@@ -194,8 +196,9 @@ def test_a_large_mesh_has_it_on_coarser_levels_too(monkeypatch):
 @pytest.mark.parametrize("lam", [0.0, 0.8])
 def test_the_energy_never_rises(lam):
     setup = Setup(rest_mesh(*shapes.blob(3)))
-    options = {"device": "numpy", "is_accelerated": False, "capture": like_a_cube()}
-    state = Stylization(setup, lam, Q, capture_strength=1.5, **options)
+    style = Style(lam, Q, capture=like_a_cube(), capture_strength=1.5)
+    options = SolverOptions(device="numpy", is_accelerated=False)
+    state = Stylization(setup, style, options=options)
     energies = []
     for _ in range(30):
         state.step()
@@ -252,24 +255,19 @@ def test_each_vertex_may_have_its_own_capture_or_none():
     faces = np.concatenate([F, F + len(V), F + 2 * len(V)])
     which = np.repeat([0, 1, 0], len(V))
     tall = NormalCapture(d := directions(800), d * [1, 1, 3])
-    options = {"capture": [like_a_cube(), tall], "capture_of": which, "device": "numpy"}
     strength = np.repeat([3.0, 3.0, 0.0], len(V))
-    result = run(
-        Stylization(
-            Setup(rest_mesh(three, faces)),
-            0.0,
-            capture_strength=strength,
-            keep_rotation=True,
-            **options,
-        )
-    ).positions.reshape(3, -1, 3)
+    captures = [like_a_cube(), tall]
+    style = Style(0.0, capture=captures, capture_strength=strength, capture_of=which)
+    options = SolverOptions(keep_rotation=True, device="numpy")
+    state = Stylization(Setup(rest_mesh(three, faces)), style, options=options)
+    result = run(state).positions.reshape(3, -1, 3)
     assert share_along_axes(result[0], F) > share_along_axes(result[1], F) + 0.2
     assert np.abs(result[2] - V - [10, 0, 0]).max() < 0.02
 
 
 def test_where_the_strength_is_nothing_nothing_is_asked_for():
     x = directions(20)
-    captured = targets_for(like_a_cube(100), np.zeros(20, int), np.zeros(20), Q[None], x)
+    captured = targets_for([like_a_cube(100)], np.zeros(20, int), np.zeros(20), Q[None], x)
     assert captured.shape == (20, 4) and not captured.any()
 
 

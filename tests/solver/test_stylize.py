@@ -9,7 +9,16 @@ import shapes
 from devices import by_device
 from procrustes import best_rotation
 
-from solver import CubicCraftError, Setup, Stylization, rest_mesh, run, stylize
+from solver import (
+    CubicCraftError,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    rest_mesh,
+    run,
+    stylize,
+)
 from solver.styles import forms
 
 FIXED = {"max_iterations": 40, "tolerance": 1e-12}
@@ -163,14 +172,16 @@ def test_keep_rotation_holds_the_shape_and_the_cube(device):
     assert angles[1] < by_device(device, 1e-5, 1e-3)
     assert kept.converged
     # Not the free shape turned back, whose sides are no longer those of the cube.
-    energy = Stylization(Setup(rest), 0.5, device=device).energy_of(free.positions @ turns[0])
+    energy = Stylization(Setup(rest), 0.5, options=SolverOptions(device=device)).energy_of(
+        free.positions @ turns[0]
+    )
     assert kept.energy.total < energy.total
 
 
 def test_the_reported_energy_is_that_of_the_result(device):
     V, F = shapes.blob()
     result = stylize(V, F, 0.3, device=device)
-    again = Stylization(Setup(rest_mesh(V, F)), 0.3, device=device)
+    again = Stylization(Setup(rest_mesh(V, F)), 0.3, options=SolverOptions(device=device))
     energy = again.energy_of(result.positions)  # ends nearer to the limit of the ADMM
     assert energy.total == pytest.approx(result.energy.total, rel=2e-4)
 
@@ -184,9 +195,13 @@ def test_a_run_can_be_cancelled_and_says_so(device):
 def test_steps_one_at_a_time_equal_a_run(device):
     V, F = shapes.blob(2)
     setup = Setup(rest_mesh(V, F))
-    result = run(Stylization(setup, 0.3, device=device), max_iterations=7, tolerance=1e-12)
+    result = run(
+        Stylization(setup, 0.3, options=SolverOptions(device=device)),
+        max_iterations=7,
+        tolerance=1e-12,
+    )
     assert result.reason == "max_iterations"
-    steps = Stylization(setup, 0.3, device=device)
+    steps = Stylization(setup, 0.3, options=SolverOptions(device=device))
     for _ in range(7):
         steps.step()
     np.testing.assert_array_equal(steps.placed()[0], result.positions)
@@ -232,6 +247,21 @@ def test_bad_options_are_refused(options, message):
     with pytest.raises(CubicCraftError, match=message) as caught:
         stylize(V, F, **{"cubeness": 0.3, "device": "numpy", **options})
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ((0.4, np.eye(3)), "pose must be of the type Pose, not float64"),
+        ((0.4, None, {"device": "numpy"}), "options must be of the type SolverOptions, not dict"),
+        ((Style("0.4"),), "cubeness must be real numbers, not text"),
+        ((Style(0.4, capture=3),), "capture must be of the type NormalCapture, not int"),
+    ],
+)
+def test_what_is_no_style_pose_or_options_is_refused(given, message):
+    setup = Setup(rest_mesh(*shapes.blob(1)))
+    with pytest.raises(CubicCraftError, match=message):
+        Stylization(setup, *given)
 
 
 def test_options_that_are_not_there_are_named():

@@ -10,8 +10,10 @@ from solver import (
     NO_PARTNER,
     PAPER,
     Mirror,
+    Pose,
     ProxyOptions,
     Setup,
+    SolverOptions,
     Stylization,
     commuting,
     partners,
@@ -97,7 +99,9 @@ def test_pairs_that_spoil_another_plane_are_dropped():
 def test_halves_stay_images_and_the_energy_falls(proxy, device):
     V, F, mirror = lump()
     setup = Setup(rest_mesh(V, F, proxy), mirrors=[mirror])
-    state = Stylization(setup, 0.4, device=device, is_accelerated=False, keep_rotation=True)
+    state = Stylization(
+        setup, 0.4, options=SolverOptions(device=device, is_accelerated=False, keep_rotation=True)
+    )
     energies = []
     for _ in range(30):
         state.step()
@@ -128,6 +132,6 @@ def test_what_is_pinned_and_its_partner_are_free_of_each_other():
     pinned = np.flatnonzero(V[:, 0] > 0.8)
     targets = V + [0.2, 0.0, 0.0]
     setup = Setup(rest_mesh(V, F), pinned, mirrors=[mirror])
-    result = run(Stylization(setup, 0.4, targets=targets, device="numpy"), 50)
+    result = run(Stylization(setup, 0.4, Pose(targets=targets), SolverOptions(device="numpy")), 50)
     assert (result.positions[pinned] == targets[pinned]).all()
     assert np.abs(result.positions[mirror.partner[pinned]] - targets[pinned] @ FLIP).max() > 0.05

@@ -12,8 +12,11 @@ from solver import (
     FrameSequence,
     Mirror,
     NormalCapture,
+    Pose,
     ProxyOptions,
     Setup,
+    SolverOptions,
+    Style,
     Stylization,
     flatten_facets,
     rest_mesh,
@@ -33,12 +36,18 @@ def setup(height=1.0, pinned=(0,)):
 
 
 def stylization(cubeness=0.4):
-    return Stylization(setup(), cubeness, device="numpy", capture=NormalCapture(AXES, AXES))
+    return Stylization(
+        setup(),
+        Style(cubeness, capture=NormalCapture(AXES, AXES)),
+        options=SolverOptions(device="numpy"),
+    )
 
 
 def state(steps=2):
     sequence = FrameSequence(rest_mesh(V, F))
-    sequence.solve(Stylization(Setup(rest_mesh(V, F)), 0.4, device="numpy"), steps)
+    sequence.solve(
+        Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device="numpy")), steps
+    )
     return sequence.state
 
 
@@ -50,6 +59,15 @@ MADE = {
     "pins": (setup, lambda: setup(pinned=(1,))),
     "holds": (lambda: setup().with_holds(WEIGHTS), setup),
     "stylization": (stylization, lambda: stylization(0.2)),
+    "options": (lambda: SolverOptions(device="numpy"), SolverOptions),
+    "pose": (
+        lambda: Pose(targets=V, hold_matrices=[np.eye(4)]),
+        lambda: Pose(targets=2.0 * V, hold_matrices=[np.eye(4)]),
+    ),
+    "style": (
+        lambda: Style(V[:, 0], form=[forms.cube(), forms.octahedron()]),
+        lambda: Style(V[:, 0], form=[forms.cube(), forms.icosahedron()]),
+    ),
     "limbs": (lambda: setup().rest.limbs, lambda: setup(3.0).rest.limbs),
     "mirror": (
         lambda: Mirror(np.arange(42), np.eye(3), np.zeros(3)),
@@ -101,7 +119,7 @@ def test_held_groups_are_held_where_a_setup_is_read():
     matrix = np.eye(4)
     matrix[2, 3] = 0.2
     results = [
-        run(Stylization(each, 0.4, device="numpy", hold_matrices=[matrix]), 20)
+        run(Stylization(each, 0.4, Pose(hold_matrices=[matrix]), SolverOptions(device="numpy")), 20)
         for each in (held, pickle.loads(pickle.dumps(held)))
     ]
     assert results[0] == results[1]

@@ -16,7 +16,16 @@ from engine_marks import PACKAGE, needs_engine
 from in_a_process import passes
 from optional_marks import needs
 
-from solver import CubicCraftError, Run, Setup, Stylization, rest_mesh, stylize
+from solver import (
+    CubicCraftError,
+    Pose,
+    Run,
+    Setup,
+    SolverOptions,
+    Stylization,
+    rest_mesh,
+    stylize,
+)
 from solver.backends import arrays
 from solver.backends.engine import import_engine
 
@@ -63,8 +72,9 @@ def on_the_host(monkeypatch, make):
 def stylization(name="blob", pins=0, **options):
     V, F = shapes.ALL[name]()
     pinned = np.argsort(V[:, 2])[:pins]
-    options = {"targets": V + [0.0, 0.1, 0.2], "device": here.device, **options}
-    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, **options)
+    pose = Pose(targets=V + [0.0, 0.1, 0.2])
+    options = SolverOptions(**{"device": here.device} | options)
+    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, pose, options)
 
 
 @pytest.mark.thorough(8)
@@ -117,7 +127,7 @@ def _kernel_class():
 def test_an_iteration_runs_six_kernels_and_exchanges_less_than_a_kilobyte(monkeypatch, on_a_device):
     on_a_device()
     V, F = shapes.sphere(5)
-    state = Stylization(Setup(rest_mesh(V, F)), 0.5, device=here.device)
+    state = Stylization(Setup(rest_mesh(V, F)), 0.5, options=SolverOptions(device=here.device))
     state.step()
     launched, exchanged = [], []
     Kernel = _kernel_class()
@@ -161,7 +171,11 @@ def test_it_starts_from_a_coarser_mesh_and_can_be_looked_at(monkeypatch, on_a_de
 
     def make():
         V, F = shapes.blob(4)
-        run = Run(Stylization(Setup(rest_mesh(V, F), [3, 4]), 0.4, device=here.device))
+        run = Run(
+            Stylization(
+                Setup(rest_mesh(V, F), [3, 4]), 0.4, options=SolverOptions(device=here.device)
+            )
+        )
         assert run.is_on_coarser_mesh
         looks = []
         while run.reason is None:
@@ -242,10 +256,11 @@ def test_a_reset_is_told_and_the_next_run_works(how, thens):
         ON_A_DEVICE
         + f"""
         import gc
-        from solver import CubicCraftError, Setup, Stylization, rest_mesh
+        from solver import CubicCraftError, Setup, SolverOptions, Stylization, rest_mesh
+        options = SolverOptions(device={DEVICE!r})
         expected = stylize(V, F, device={DEVICE!r}, max_iterations=4)
         for then in {thens}:
-            state = Stylization(Setup(rest_mesh(V, F)), 0.4, device={DEVICE!r})
+            state = Stylization(Setup(rest_mesh(V, F)), 0.4, options=options)
             state.step()
             arch = ti.lang.impl.current_cfg().arch
             {how}

@@ -9,7 +9,7 @@ import shapes
 from engine_marks import needs_engine
 from optional_marks import needs
 
-from solver import Setup, Stylization, rest_mesh, stylize
+from solver import Pose, Setup, SolverOptions, Stylization, rest_mesh, stylize
 from solver.global_step.motion import Motion
 from solver.styles.admm import admm_rotations
 
@@ -25,8 +25,9 @@ def multigrid_with_some_levels(monkeypatch):
 def stylization(name="blob", pins=0, **options):
     V, F = shapes.ALL[name]()
     pinned = np.argsort(V[:, 2])[:pins]
-    options = {"targets": V + [0.0, 0.1, 0.2], "device": "cpu", **options}
-    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, **options)
+    pose = Pose(targets=V + [0.0, 0.1, 0.2])
+    options = SolverOptions(**{"device": "cpu"} | options)
+    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, pose, options)
 
 
 @pytest.mark.parametrize("coarsest", [20, 10_000])

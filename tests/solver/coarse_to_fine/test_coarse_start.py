@@ -8,7 +8,7 @@ from devices import by_device
 from optional_marks import needs
 from procrustes import best_rotation
 
-from solver import Run, Setup, Stylization, rest_mesh, stylize
+from solver import Run, Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
 from solver.coarse_to_fine.start import _smoothed
 
 pytestmark = needs("pyamg")
@@ -80,11 +80,13 @@ def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
     cubeness = np.where(V[:, 0] > 0.0, 1.0, 0.0)
     Q = np.tile(shapes.rotation(0.0, 0.0, 30.0), (len(V), 1, 1))
     large()
-    stylization = Stylization(Setup(rest_mesh(V, F)), cubeness, Q, device=device)
+    stylization = Stylization(
+        Setup(rest_mesh(V, F)), Style(cubeness, Q), options=SolverOptions(device=device)
+    )
     coarse = stylization.coarser()
     x = stylization.rest.box.from_unit(coarse.rest.input_positions)[:, 0]
     inside = np.abs(x) > 0.2
-    np.testing.assert_array_equal(coarse._lam[inside], np.where(x > 0.0, 1.0, 0.0)[inside])
+    np.testing.assert_array_equal(coarse._style.lam[inside], np.where(x > 0.0, 1.0, 0.0)[inside])
     result = stylize(V, F, cubeness, orientation=Q, device=device)
     from_one = stylize(V, F, cubeness, orientation=Q[0], device=device)
     np.testing.assert_allclose(
@@ -96,7 +98,7 @@ def test_slicing_and_repeating_change_no_bit(large, device):
     V, F = shapes.blob(4)
     large()
     whole = stylize(V, F, 0.4, device=device)
-    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, device=device))
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device=device)))
     phases = 0
     assert run.so_far() is None
     while run.reason is None:
@@ -114,7 +116,7 @@ def test_no_part_turns_on_coarser_meshes(large, device):
     V, F = shapes.blob(4)
     V = V @ shapes.rotation(0, 25, 15).T
     large()
-    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, device=device))
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, options=SolverOptions(device=device)))
     coarse = run._coarse
     assert coarse.stylization.is_coarse
     coarse.complete()
@@ -151,17 +153,22 @@ def test_without_the_package_it_starts_from_rest(large, device, monkeypatch):
 
 def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
     setup = Setup(rest_mesh(*shapes.blob()))
-    assert Run(Stylization(setup, 0.4, device="numpy"))._coarse is None
+    assert Run(Stylization(setup, 0.4, options=SolverOptions(device="numpy")))._coarse is None
     large()
-    assert Run(Stylization(setup, 0.4, device="numpy"))._coarse is not None
-    assert Run(Stylization(setup, 0.4, device="numpy", is_accelerated=False))._coarse is None
+    assert Run(Stylization(setup, 0.4, options=SolverOptions(device="numpy")))._coarse is not None
+    assert (
+        Run(
+            Stylization(setup, 0.4, options=SolverOptions(device="numpy", is_accelerated=False))
+        )._coarse
+        is None
+    )
 
 
 def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
     V, F = shapes.blob(4)
     large()
     setup = Setup(rest_mesh(V, F))
-    run = Run(Stylization(setup, 0.5, device=device, keep_rotation=True))
+    run = Run(Stylization(setup, 0.5, options=SolverOptions(device=device, keep_rotation=True)))
     end = stylize(V, F, 0.5, device=device, keep_rotation=True).positions
     seen, counts = [], []
     while run.is_on_coarser_mesh:

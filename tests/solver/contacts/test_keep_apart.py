@@ -10,9 +10,11 @@ from solver import (
     PAPER,
     FrameSequence,
     Mirror,
+    Pose,
     ProxyOptions,
     Run,
     Setup,
+    SolverOptions,
     Stylization,
     partners,
     rest_mesh,
@@ -32,7 +34,11 @@ COARSE = {"refine": False}
 def stylization(V, F, cubeness=0.4, pinned=(), apart=True, options=None, mirrors=(), **others):
     proxy = ProxyOptions(keep_apart=apart, **(options or {}))
     setup = Setup(rest_mesh(V, F, proxy), pinned, mirrors=mirrors)
-    return Stylization(setup, cubeness, **{"device": "numpy", "keep_rotation": True} | others)
+    return Stylization(
+        setup,
+        cubeness,
+        options=SolverOptions(**{"device": "numpy", "keep_rotation": True} | others),
+    )
 
 
 def new_crossings(V, U, F):
@@ -227,8 +233,8 @@ def test_held_groups_keep_their_place():
     setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).with_holds([weights])
     matrix = np.eye(4)
     matrix[:3, 3] = 0.1, 0.2, 0.0
-    options = {"device": "numpy", "keep_rotation": True, "hold_matrices": [matrix]}
-    held = Run(Stylization(setup, 0.4, **options))
+    options = SolverOptions(device="numpy", keep_rotation=True)
+    held = Run(Stylization(setup, 0.4, Pose(hold_matrices=[matrix]), options))
     first = held.stylization
     held.complete()
     assert held.stylization is not first
@@ -241,7 +247,7 @@ def test_a_pose_has_its_own_contacts():
     V, F = contact_shapes.hand()
     posed = V @ contact_shapes.turned(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
     setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).posed(posed)
-    result = run(Stylization(setup, 0.4, device="numpy", keep_rotation=True))
+    result = run(Stylization(setup, 0.4, options=SolverOptions(device="numpy", keep_rotation=True)))
     assert result.crossings == len(new_crossings(posed, result.positions, F)) == 0
 
 

@@ -5,7 +5,16 @@ import numpy as np
 import pytest
 from shapes import blob, rotation, sheet
 
-from solver import FrameSequence, ProxyOptions, Setup, Stylization, rest_mesh, run
+from solver import (
+    FrameSequence,
+    Pose,
+    ProxyOptions,
+    Setup,
+    SolverOptions,
+    Stylization,
+    rest_mesh,
+    run,
+)
 from solver.frames.sequence import STEPS
 from solver.frames.steadiness import (
     MOST_JUMPS,
@@ -38,10 +47,10 @@ def turning(V, count, angle=30.0):
     return np.array([V @ rotation(z=angle * f / count).T for f in range(count)])
 
 
-def solved(setup, sequence, frames, cubeness=0.4, **options):
+def solved(setup, sequence, frames, cubeness=0.4, pose=None, **options):
     """Yield the Result of each frame."""
     for V in frames:
-        yield sequence.solve(Stylization(setup.posed(V), cubeness, **options))
+        yield sequence.solve(Stylization(setup.posed(V), cubeness, pose, SolverOptions(**options)))
 
 
 def recorded(frames, F, **options):
@@ -98,7 +107,13 @@ def test_a_sheet_that_falls_over_a_ball_does_not_stay_flat():
     frames, F = draping(30)
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
     *_, last = solved(setup, FrameSequence(setup.rest), frames, device="numpy", keep_rotation=True)
-    alone = run(Stylization(Setup(rest_mesh(frames[-1], F, ProxyOptions())), 0.4, device="numpy"))
+    alone = run(
+        Stylization(
+            Setup(rest_mesh(frames[-1], F, ProxyOptions())),
+            0.4,
+            options=SolverOptions(device="numpy"),
+        )
+    )
     heights = [np.ptp(positions[:, 2]) for positions in (last.positions, alone.positions)]
     assert heights[0] > 0.85 * heights[1]
 
@@ -110,7 +125,7 @@ def test_a_frame_is_nearly_as_good_as_one_that_has_converged():
     results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
     for frame, result in zip(frames[3::3], results[3::3], strict=True):
         assert result.iterations <= STEPS
-        alone = Stylization(setup.posed(frame), 0.4, keep_rotation=True)
+        alone = Stylization(setup.posed(frame), 0.4, options=SolverOptions(keep_rotation=True))
         for _ in range(200):
             alone.step()
         assert result.energy.total <= 1.02 * alone.finish().total
@@ -127,7 +142,9 @@ def test_nothing_accumulates_while_a_coat_turns_to_and_fro():
     frames = [V @ rotation(z=14.3 * np.cos(np.pi * f / 10)).T for f in range(7)]
     setup = Setup(rest_mesh(frames[0], F, ProxyOptions()))
     results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
-    alone = run(Stylization(setup.posed(frames[-1]), 0.4, keep_rotation=True))
+    alone = run(
+        Stylization(setup.posed(frames[-1]), 0.4, options=SolverOptions(keep_rotation=True))
+    )
     assert results[-1].energy.total < 1.06 * alone.energy.total
 
 
@@ -147,8 +164,8 @@ def test_groups_keep_their_place_in_each_frame():
     setup = Setup(rest_mesh(V, F)).with_holds([weights])
     frames = V + np.array([[[0.0, 0, 0]], [[0.5, 0, 0]]])
     sequence = FrameSequence(setup.rest)
-    options = {"hold_matrices": [np.eye(4)]}
-    one, other = (r.positions for r in solved(setup, sequence, frames, **options))
+    held = Pose(hold_matrices=[np.eye(4)])
+    one, other = (r.positions for r in solved(setup, sequence, frames, pose=held))
     share = weights / weights.sum()
     np.testing.assert_allclose(share @ one, share @ frames[0], atol=2e-2)
     np.testing.assert_allclose(share @ other - share @ one, [0.5, 0, 0], atol=2e-2)
@@ -175,7 +192,7 @@ def test_it_jumps_less_than_frames_solved_alone():
     setup = Setup(rest_mesh(frames[0], F))
     alone = []
     for V in frames:
-        stylization = Stylization(setup.posed(V), 0.4, keep_rotation=True)
+        stylization = Stylization(setup.posed(V), 0.4, options=SolverOptions(keep_rotation=True))
         alone.append(run(stylization).positions)
     separate = Jumps()
     separate.add(np.array(alone))

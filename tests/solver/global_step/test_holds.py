@@ -9,8 +9,10 @@ from shapes import blob, rotation, two_blobs
 import solver.global_step.step as global_step
 from solver import (
     PAPER,
+    Pose,
     ProxyOptions,
     Setup,
+    SolverOptions,
     Stylization,
     edge_distances,
     nearest_distances,
@@ -48,7 +50,7 @@ def test_a_group_goes_where_it_is_asked_to_and_becomes_cubic(proxy, device):
     weights = (V[:, 0] > 0.3).astype(float)
     matrix = turned_and_moved()
     setup = Setup(rest, np.flatnonzero(V[:, 0] < -0.5)).with_holds([weights])
-    state = Stylization(setup, 0.4, device=device, hold_matrices=[matrix])
+    state = Stylization(setup, 0.4, Pose(hold_matrices=[matrix]), SolverOptions(device=device))
     result = run(state, 100)
     R, start, end = pose_of(state, weights)
     assert end == pytest.approx(
@@ -70,7 +72,12 @@ def test_the_energy_of_the_plain_iteration_falls(proxy, pins):
         [(V[:, 0] > 0.3).astype(float), (V[:, 0] < -0.3).astype(float)]
     )
     matrices = [turned_and_moved(), np.eye(4)]
-    state = Stylization(setup, 0.4, device="numpy", is_accelerated=False, hold_matrices=matrices)
+    state = Stylization(
+        setup,
+        0.4,
+        Pose(hold_matrices=matrices),
+        SolverOptions(device="numpy", is_accelerated=False),
+    )
     energies = []
     for _ in range(30):
         state.step()
@@ -84,7 +91,9 @@ def test_a_single_group_without_pins_takes_all_along():
     setup = Setup(rest_mesh(V, F)).with_holds([(V[:, 0] > 0.3).astype(float)])
     matrix = np.eye(4)
     matrix[:3, 3] = (3.0, 1.0, 0.0)
-    result = run(Stylization(setup, 0.0, device="numpy", hold_matrices=[matrix]), 100)
+    result = run(
+        Stylization(setup, 0.0, Pose(hold_matrices=[matrix]), SolverOptions(device="numpy")), 100
+    )
     assert result.positions == pytest.approx(V + matrix[:3, 3], abs=1e-4)
 
 
@@ -94,10 +103,14 @@ def test_only_its_component_is_concerned():
     first = np.zeros(len(V), dtype=bool)
     first[rest.used[rest.topology.component == 0]] = True
     setup = Setup(rest).with_holds([first.astype(float)])
-    alone = run(Stylization(Setup(rest), 0.4, device="numpy"), 20, 1e-9)
+    alone = run(Stylization(Setup(rest), 0.4, options=SolverOptions(device="numpy")), 20, 1e-9)
     matrix = np.eye(4)
     matrix[:3, 3] = 0.5
-    held = run(Stylization(setup, 0.4, device="numpy", hold_matrices=[matrix]), 20, 1e-9)
+    held = run(
+        Stylization(setup, 0.4, Pose(hold_matrices=[matrix]), SolverOptions(device="numpy")),
+        20,
+        1e-9,
+    )
     assert (held.positions[~first] == alone.positions[~first]).all()
     moved = held.positions[first].mean(axis=0) - alone.positions[first].mean(axis=0)
     assert np.linalg.norm(moved) > 0.5
@@ -109,14 +122,14 @@ def test_multigrid_obeys_them_too(monkeypatch):
     pinned = np.flatnonzero(V[:, 0] < -0.5)
     exact = run(
         Stylization(
-            Setup(rest_mesh(V, F), pinned).with_holds([weights]), 0.4, hold_matrices=[matrix]
+            Setup(rest_mesh(V, F), pinned).with_holds([weights]), 0.4, Pose(hold_matrices=[matrix])
         )
     )
     monkeypatch.setattr(global_step, "FACTORIZED_VERTICES", 100)
     rest = rest_mesh(V, F)
     setup = Setup(rest, pinned).with_holds([weights])
     assert not setup.global_step.is_factorized
-    state = Stylization(setup, 0.4, hold_matrices=[matrix])
+    state = Stylization(setup, 0.4, Pose(hold_matrices=[matrix]))
     result = run(state)
     assert result.converged
     R, start, end = pose_of(state, weights)
@@ -132,7 +145,7 @@ def test_the_same_bits_in_a_second_run():
             Stylization(
                 Setup(rest_mesh(V, F)).with_holds([np.ones(len(V))]),
                 0.4,
-                hold_matrices=[turned_and_moved()],
+                Pose(hold_matrices=[turned_and_moved()]),
             ),
             30,
         )

@@ -8,7 +8,7 @@ import shapes
 from devices import by_device
 from procrustes import best_rotation
 
-from solver import ProxyOptions, Setup, Stylization, rest_mesh, run
+from solver import ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
 
 
 def solid(*outline, sides=20):
@@ -46,7 +46,7 @@ def degrees(V, U):
 def leaning(mesh, cubeness):
     """Return how far each part of a mesh turns."""
     rest = rest_mesh(*mesh, ProxyOptions())
-    result = run(Stylization(Setup(rest), cubeness, keep_rotation=True))
+    result = run(Stylization(Setup(rest), cubeness, options=SolverOptions(keep_rotation=True)))
     part = rest.topology.part[rest.place[1]]
     return [degrees(mesh[0][part == k], result.positions[part == k]) for k in range(part.max() + 1)]
 
@@ -63,7 +63,7 @@ def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
 def test_the_energy_falls_and_nothing_turns():
     rest = rest_mesh(*lamp(), ProxyOptions(keep_apart=False))
     setup = Setup(rest)
-    state = Stylization(setup, 0.4, keep_rotation=True, is_accelerated=False)
+    state = Stylization(setup, 0.4, options=SolverOptions(keep_rotation=True, is_accelerated=False))
     energies = []
     run(state, 40, 1e-12, lambda s: energies.append(s.energy.total))
     assert np.diff(energies).max() <= 1e-12
@@ -76,7 +76,9 @@ def test_nothing_turns_where_a_factorisation_would_be_too_large(device, monkeypa
     rest = rest_mesh(*lamp(), ProxyOptions())
     turned = []
     for is_kept in (True, False):
-        state = Stylization(Setup(rest), 0.4, keep_rotation=is_kept, device=device)
+        state = Stylization(
+            Setup(rest), 0.4, options=SolverOptions(keep_rotation=is_kept, device=device)
+        )
         for _ in range(30):
             state.step()
         turned.append(asymmetry(rest, state.positions))
@@ -102,7 +104,8 @@ def test_several_do_as_each_would_alone():
     both = rest_mesh(*proxy_shapes.joined((V, F), (far, F)), options)
     one = rest_mesh(V, F, options)
     together, alone = (
-        run(Stylization(Setup(rest), 0.4, keep_rotation=True), 400, 1e-6) for rest in (both, one)
+        run(Stylization(Setup(rest), 0.4, options=SolverOptions(keep_rotation=True)), 400, 1e-6)
+        for rest in (both, one)
     )
     assert Setup(both).global_step.upright_parts.is_kept.tolist() == [True, True]
     for moved in (together.positions[: len(V)] - V, together.positions[len(V) :] - far):
@@ -125,6 +128,6 @@ def test_another_pose_has_constraints_of_its_own():
     rest = rest_mesh(V, F, ProxyOptions())
     turned = V @ shapes.rotation(0, 0, 30).T
     posed = Setup(rest).posed(turned)
-    result = run(Stylization(posed, 0.2, keep_rotation=True))
+    result = run(Stylization(posed, 0.2, options=SolverOptions(keep_rotation=True)))
     part = rest.topology.part[rest.place[1]] == 1
     assert degrees(turned[part], result.positions[part]) < 2.5

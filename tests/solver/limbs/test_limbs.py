@@ -11,7 +11,19 @@ import pytest
 import scipy.sparse as sp
 import shapes
 
-from solver import Mirror, ProxyOptions, Setup, Stylization, partners, rest_mesh, run, stylize
+from solver import (
+    Mirror,
+    Pose,
+    ProxyOptions,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    partners,
+    rest_mesh,
+    run,
+    stylize,
+)
 from solver.limbs import KnownLimbs, Limbs, turns
 from solver.limbs.swing import swung
 from solver.styles import forms
@@ -131,11 +143,11 @@ def test_halves_have_frames_that_are_mirror_images_bit_for_bit():
     flip = np.diag([-1.0, 1.0, 1.0])
     mirror = Mirror(partners(both, both @ flip, 1e-6), flip, np.zeros(3))
     setup = Setup(rest_mesh(both, faces, LIMBS), mirrors=[mirror])
-    state = Stylization(setup, 0.4, **KEPT)
+    state = Stylization(setup, 0.4, options=SolverOptions(**KEPT))
     (solved,) = setup.mirrors
     pair = np.flatnonzero(solved.partner > np.arange(len(solved.partner)))
     assert len(pair) > 1000
-    Q = state._Q
+    Q = state._style.Q
     np.testing.assert_array_equal(Q[solved.partner[pair]], flip @ Q[pair] @ flip)
     assert np.abs(Q - np.eye(3)).max() > 0.5
     U = run(state).positions
@@ -149,10 +161,15 @@ def test_what_is_known_counts_instead_of_the_shape():
         np.array([[0.0, 0.0, 1.0]]), sp.csr_matrix(np.ones((n, 1))), np.ones(n, bool)
     )
     rest = rest_mesh(V, F, LIMBS)
-    upright = Stylization(Setup(rest), 0.4, limbs=known, **KEPT)
-    np.testing.assert_allclose(upright._Q, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=1e-12)
+    upright = Stylization(Setup(rest), 0.4, Pose(limbs=known), SolverOptions(**KEPT))
+    np.testing.assert_allclose(
+        upright._style.Q, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=1e-12
+    )
     nothing = replace(known, known=np.zeros(n, bool))
-    found, same = (Stylization(Setup(rest), 0.4, limbs=x, **KEPT)._Q for x in (None, nothing))
+    found, same = (
+        Stylization(Setup(rest), 0.4, Pose(limbs=x), SolverOptions(**KEPT))._style.Q
+        for x in (None, nothing)
+    )
     np.testing.assert_allclose(found, same, atol=1e-12)
 
 
@@ -173,11 +190,8 @@ def test_the_energy_falls_and_a_second_run_has_the_same_bits(proxy, form, device
     for _ in range(2):
         state = Stylization(
             Setup(rest_mesh(V, F, proxy)),
-            0.4,
-            form=form,
-            device=device,
-            keep_rotation=True,
-            is_accelerated=False,
+            Style(0.4, form=form),
+            options=SolverOptions(device=device, keep_rotation=True, is_accelerated=False),
         )
         energies = []
         run(state, 15, 1e-12, lambda s, energies=energies: energies.append(s.energy.total))

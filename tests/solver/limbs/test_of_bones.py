@@ -10,8 +10,10 @@ import shapes
 from scipy.sparse import csr_matrix
 
 from solver import (
+    Pose,
     ProxyOptions,
     Setup,
+    SolverOptions,
     Stylization,
     joined_limbs,
     limbs_of_bones,
@@ -180,9 +182,13 @@ def test_a_body_of_which_bones_say_that_it_has_no_limbs_has_none():
     rest = rest_mesh(V, F, ProxyOptions())
     known = np.ones(len(V), dtype=bool)
     trunk = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
-    of_trunk = Stylization(Setup(rest), 0.4, limbs=trunk, device="numpy").orientations
+    of_trunk = Stylization(
+        Setup(rest), 0.4, Pose(limbs=trunk), SolverOptions(device="numpy")
+    ).orientations
     np.testing.assert_array_equal(of_trunk, np.broadcast_to(np.eye(3), of_trunk.shape))
     known[: len(V) // 2] = False
     partly = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
-    found = Stylization(Setup(rest), 0.4, limbs=partly, device="numpy").orientations
+    found = Stylization(
+        Setup(rest), 0.4, Pose(limbs=partly), SolverOptions(device="numpy")
+    ).orientations
     assert np.abs(found - np.eye(3)).max() > 0.1

@@ -13,7 +13,9 @@ from shapes import blob, extent, rotation, sheet, sphere
 from solver import (
     CubicCraftError,
     HandlePose,
+    NormalCapture,
     ProxyOptions,
+    SolverOptions,
     Style,
     flip,
     join_pieces,
@@ -29,7 +31,8 @@ ROOT = Path(__file__).parents[3]
 def solved(*pieces, proxy=None, keep_floor=False, **options):
     """Return the positions of each piece."""
     problem = join_pieces(pieces, proxy)
-    result = run(problem.stylization(device="numpy", **options), 60)
+    options = SolverOptions(**{"keep_rotation": True, "device": "numpy"} | options)
+    result = run(problem.stylization(options), 60)
     found = problem.split(result.positions, result.rotations, keep_floor=keep_floor)
     return [positions for positions, _ in found]
 
@@ -196,6 +199,54 @@ def test_arrays_of_another_shape_are_refused(wrong):
     V, F = blob(1)
     with pytest.raises(CubicCraftError, match="must be an array of shape"):
         piece_of(V, F, **wrong)
+
+
+@pytest.mark.parametrize(("number", "named"), [(2, "0 to 2"), (-2, "-2 to 0")])
+def test_a_handle_that_is_not_there_is_refused(number, named):
+    V, F = blob(1)
+    handle_of = np.zeros(len(V), int)
+    handle_of[7] = number
+    with pytest.raises(CubicCraftError, match=f"refers to handles {named}, but there are only 2"):
+        piece_of(V, F, handles=[HandlePose(), HandlePose()], handle_of=handle_of)
+    handle_of[7] = -1
+    assert piece_of(V, F, handles=[HandlePose()], handle_of=handle_of).is_held.sum() == len(V) - 1
+
+
+DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
+CAPTURE = NormalCapture(DIRECTIONS, DIRECTIONS)
+
+
+@pytest.mark.parametrize(
+    "style",
+    [
+        Style(np.full(42, 0.4)),
+        Style(0.4, np.tile(np.eye(3), (42, 1, 1))),
+        Style(0.4, form=[octahedron(), octahedron()]),
+        Style(0.4, capture=[CAPTURE, CAPTURE]),
+        Style(0.4, capture=CAPTURE, capture_strength=np.ones(42)),
+    ],
+)
+def test_a_style_that_differs_from_vertex_to_vertex_is_refused(style):
+    V, F = blob(1)
+    shares = np.tile([0.5, 0.5], (len(V), 1))
+    with pytest.raises(CubicCraftError, match="style must be the same for all vertices"):
+        piece_of(V, F, style)
+    with pytest.raises(CubicCraftError, match="regions must be the same for all vertices"):
+        piece_of(V, F, regions=[style], region_shares=shares)
+
+
+def test_a_capture_is_that_of_all_regions():
+    V, F = blob(1)
+    shares = np.tile([0.5, 0.5], (len(V), 1))
+    captured = Style(0.4, capture=CAPTURE, capture_strength=2.0)
+    with pytest.raises(CubicCraftError, match="regions cannot have captures"):
+        piece_of(V, F, regions=[captured], region_shares=shares)
+    piece = piece_of(
+        V, F, captured, regions=[Style(0.4)], region_shares=shares, map_weights=shares[:, 0]
+    )
+    style = join_pieces([piece]).style
+    assert style.captures == [CAPTURE]
+    np.testing.assert_array_equal(style.capture_strength, np.ones(len(V)))
 
 
 def test_a_placement_by_a_matrix_leads_there_and_back():

@@ -8,7 +8,18 @@ import shapes
 from devices import by_device
 from procrustes import best_rotation
 
-from solver import PAPER, ProxyOptions, Setup, Stylization, rest_mesh, run, stylize
+from solver import (
+    PAPER,
+    Pose,
+    ProxyOptions,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    rest_mesh,
+    run,
+    stylize,
+)
 
 KEPT = {"proxy": ProxyOptions(), "keep_rotation": True}
 Q = shapes.rotation(30, 20, 40)
@@ -99,7 +110,9 @@ def test_a_kept_rotation_is_kept_and_the_energy_falls(cubeness, proxy, device):
     V = V @ Q.T
     rest = rest_mesh(V, F, proxy)
     state = Stylization(
-        Setup(rest), cubeness, device=device, keep_rotation=True, is_accelerated=False
+        Setup(rest),
+        cubeness,
+        options=SolverOptions(device=device, keep_rotation=True, is_accelerated=False),
     )
     energies = []
     result = run(state, 40, 1e-12, lambda s: energies.append(s.energy.total))
@@ -127,7 +140,9 @@ def test_what_is_still_stays_bit_for_bit_and_nothing_turns():
     still = V[:, 2] < np.quantile(V[:, 2], 0.7)
     rest = rest_mesh(V, F, ProxyOptions())
     setup = Setup(rest, still=still)
-    result = run(Stylization(setup, np.where(still, 0.0, 0.4), keep_rotation=True))
+    result = run(
+        Stylization(setup, np.where(still, 0.0, 0.4), options=SolverOptions(keep_rotation=True))
+    )
     held = setup.pinned_input
     assert still[held].all() and len(held) > 0.9 * still.sum()
     assert result.positions[held].tobytes() == V[held].tobytes()
@@ -148,7 +163,7 @@ def test_handles_and_orientations_are_carried_through_the_proxy():
     pole = [0]
     targets = V + [0.0, 0.0, 0.3]
     turned = np.where((V[:, 0] > 0)[:, None, None], Q, np.eye(3))
-    state = Stylization(Setup(rest, pole), 0.4, turned, targets)
+    state = Stylization(Setup(rest, pole), Style(0.4, turned), Pose(targets=targets))
     result = run(state, 30)
     assert result.positions[0].tobytes() == targets[0].tobytes()
     assert result.rotations.shape == (len(V), 3, 3)

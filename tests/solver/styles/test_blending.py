@@ -8,10 +8,10 @@ from devices import by_device
 from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
-from solver import Setup, Stylization, rest_mesh
+from solver import Setup, SolverOptions, Style, Stylization, rest_mesh
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import admm_rotations
-from solver.styles.blending import LEVELS, Style, blended
+from solver.styles.blending import LEVELS, blended
 from solver.styles.forms import cone, cube, cylinder, icosahedron, octahedron, prism, tetrahedron
 from solver.styles.local_problem import LocalProblem
 from solver.styles.polytope import minkowski_sum
@@ -140,12 +140,8 @@ def ball_of_two(device, **options):
     cubeness, Q, bodies, body_of = blended(styles, np.hstack([1.0 - weights, weights]))
     return Stylization(
         Setup(rest_mesh(V, F)),
-        cubeness,
-        Q[0],
-        form=[body or cube() for body in bodies],
-        form_of=body_of,
-        device=device,
-        **options,
+        Style(cubeness, Q[0], form=[body or cube() for body in bodies], form_of=body_of),
+        options=SolverOptions(device=device, **options),
     )
 
 

@@ -10,7 +10,7 @@ from named_forms import POLYTOPES
 from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
-from solver import Setup, Stylization, rest_mesh, run, stylize
+from solver import Setup, SolverOptions, Style, Stylization, rest_mesh, run, stylize
 from solver.backends import local_step_class
 from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles.active_set import active_set_rotations
@@ -27,7 +27,7 @@ forms = pytest.mark.parametrize("name", POLYTOPES)
 def problem_of(U, rest, lam, form):
     n = len(rest.V)
     S = rest.matrices.covariances(U) / rest.areas[:, None, None]
-    body = polytopes(form, np.zeros(n, int))
+    body = polytopes([form], np.zeros(n, int))
     return LocalProblem(S, rest.normals, np.broadcast_to(Q, (n, 3, 3)), np.full(n, lam), body)
 
 
@@ -91,7 +91,7 @@ def test_no_start_leads_to_less_than_the_search_from_many(name):
     form, many = POLYTOPES[name](), 1000
     S = np.tile(np.diag([1.5, 1.0, 0.8]) + 0.2 * random.normal(size=(3, 3)), (many, 1, 1))
     normals = np.tile(shapes.rotation(10, 20, 30)[0], (many, 1))
-    body = polytopes(form, np.zeros(many, int))
+    body = polytopes([form], np.zeros(many, int))
     problem = LocalProblem(S, normals, np.tile(Q, (many, 1, 1)), np.full(many, 0.5), body)
     starts = Rotation.random(many, random_state=5).as_matrix()
     by_admm, _ = admm_rotations(problem, starts, problem.starting(starts), TIGHT)
@@ -116,7 +116,11 @@ def test_every_device_gives_the_shape_of_numpy(name, device):
 @forms
 def test_the_energy_never_rises(name):
     setup = Setup(rest_mesh(*shapes.blob(3)))
-    state = Stylization(setup, 0.8, Q, form=POLYTOPES[name](), device="numpy", is_accelerated=False)
+    state = Stylization(
+        setup,
+        Style(0.8, Q, form=POLYTOPES[name]()),
+        options=SolverOptions(device="numpy", is_accelerated=False),
+    )
     energies = []
     for _ in range(30):
         state.step()
@@ -156,7 +160,9 @@ def test_the_exact_form_droops_like_the_ball(name):
     exact = V / (V @ form.normals.T / form.offsets).max(axis=1)[:, None]
     shares, energies = [share_facing(exact, F, form.normals)], []
     for start in (exact, V):
-        stylization = Stylization(setup, 2.0, form=form, device="numpy", keep_rotation=True)
+        stylization = Stylization(
+            setup, Style(2.0, form=form), options=SolverOptions(device="numpy", keep_rotation=True)
+        )
         energies.append(stylization.energy_of(start, steps=40).total)
         for _ in range(250):
             stylization.step()
@@ -185,7 +191,11 @@ def test_each_vertex_may_have_a_form_of_its_own(device):
     both = np.concatenate([F, F + len(V)])
     kinds = [POLYTOPES[name]() for name in ("octahedron", "prism of 6")]
     which = np.repeat([0, 1], len(V))
-    run_of = Stylization(Setup(rest_mesh(two, both)), 0.8, form=kinds, form_of=which, device=device)
+    run_of = Stylization(
+        Setup(rest_mesh(two, both)),
+        Style(0.8, form=kinds, form_of=which),
+        options=SolverOptions(device=device),
+    )
     positions = run(run_of).positions
     for number, form in enumerate(kinds):
         part = positions[which == number]
@@ -201,7 +211,7 @@ def test_rows_that_are_left_go_to_the_admm():
     rest, form = rest_mesh(*shapes.blob(2)), POLYTOPES["dodecahedron"]()
     lam = np.full(len(rest.V), 0.4)
     U = rest.V * [-1, -1, 1]  # nothing that starts there is certified
-    body = polytopes(form, np.zeros(len(rest.V), int))
+    body = polytopes([form], np.zeros(len(rest.V), int))
     step = local_step_class("numpy")(rest, lam, Q[None], AdmmOptions(), body)
     first = np.sum(step.update(U))
     assert np.abs(step.R - np.eye(3)).max() > 1.0

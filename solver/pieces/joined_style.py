@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each vertex of several pieces is turned toward.
+"""The style of several pieces: what each of their vertices is turned toward.
 
 Arrays are indexed by the vertices that are solved: those of the pieces, in order, each with those
 that its mirrors add.
@@ -7,7 +7,7 @@ that its mirrors add.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,39 +16,27 @@ from ..styles.blending import blended, numbered
 from ..styles.cube import proper
 from ..styles.forms import cube
 from ..styles.polytope import Polytope
+from ..styles.style import Style
 from .mirrored_styles import orientations
 from .piece import Piece
 
 
-class VertexStyles(NamedTuple):
-    """What each vertex is turned toward, as `Stylization` takes it."""
-
-    cubeness: float | FloatArray
-    """a number, or (N,) of them"""
-    orientation: FloatArray
-    """(3,3), or (N,3,3) if they differ; beyond a plane of symmetry, forms are also mirrored"""
-    form: list[Polytope] | None
-    """None if all are cubes"""
-    form_of: IntArray | None
-    """(N,) int, the number of the form of each vertex"""
-
-
-def vertex_styles(pieces: Sequence[Piece]) -> VertexStyles:
-    """Return what each vertex is turned toward."""
+def joined_style(pieces: Sequence[Piece]) -> Style:
+    """Return what the vertices of all pieces are turned toward."""
     found, counts = [_of_piece(piece) for piece in pieces], [piece.solved for piece in pieces]
-    cubeness, orientation = _joined_cubeness(found, counts), _joined(found, counts)
-    distinct, number = numbered([body for style in found for body in style.bodies])
+    style = _with_captures(Style(_joined_cubeness(found, counts), _joined(found, counts)), pieces)
+    distinct, number = numbered([body for one in found for body in one.bodies])
     if not any(distinct):
-        if not any(piece.placement.capture for piece in pieces):
-            orientation = proper(orientation)
-        return VertexStyles(cubeness, orientation, None, None)
-    ends = np.cumsum([len(style.bodies) for style in found])[:-1]
+        if style.is_plain_cube:
+            style = replace(style, orientation=proper(np.asarray(style.orientation)))
+        return style
+    ends = np.cumsum([len(one.bodies) for one in found])[:-1]
     form_of = [
-        np.broadcast_to(own[style.body_of], count)
-        for style, own, count in zip(found, np.split(number, ends), counts, strict=True)
+        np.broadcast_to(own[one.body_of], count)
+        for one, own, count in zip(found, np.split(number, ends), counts, strict=True)
     ]
     bodies = [body or cube() for body in distinct]
-    return VertexStyles(cubeness, orientation, bodies, np.concatenate(form_of))
+    return replace(style, form=bodies, form_of=np.concatenate(form_of))
 
 
 class _OfPiece(NamedTuple):
@@ -92,23 +80,24 @@ def _joined(found, counts):
     )
 
 
-def captures(pieces: Sequence[Piece]) -> dict[str, Any]:
-    """Return the arguments of a Stylization for the captures of all pieces, none for no capture.
+def _with_captures(style, pieces):
+    """Return a style with the captures of all pieces.
 
     Where the cubeness map is 0, nothing has to face anywhere.
     """
-    found = [piece.placement.capture for piece in pieces]
-    distinct = list(dict.fromkeys(capture for capture in found if capture is not None))
+    found = [piece.placement.style for piece in pieces]
+    distinct = list(dict.fromkeys(one.capture for one in found if one.capture is not None))
     if not distinct:
-        return {}
+        return style
     numbers, strengths = [], []
-    for piece, capture in zip(pieces, found, strict=True):
-        strength = 0.0 if capture is None else piece.capture_strength
+    for piece, one in zip(pieces, found, strict=True):
+        strength = 0.0 if one.capture is None else one.capture_strength
         strengths.append(piece.everywhere(strength * piece.map_weights))
-        number = 0 if capture is None else distinct.index(capture)
+        number = 0 if one.capture is None else distinct.index(one.capture)
         numbers.append(np.full(piece.solved, number))
-    return {
-        "capture": distinct,
-        "capture_strength": np.concatenate(strengths),
-        "capture_of": np.concatenate(numbers),
-    }
+    return replace(
+        style,
+        capture=distinct,
+        capture_strength=np.concatenate(strengths),
+        capture_of=np.concatenate(numbers),
+    )

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A complete run in one call: mesh in, cubic mesh out."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .aliases import Device, Faces, Precision
+from .limbs import KnownLimbs
+from .normal_capture import NormalCapture
+from .options import SolverOptions
+from .pose import Pose
+from .proxy import PAPER, ProxyOptions
+from .rest import rest_mesh
+from .result import Result
+from .runner import OnIteration, run
+from .setup import Setup
+from .styles.admm import AdmmOptions
+from .styles.polytope import Polytope
+from .styles.style import Style
+from .stylization import Stylization
+
+
+def stylize(
+    V: ArrayLike,
+    F: Faces,
+    cubeness: ArrayLike = 0.4,
+    pinned: ArrayLike = (),
+    *,
+    max_iterations: int = 1000,
+    tolerance: float = 1e-3,
+    on_iteration: OnIteration | None = None,
+    progress: bool = False,
+    proxy: ProxyOptions = PAPER,
+    orientation: ArrayLike | None = None,
+    targets: ArrayLike | None = None,
+    form: Polytope | Sequence[Polytope] | None = None,
+    form_of: ArrayLike | None = None,
+    capture: NormalCapture | Sequence[NormalCapture] | None = None,
+    capture_strength: ArrayLike = 0.0,
+    capture_of: ArrayLike | None = None,
+    limbs: KnownLimbs | None = None,
+    keep_rotation: bool = False,
+    device: Device = "auto",
+    precision: Precision | None = None,
+    admm: AdmmOptions | None = None,
+    is_accelerated: bool = True,
+) -> Result:
+    """Return the cubic version of a mesh.
+
+    Parameters
+    ----------
+    V : (n,3) numpy array
+        Rest positions, in any unit. Vertices that belong to no triangle do not move.
+    F : (m,3) numpy int array, or faces with more corners
+        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
+    cubeness : float or (n,) numpy array
+        0 keeps the shape; 0.1 to 1 are common.
+    pinned : (k,) numpy int array or (n,) numpy bool array
+        Vertices held exactly in place: their numbers, or a mask.
+    max_iterations : int
+        Limit, even if the run has not converged.
+    tolerance : float
+        See `StopRule`.
+    on_iteration : callable, optional
+        Called with the Stylization after each iteration; a true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
+    proxy : ProxyOptions
+        How to prepare the surface: weld it, refine it, and link it to its neighbors and its
+        opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
+        defaults of the extension.
+    orientation : (3,3) or (n,3,3) numpy array, optional
+        See `Style`.
+    targets : (n,3) numpy array, optional
+        Where the pinned vertices go; by default they stay.
+    form : Polytope or sequence of Polytopes, optional
+        What a ball would become; by default the cube.
+    form_of : (n,) numpy int array, optional
+        Which of several forms each vertex has.
+    capture : NormalCapture or sequence of NormalCaptures, optional
+        How the normals should turn.
+    capture_strength : float or (n,) numpy array
+        How strongly they do.
+    capture_of : (n,) numpy int array, optional
+        Which of several captures each vertex has.
+    limbs : KnownLimbs, optional
+        Limbs that are known, as from bones; see `Pose`.
+    keep_rotation : bool
+        Whether each component keeps its orientation; see `SolverOptions`, also for all that follow.
+    device : {"auto", "cpu", "gpu", "numpy"}
+        What computes.
+    precision : "f64" or "f32", optional
+        Of the local step in Taichi.
+    admm : AdmmOptions, optional
+        Where the exact local step is not used.
+    is_accelerated : bool
+        False for the plain iteration.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh or an option is invalid; the message gives the reason.
+
+    See Also
+    --------
+    run : The same for a prepared Stylization.
+    auto_orient : Finds an orientation for ``orientation``.
+
+    Notes
+    -----
+    Minimizes the energy of Liu and Jacobson, "Cubic Stylization", ACM Transactions on Graphics
+    38(6), 2019.
+
+    Examples
+    --------
+    A ball becomes a cube with round corners: much more of its surface then faces an axis.
+
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import stylize, triangle_areas_and_normals
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
+    >>> for positions in (V, result.positions):
+    ...     areas, normals = triangle_areas_and_normals(positions, F)
+    ...     faces_an_axis = np.abs(normals).max(axis=1) > 0.98  # within 11 degrees
+    ...     print(f"{areas[faces_an_axis].sum() / areas.sum():.2f} of the area")
+    0.06 of the area
+    0.67 of the area
+    """
+    setup = Setup(rest_mesh(V, F, proxy), pinned)
+    style = Style(
+        cubeness,
+        np.eye(3) if orientation is None else orientation,
+        form,
+        form_of=form_of,
+        capture=capture,
+        capture_strength=capture_strength,
+        capture_of=capture_of,
+    )
+    options = SolverOptions(
+        device=device,
+        precision=precision,
+        admm=admm,
+        is_accelerated=is_accelerated,
+        keep_rotation=keep_rotation,
+    )
+    stylization = Stylization(setup, style, Pose(targets=targets, limbs=limbs), options)
+    return run(stylization, max_iterations, tolerance, on_iteration, progress)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run ends with."""
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from .aliases import FloatArray, IntArray
+from .energy import Energy
+from .values import Value
+
+Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Result(Value):
+    """The result of a run.
+
+    Two results are equal if they agree bit for bit, apart from the times that they took.
+
+    See Also
+    --------
+    stylize, run : Return it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import stylize
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
+    >>> result.reason, result.device, result.positions.shape, result.rotations.shape
+    ('converged', 'numpy', (700, 3), (700, 3, 3))
+    >>> round(float(np.linalg.norm(result.positions - V, axis=1).max()), 2)  # the largest movement
+    0.25
+    """
+
+    positions: FloatArray
+    """(n,3) float64, in the units of the input"""
+    rotations: FloatArray
+    """(n,3,3) float64 rotation of each vertex; the identity for loose vertices"""
+    energy: Energy
+    """of the result, in the unit box"""
+    iterations: int
+    reason: Reason
+    """"converged", "max_iterations" or "cancelled" """
+    device: str
+    """name of the device that ran the local step, such as "taichi-cpu" """
+    compile_seconds: float = field(compare=False)
+    """time to compile the kernels or to load them from a cache"""
+    solve_seconds: float = field(compare=False)
+    """time of the iterations"""
+    crossings: int | None = None
+    """number of triangles that cross others and did not at rest; None if not looked for"""
+    crossing_vertices: IntArray | None = None
+    """(k,) int vertices of these triangles"""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the stop rule ended the run."""
+        return self.reason == "converged"

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A style at the vertices that are solved, as the local step takes it."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ..aliases import FloatArray, IntArray
+from ..errors import CubicCraftError
+from ..inputs import choices_per_vertex, real_numbers
+from ..limbs import KnownLimbs, Limbs, no_limbs, turns
+from ..mesh.mesh_checks import per_vertex
+from ..normal_capture import NormalCapture, targets_for
+from ..rest import RestMesh
+from ..setup import Setup
+from ..values import Value
+from .polytope import Polytope
+from .style import Style
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SolvedStyle(Value):
+    """A Style at the n vertices that are solved."""
+
+    lam: FloatArray
+    """(n,) cubeness; 0 at pins, whose rotations would otherwise shear the pinned part"""
+    mu: FloatArray
+    """(n,) strength of the capture"""
+    orientation: FloatArray
+    """(1,3,3) or (n,3,3) as given; captures are seen in it"""
+    Q: FloatArray
+    """(1,3,3) or (n,3,3) the same, turned so that limbs and boxes lie along their forms"""
+    forms: list[Polytope]
+    """empty for the cube"""
+    form_of: IntArray
+    """(n,) int"""
+    captures: list[NormalCapture]
+    """empty for none"""
+    capture_of: IntArray
+    """(n,) int"""
+    normals: FloatArray
+    """(n,3) unit normals at rest that the cubic term sees, or zero"""
+
+    @cached_property
+    def captured(self) -> FloatArray | None:
+        """(n,4) normals that those at rest are drawn to besides, and how strongly; or None."""
+        if not self.captures:
+            return None
+        return targets_for(self.captures, self.capture_of, self.mu, self.orientation, self.normals)
+
+    def posed(self, before: RestMesh, after: RestMesh) -> "SolvedStyle":
+        """Return the style in another pose: only the normals have turned, as the surface has."""
+        turned = after.normals - before.normals
+        if self.forms or self.captures:
+            turned = turned * after.outward
+        is_drawn = self.normals.any(axis=1)
+        normals = unit(np.where(is_drawn[:, None], self.normals + turned, 0.0))
+        return replace(self, normals=normals)
+
+
+def solved_style(
+    style: Style,
+    setup: Setup,
+    limbs: KnownLimbs | None = None,
+    *,
+    keep_rotation: bool = False,
+    normals: FloatArray | None = None,
+) -> SolvedStyle:
+    """Return a Style of the N vertices of the input at the n that are solved.
+
+    Parameters
+    ----------
+    style, setup
+    limbs : KnownLimbs, optional
+        As of `Pose`.
+    keep_rotation : bool
+        As of `SolverOptions`: boxes then stay as they lie.
+    normals : (n,3) array, optional
+        What the cubic term sees; by default the normals without their details.
+
+    Raises
+    ------
+    CubicCraftError
+        The style does not fit the mesh, or a value of it is invalid.
+    """
+    rest = setup.rest
+    lam = _spread(style.cubeness, "cubeness", setup)
+    orientation = _orientation(style, rest)
+    forms, captures = style.forms, style.captures
+    form_of = _numbers(style.form_of, "form_of", len(forms), rest)
+    capture_of = _numbers(style.capture_of, "capture_of", len(captures), rest)
+    if normals is None:
+        normals = rest.cubic_normals
+        if not style.is_plain_cube:
+            normals = normals * rest.outward
+    mu = np.zeros_like(lam)
+    if captures:
+        mu = _spread(style.capture_strength, "capture_strength", setup)
+    Q = _along_limbs(orientation, limbs, forms, form_of, setup)
+    if keep_rotation and not forms:
+        Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
+    return SolvedStyle(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals)
+
+
+def unit(vectors: FloatArray) -> FloatArray:
+    """Return vectors (n,3) with the length 1, or zero."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.where(length > 1e-12, vectors, 0.0) / np.where(length > 1e-12, length, 1.0)
+
+
+def _spread(weights, name, setup):
+    """Return a number or weights (N,) of the input at the solved vertices (n,)."""
+    rest = setup.rest
+    weights = per_vertex(weights, name, len(rest.input_positions))
+    weights = rest.input_map.spread(weights) * rest.cubic_shares
+    weights[setup.pinned] = 0.0
+    return weights
+
+
+def _orientation(style, rest):
+    """Return the orientation as (1,3,3) or (n,3,3) rotations of the used vertices.
+
+    Beyond a plane of symmetry, a form that is not its own mirror image is reflected.
+    """
+    Q = real_numbers(style.orientation, "the orientation")
+    if Q.shape == (3, 3):
+        Q = Q[None]
+    elif Q.shape == (len(rest.input_positions), 3, 3):
+        Q = Q[rest.used]
+    else:
+        raise CubicCraftError(f"the orientation must have the shape (3, 3), not {Q.shape}")
+    is_orthogonal = np.abs(Q @ Q.swapaxes(1, 2) - np.eye(3)).max() < 1e-6
+    if not (is_orthogonal and (not style.is_plain_cube or (np.linalg.det(Q) > 0.0).all())):
+        raise CubicCraftError("the orientation must be a rotation matrix")
+    return Q
+
+
+def _numbers(of_input, name, count, rest):
+    """Return which of several forms or captures the used vertices have (n,)."""
+    if of_input is None or not count:
+        return np.zeros(len(rest.V), int)
+    return choices_per_vertex(of_input, name, len(rest.input_positions), count)[rest.used]
+
+
+def _along_limbs(Q, limbs, forms, form_of, setup):
+    """Return the orientations (n,3,3) that limbs turn with them, or Q as it is."""
+    rest = setup.rest
+    if not rest.options.keep_pose:
+        return Q
+    if limbs is None:
+        found = rest.limbs
+    else:
+        is_known, found = _at_solved(limbs, rest)
+        if not is_known.all():
+            found = rest.limbs.replaced(is_known, found)
+    if not len(found):
+        return Q
+    G = turns(found, Q, forms, form_of)
+    for mirror in setup.mirrors:
+        mirror.impose_rotations(G)
+    return Q @ G
+
+
+def _at_solved(limbs, rest):
+    """Return where Limbs of the input are known at the solved vertices (n,), and what they are."""
+    known = np.asarray(limbs.known, dtype=np.float64)
+    share_known = rest.input_map.spread(known)
+    if not len(limbs):
+        return share_known > 0.0, no_limbs(len(rest.V))
+    shares = rest.input_map.spread(limbs.shares.multiply(known[:, None]).toarray())
+    shares /= np.where(share_known > 0.0, share_known, 1.0)[:, None]
+    return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares), carried=limbs.carried)
+
+
+def _along_boxes(Q, frames, is_free):
+    """Return those of rotated boxes instead, see `proxy/boxes`, where nothing is captured (n,)."""
+    if frames is None:
+        return Q
+    turn = np.abs(Q @ frames.swapaxes(1, 2))
+    is_askew = frames.any(axis=(1, 2)) & (np.minimum(turn, 1.0 - turn).max(axis=(1, 2)) > 1e-9)
+    is_askew &= is_free
+    if not is_askew.any():
+        return Q
+    return np.where(is_askew[:, None, None], frames, Q)
