@@ -5,6 +5,7 @@ import logging
 import math
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import TypeAlias
 
 from .aliases import FloatArray
@@ -215,17 +216,16 @@ class Run:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
         if self._coarse is not None:
-            self._advance_coarse()
+            self._advance_coarse(self._coarse)
         else:
             self._phase()
         self._seconds += time.perf_counter() - begin
 
-    def _advance_coarse(self):
-        self._coarse.advance()
-        if self._coarse.reason is not None:
-            prolongate(self._coarse.stylization, self.stylization)
-            self._coarse_iterations = self._coarse.iterations
-            self._coarse_energy = self._coarse.energy
+    def _advance_coarse(self, coarse: "Run") -> None:
+        coarse.advance()
+        if coarse.reason is not None:
+            prolongate(coarse.stylization, self.stylization)
+            self._coarse_iterations, self._coarse_energy = coarse.iterations, coarse.energy
             self._coarse = None
 
     def _local_step(self):
@@ -236,12 +236,13 @@ class Run:
         state = self.stylization
         state.global_step()
         self._phase = self._local_step
+        assert state.energy is not None  # the local step has set it
         if self._rule.is_converged(state.energy.total, state.displacement, state.distance):
             self._ended("converged")
         elif state.iteration >= self._last:
             self._ended("max_iterations")
 
-    def _ended(self, reason):
+    def _ended(self, reason: Reason) -> None:
         """Decide what follows when the iteration has come to its end."""
         if self._apart is None:
             self.reason = reason
@@ -249,24 +250,24 @@ class Run:
         if not self._round:
             done = self.stylization.iteration
             self._end, self._round = reason, min(max(done // OF_ROUND, LEAST_ROUND), done)
-        self._phase = self._check
+        self._phase = partial(self._check, self._apart)
 
-    def _check(self):
-        needs_round = self._apart.check(self.stylization)
-        self._phase = self._renew if needs_round else self._finish
+    def _check(self, apart: KeepApart) -> None:
+        needs_round = apart.check(self.stylization)
+        self._phase = partial(self._renew if needs_round else self._finish, apart)
 
-    def _renew(self):
-        renewed = self._apart.renewed(self.stylization)
+    def _renew(self, apart: KeepApart) -> None:
+        renewed = apart.renewed(self.stylization)
         if renewed is None:
-            self._phase = self._finish
+            self._phase = partial(self._finish, apart)
             return
         self.stylization = renewed
         self._rule = StopRule(self._tolerance, self.stylization.resolution)
         self._last = self.stylization.iteration + self._round
         self._phase = self._local_step
 
-    def _finish(self):
-        self._apart.finish(self.stylization)
+    def _finish(self, apart: KeepApart) -> None:
+        apart.finish(self.stylization)
         self.reason = self._end
 
     def complete(self, on_iteration: OnIteration | None = None) -> None:
