@@ -19,7 +19,7 @@ from .options import SolverOptions
 from .pose import Pose, pins_moved
 from .setup import Setup
 from .styles.admm import AdmmOptions
-from .styles.polytopes import polytopes
+from .styles.polytope_step import polytopes
 from .styles.solved_style import solved_style
 from .styles.style import Style
 from .symmetry import Mirror

@@ -10,7 +10,7 @@ that call them. The tables of all faces are given as `FaceTables` in the order o
 
 from ..algebra import axial, cross, dot, outer, product, times, trace, transposed_times, turn
 from ..styles.active_set import MAX_STEPS
-from ..styles.polytopes import NEAREST_FACET
+from ..styles.polytope_step import NEAREST_FACET
 from .engine import ti
 from .face_tables import NUMBERS
 from .taichi_active_set import newton_step, turn_about_axis

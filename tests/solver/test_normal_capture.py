@@ -122,7 +122,7 @@ def random_problem(many, lam, mu, form_of_name, seed):
     captured = np.tile([*(target / np.linalg.norm(target)), mu], (many, 1))
     turns = np.tile(Q, (many, 1, 1))
     from solver.styles.cube import CUBE
-    from solver.styles.polytopes import polytopes
+    from solver.styles.polytope_step import polytopes
 
     body = polytopes([form_of_name()], np.zeros(many, int)) if form_of_name else CUBE
     nothing = np.zeros((many, 3, 3))

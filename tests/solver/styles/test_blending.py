@@ -15,7 +15,7 @@ from solver.styles.blending import LEVELS, blended
 from solver.styles.forms import cone, cube, cylinder, icosahedron, octahedron, prism, tetrahedron
 from solver.styles.local_problem import LocalProblem
 from solver.styles.polytope import minkowski_sum
-from solver.styles.polytopes import polytopes
+from solver.styles.polytope_step import polytopes
 
 FORMS = {
     "cube": None,

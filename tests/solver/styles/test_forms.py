@@ -16,7 +16,7 @@ from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
 from solver.styles.local_problem import LocalProblem
-from solver.styles.polytopes import polytopes
+from solver.styles.polytope_step import polytopes
 
 # Sides that reach far beyond the ball are harmonic surfaces that droop toward their corners.
 LEAST_FLAT = {"tetrahedron": 0.7, "octahedron": 0.8, "pyramid": 0.8}
