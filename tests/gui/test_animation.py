@@ -105,7 +105,6 @@ def test():
     yield from gui.wait_until(
         lambda: is_over() and [path.name for path in folder.iterdir()] == [f"{scene.NAME}.pc2"],
         what="the whole animation",
-        timeout=300,
     )
     frames = cached(folder).reshape(FRAMES, -1, 3)
     for frame in (1, FRAMES):
@@ -143,7 +142,7 @@ def process_from_other_settings(folder, original):
     assert chosen.process_from.name == "A Model"
     yield from gui.click((yield from gui.find_button("cubic_craft.bake_process")))
     path = folder / f"{scene.NAME}.process.pc2"
-    yield from gui.wait_until(lambda: is_over() and path.exists(), what="the process", timeout=300)
+    yield from gui.wait_until(lambda: is_over() and path.exists(), what="the process")
     bpy.context.scene.frame_set(1)
     yield from gui.wait_redraw()
     yield from gui.screenshot("process_first.png")

@@ -142,7 +142,7 @@ def choose(name, letter, owner, value):
     yield from gui.keys(letter)
     # the menu closes later
     yield from gui.wait_until(
-        lambda: getattr(scene.settings(owner), name) == value, 30, f"{name} {value}"
+        lambda: getattr(scene.settings(owner), name) == value, what=f"{name} {value}"
     )
 
 
