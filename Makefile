@@ -55,7 +55,7 @@ test-solver: setup ## The solver, what decides in Live, packages, and the docume
 # Leaks take minutes to be seen: test-reliability looks for them.
 test-blender: setup $(ZIP) ## The built extension, installed in the newest bpy
 	CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) --ignore tests/blender/test_leaks.py \
-		tests/blender tests/scripts tests/art
+		tests/art tests/scripts tests/blender
 
 test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in each run
 	CUBIC_CRAFT_EXAMPLES=$(or $(EXAMPLES),50000) $(PY) $(PYTEST) tests/hostile
