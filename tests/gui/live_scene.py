@@ -2,6 +2,7 @@
 """What the tests of Live share: a monkey, its bits, and what must not be left behind."""
 
 import contextlib
+import dataclasses
 import importlib
 
 import bpy
@@ -77,9 +78,11 @@ def button(target):
 
 
 def cubeness_slider():
+    """Find the slider; Live has its own, in the same place."""
     prefix = "cubic_craft_live" if live().current() else "cubic_craft"
     if "cubeness" not in _buttons:
-        _buttons["cubeness"] = yield from gui.find_button(f"{prefix}.cubeness")
+        slider = yield from gui.find_button(f"{prefix}.cubeness")
+        _buttons["cubeness"] = dataclasses.replace(slider, target="cubeness")
     return _buttons["cubeness"]
 
 

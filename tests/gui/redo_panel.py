@@ -15,4 +15,4 @@ def open_cubeness():
     panel = gui.region("HUD")
     row = gui.Button("", panel.x + panel.width // 2, 0, panel.x + panel.width - 20, 0)
     top = panel.y + panel.height - 44
-    return gui.Button("cubeness", row.left, top - 10, row.right, top + 10)
+    return gui.Button("", row.left, top - 10, row.right, top + 10)

@@ -8,8 +8,6 @@
 # --if-possible: where the tests cannot run, say so and succeed (exit code 0 in place of 2).
 # TESTS is a pattern of names, such as "test_live*" (default: all).
 # EXPECT_DEVICE, if set, is the solver backend the tests insist on; Debian's suites have a default.
-# Of at most three tests that failed, each gets a second try, alone, and the end names it: a machine
-# that others use can swallow a click. A crash and a Python error in Blender get none.
 # Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
 set -uo pipefail
 
@@ -87,7 +85,7 @@ prepare() {
 
 # Runs a test in a copy of the user folder in which the extension was installed.
 run_test() {
-    local suite=$1 name=$2 test=$HERE/$2.py folder=$OUTPUT/$1/$2${3:-} user=$WORK/$1-$2 size code
+    local suite=$1 name=$2 test=$HERE/$2.py folder=$OUTPUT/$1/$2 user=$WORK/$1-$2 size code
     rm -rf "$folder"
     mkdir -p "$folder"
     size=$(sed -n 's/^# Window: //p' "$test") # that it needs, if not the usual one
@@ -103,24 +101,6 @@ run_test() {
     fi
 }
 
-# Runs what has failed once more. Only exit code 1 may come of a click that was lost.
-try_again() {
-    local first=$WORK/failed_at_first failure
-    local line='^failed: ([^ ]+) on ([^ ]+) \(([0-9]+)\),'
-    [ "$(wc -l <"$WORK/failed")" -le 3 ] || return
-    mv "$WORK/failed" "$first"
-    while read -r failure; do
-        if [[ $failure =~ $line ]] && [ "${BASH_REMATCH[3]}" = 1 ]; then
-            run_test "${BASH_REMATCH[2]}" "${BASH_REMATCH[1]}" _again </dev/null
-        else
-            echo "$failure" >>"$WORK/failed"
-        fi
-    done <"$first"
-    echo "at first:"
-    cat "$first"
-    echo "after a second try of each that neither crashed nor met a Python error:"
-}
-
 # Side by side, as many as there are suites: each test has a screen and folders of its own. The
 # newest Blender is the slowest, so it comes first.
 for suite in "${SUITES[@]}"; do prepare "$suite" & done
@@ -134,7 +114,6 @@ fi
 for suite in $(printf '%s\n' "${SUITES[@]}" | tac); do
     [ ! -e "$WORK/$suite.tests" ] || cat "$WORK/$suite.tests"
 done | xargs -r -P "${#SUITES[@]}" -L 1 bash -c 'run_test "$@"' run_test
-[ ! -e "$WORK/failed" ] || try_again
 if [ -e "$WORK/failed" ]; then
     cat "$WORK/failed"
     exit 1

@@ -45,11 +45,14 @@ def glimpse_over():
 def turned_by_hand():
     """Drag an angle: the cube is seen for a moment, though its overlay is off."""
     before = pixels((yield from gui.screenshot("not_turned.png")))
-    glimpse().SECONDS = 5.0  # a picture takes its time
+    glimpse().SECONDS = 3600.0  # a picture takes its time
     yield from gui.drag_slider((yield from gui.find_button("cubic_craft.orientation[2]")))
     assert orientation()[2], "the angle has not been dragged"
     turned = pixels((yield from gui.screenshot("turned_by_hand.png")))
     assert (np.abs(turned - before).max(axis=-1) > 0.2).sum() > 500, "no cube is drawn"
+    glimpse().forget()
+    glimpse().SECONDS = 0.5
+    glimpse().on_turn(None, None)
     yield from glimpse_over()
     after = pixels((yield from gui.screenshot("glimpse_over.png")))
     assert (np.abs(after - turned).max(axis=-1) > 0.2).sum() > 500, "the cube stays"

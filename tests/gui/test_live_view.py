@@ -47,12 +47,18 @@ def cpu_share(seconds=2.0):
     return share, gui.counts["WINDOW"] - draws[0], gui.counts["UI"] - draws[1]
 
 
+def last_redraws():
+    """Leave Blender alone until it has drawn nothing for a second; it gets no more than ten."""
+    for _ in range(10):
+        _, views, panels = yield from cpu_share(1.0)
+        if not views + panels:
+            break
+
+
 def at_rest(base):
     yield from scene.press()
     yield from scene.wait_idle()
-    for _ in range(5):
-        yield
-    yield 1.0  # the last redraws
+    yield from last_redraws()
     session = scene.live().current()
     ticks = []
     tick = type(session).tick
@@ -76,7 +82,7 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     slider = yield from scene.cubeness_slider()
     yield from scene.press()
-    yield 1.0
+    yield from last_redraws()
     base, views, _ = yield from cpu_share()
     gui.log(f"without Live: {base:.1%} of a core, {views} draws")
 

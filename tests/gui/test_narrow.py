@@ -65,6 +65,8 @@ def test():
     yield from gui.wait_until(lambda: scene.positions(HAT) != before, what="a cubic hat")
     assert scene.note() and shown.left_out(monkey) == []
     yield from gui.screenshot("cubified.png")
+    yield from gui.undo()
+    assert scene.positions(HAT) == before and not scene.note(), "one step of undo is of both"
 
 
 gui.run(test)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: sid
-"""A character of many parts and a dressed body, cubified by hand: they hold together.
+"""A character of many parts, cubified by hand: they hold together.
 
 The meshes and the measures are those of tests/art. Nothing but what is named is changed from its
 default.
@@ -17,15 +17,12 @@ from mathutils import Euler
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "art"))  # before what is in it
 
 import art_character
-import art_figure
 import measures
 from art_objects import select, surface_of
 
 CHARACTER = "Character"
-CLOTHED = ("Body", "Shirt", "Trousers")
 MAX_DRIFT = 0.01  # of the size, of neighbours of different parts
 MAX_TURN = 1.0  # degrees
-MAX_INSIDE = 0.005  # share of the clothes' vertices that end inside the body
 HEADER_ABOVE = 92  # pixels from the row to the middle of the header; the form is between
 
 
@@ -107,34 +104,6 @@ def character():
     yield from settings(rest, cubified)
 
 
-def clothes():
-    """Cubify a body with its clothes in one click and one undo step."""
-    yield from put(art_figure.dressed, *CLOTHED)
-    rest, original = surface(*CLOTHED), shapes(*CLOTHED)
-    yield from gui.screenshot("clothes_1_before.png")
-    assert share_inside(rest) == 0
-    yield from click_cubify(*CLOTHED)
-    after = surface(*CLOTHED)
-    gui.log("share of the clothes inside the body:", share_inside(after))
-    assert share_inside(after) <= MAX_INSIDE
-    assert measures.turn(rest.V, after.V) <= MAX_TURN
-    yield from gui.screenshot("clothes_2_cubify.png")
-    yield from gui.undo()
-    assert shapes(*CLOTHED) == original, "one Ctrl-Z has not brought all of them back"
-
-    yield from choose("together", "P", CLOTHED[0], "PARTS")
-    yield from click_cubify(*CLOTHED)
-    apart = share_inside(surface(*CLOTHED))
-    gui.log("each for itself:", apart)
-    assert apart > 10 * MAX_INSIDE, "Keep Together: Parts has not separated the objects"
-    yield from gui.screenshot("clothes_3_apart.png")
-
-
-def share_inside(dressed):
-    """Return the share of the clothes' vertices that are inside the body."""
-    return measures.share_inside(dressed.V[dressed.owner > 0], *dressed.of(0))
-
-
 def choose(name, letter, owner, value):
     """Click on a menu of the panel, and press the letter underlined in an item, for a value."""
     yield from gui.click((yield from gui.find_button(f"cubic_craft.{name}")))
@@ -142,7 +111,7 @@ def choose(name, letter, owner, value):
     yield from gui.keys(letter)
     # the menu closes later
     yield from gui.wait_until(
-        lambda: getattr(scene.settings(owner), name) == value, 30, f"{name} {value}"
+        lambda: getattr(scene.settings(owner), name) == value, what=f"{name} {value}"
     )
 
 
@@ -184,10 +153,8 @@ def close_and_open_section():
 
 def test():
     yield from set_the_stage()
-    for moment in (character, clothes):
-        gui.log(moment.__name__)
-        yield from moment()
-        scene.check_clean()
+    yield from character()
+    scene.check_clean()
 
 
 gui.run(test)

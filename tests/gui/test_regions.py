@@ -50,7 +50,7 @@ def test():
     is_top = yield from select_the_top()
     yield from gui.click((yield from open_section()))
     regions = scene.settings().regions
-    yield from gui.wait_until(lambda: len(regions) == 1, what="the region", timeout=60)
+    yield from gui.wait_until(lambda: len(regions) == 1, what="the region")
     assert bpy.context.mode == "OBJECT" and regions[0].group == "Region"
     yield from gui.screenshot("added.png")
 
@@ -61,9 +61,7 @@ def test():
     yield from gui.screenshot("cubified.png")
     with_region = array().copy()
     yield from click_header(SWITCH)
-    yield from gui.wait_until(
-        lambda: not scene.settings().use_regions, what="the switch", timeout=60
-    )
+    yield from gui.wait_until(lambda: not scene.settings().use_regions, what="the switch")
     yield from gui.click((yield from gui.find_button("cubic_craft.cubify")))
     yield from gui.wait_until(lambda: (array() != with_region).any(), what="Cubify without")
     moved = np.linalg.norm(array() - with_region, axis=1)

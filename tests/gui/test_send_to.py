@@ -90,7 +90,6 @@ def send_by_dialog():
     yield from gui.wait_until(
         lambda: any(area.type == "FILE_BROWSER" for area in gui.window().screen.areas),
         what="the file dialog",
-        timeout=60,
     )
     assert len(bpy.context.window_manager.windows) == windows
     browser = gui.area("FILE_BROWSER")
@@ -99,7 +98,7 @@ def send_by_dialog():
     save_screen("dialog.png")
     with gui.in_region("WINDOW", "FILE_BROWSER"):
         bpy.ops.file.execute("INVOKE_DEFAULT")
-    yield from gui.wait_until(path.exists, what="the file", timeout=120)
+    yield from gui.wait_until(path.exists, what="the file")
     assert path.read_bytes()[:4] == b"glTF"
     path.unlink()
 

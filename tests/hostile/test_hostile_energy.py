@@ -11,7 +11,7 @@ from pieces import PIECES
 from solver import stylize
 
 
-@examples(60)
+@examples(40)
 @given(case=cases())
 def test_the_energy_of_the_plain_iteration_never_rises(case):
     mesh, options, device = case

@@ -11,7 +11,7 @@ from hypothesis import event, given
 from solver import SolverOptions, Style, Stylization
 
 
-@examples(60)
+@examples(40)
 @given(case=cases())
 def test_a_result_keeps_what_was_promised(case):
     mesh, options, device = case

@@ -14,7 +14,7 @@ from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest_
 from solver.details import radii, smoothed
 
 DETAIL = replace(PAPER, detail=0.05)
-KEPT = {"device": "numpy", "keep_rotation": True}
+KEPT = {"keep_rotation": True}
 
 
 def bumpy_ball(height=0.02):

@@ -34,11 +34,8 @@ COARSE = {"refine": False}
 def stylization(V, F, cubeness=0.4, pinned=(), apart=True, options=None, mirrors=(), **others):
     proxy = ProxyOptions(keep_apart=apart, **(options or {}))
     setup = Setup(rest_mesh(V, F, proxy), pinned, mirrors=mirrors)
-    return Stylization(
-        setup,
-        cubeness,
-        options=SolverOptions(**{"device": "numpy", "keep_rotation": True} | others),
-    )
+    options = SolverOptions(**{"keep_rotation": True} | others)
+    return Stylization(setup, cubeness, options=options)
 
 
 def new_crossings(V, U, F):

@@ -31,7 +31,7 @@ from solver.styles.forms import cube, prism
 
 LIMBS = ProxyOptions(detail=0.0, keep_apart=False)
 DEFAULTS = ProxyOptions()
-KEPT = {"device": "numpy", "keep_rotation": True}
+KEPT = {"keep_rotation": True}
 
 
 def tilted(degrees):

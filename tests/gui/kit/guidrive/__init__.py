@@ -26,12 +26,11 @@ from .gestures import (
     drag_slider,
     enter_value,
     keys,
-    move_mouse,
-    turn_wheel,
     type_text,
     undo,
 )
 from .pictures import screenshot, smooth_screenshot
+from .pointing import move_mouse, turn_wheel
 from .runner import log, python_errors, run
 from .screen import (
     Button,

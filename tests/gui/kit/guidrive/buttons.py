@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finding buttons: Blender tells no script where they are, so the mouse feels its way."""
 
+import dataclasses
+
 import bpy
 
 from . import places
-from .gestures import move_mouse, turn_wheel
+from .events import events
+from .pointing import move_mouse, turn_wheel
 from .screen import Button, area, in_region, region
 from .waiting import wait_redraw, wait_until
 
 SCAN_STEP = 12  # pixels; a row of buttons is 20 high
+_ASIDE = 3  # pixels; beyond the edge of a button, where the mouse has left it
+_TRIES = 5
 _CUT_OFF = 8  # pixels; what is lower is cut off by the edge of the region, and is scrolled to
 
 _passed = {}  # text of a button: region, a point on it, how far the region was scrolled then
@@ -62,16 +67,18 @@ def find_button(target, region_type="UI", area_type="VIEW_3D"):
     where = region(region_type, area_type)
     key = f"{area_type} {region_type} {where.width}x{where.height} {target}"
 
-    operator, _, argument = target.partition("(")
-
     def matches(text):
-        is_call = text.startswith(f"bpy.ops.{operator}(") and argument in text
-        return is_call or f".{text}".endswith(f".{target}")
+        return _is_of(text, target)
+
+    def found(button):
+        return dataclasses.replace(
+            button, target=target, region_type=region_type, area_type=area_type
+        )
 
     for place in places.known(key):
         button = yield from _look_at(place, matches, region_type, area_type)
         if button:
-            return button
+            return found(button)
     button = yield from _look_where_passed(matches, region_type, area_type)
     for thorough in (False, True):
         if not button:
@@ -82,8 +89,39 @@ def find_button(target, region_type="UI", area_type="VIEW_3D"):
         if button:
             edges = button.left, button.bottom, button.right, button.top
             places.remember(key, [*edges, _scrolled(region_type, area_type)])
-            return button
+            return found(button)
     raise LookupError(f"no button {target!r}; met: {list(met)}")
+
+
+def reach(button, across=0.5):
+    """Move the mouse onto a Button, at this fraction of its width, until Blender says it is there.
+
+    A press anywhere else would be lost: the panel may have moved since the button was found, and
+    what has been grey under the mouse takes no press before the mouse has left it. Returns the
+    Button where it is now.
+    """
+    for _ in range(_TRIES):
+        x, y = button.at(across)
+        if button.has(events().x, events().y):
+            yield from move_mouse((x, button.top + _ASIDE))
+        yield from move_mouse((x, y))
+        if not button.target:
+            return button
+        text = button_under_mouse(button.region_type, button.area_type)
+        if _is_of(text, button.target):
+            return button
+        if button.area_type == "VIEW_3D":
+            yield from wait_redraw()
+        where = button.region_type, button.area_type
+        button = yield from find_button(button.target, *where)
+    raise LookupError(f"no button {button.target!r} stays under the mouse, but {text!r}")
+
+
+def _is_of(text, target):
+    """Return whether a button is the one that find_button is asked for."""
+    operator, _, argument = target.partition("(")
+    is_call = text.startswith(f"bpy.ops.{operator}(") and argument in text
+    return is_call or f".{text}".endswith(f".{target}")
 
 
 def _hover(x, y, region_type, area_type):

@@ -81,6 +81,7 @@ class _XEvents:
     def __init__(self):
         # Otherwise Blender itself moves the pointer while a slider is dragged.
         bpy.context.preferences.inputs.use_mouse_continuous = False
+        self.x, self.y = viewport_point()
         self._xdotool("windowfocus", "--sync", x_window())
 
     def _xdotool(self, *arguments):
@@ -94,6 +95,7 @@ class _XEvents:
         return _X_KEYS.get(name, name if is_function_key else name.lower())
 
     def move(self, x, y):
+        self.x, self.y = x, y
         self._xdotool("mousemove", x, window().height - 1 - y)
 
     def press(self, name):

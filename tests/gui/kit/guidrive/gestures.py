@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a hand does: move, click, drag, press keys, type."""
 
+from .buttons import reach
 from .events import events, settle
+from .pointing import move_mouse
 from .screen import Button, viewport_point
 from .waiting import counts, wait_until
 
 
-def move_mouse(point):
-    """Move the mouse to a point."""
-    events().move(*point)
-    yield from settle()
-
-
 def click(target, button="LEFTMOUSE"):
     """Click on a Button or on a point."""
-    yield from move_mouse(target.at() if isinstance(target, Button) else target)
+    if isinstance(target, Button):
+        yield from reach(target)
+    else:
+        yield from move_mouse(target)
     events().press(button)
     yield from settle()
     events().release(button)
@@ -35,14 +34,8 @@ def drag(start, end, steps=4, button="LEFTMOUSE"):
 
 def drag_slider(slider, start=0.5, end=0.9, steps=4):
     """Drag in a slider found by find_button, between two fractions of its width."""
+    slider = yield from reach(slider, start)
     yield from drag(slider.at(start), slider.at(end), steps)
-
-
-def turn_wheel(wheel, steps):
-    """Turn the mouse wheel: "WHEELUPMOUSE" or "WHEELDOWNMOUSE"."""
-    for _ in range(steps):
-        events().press(wheel)
-        yield from settle()
 
 
 def keys(*combinations):
@@ -70,8 +63,10 @@ def type_text(text):
 
 def enter_value(field, value):
     """Type a value into a number or text field found by find_button and confirm it."""
+    field = yield from reach(field)
     events().press("LEFT_CTRL")  # Ctrl and click starts to edit a slider, too
-    yield from click(field)
+    yield from settle()
+    yield from click(field.at())
     events().release("LEFT_CTRL")
     yield from settle()
     yield from keys("CTRL+A")

@@ -19,6 +19,9 @@ python_errors = []  # tracebacks of errors that Blender caught (in draw, modal, 
 
 _SLEEP = 0.002  # seconds: with simulated events Blender never sleeps, and would take a whole core
 
+_PAUSE = 0.1  # seconds; what is longer is no look of wait_until, and has so many turns at least:
+_TURNS = 10  # a busy machine may take a second for one
+
 _start = time.monotonic()
 
 
@@ -39,11 +42,12 @@ def run(test, timeout=1740.0):
     _keep_python_errors()
     steps = _after_first_draw(test)
     deadline = time.monotonic() + timeout
-    end_of_pause = 0.0
+    end_of_pause, turns = 0.0, 0
 
     def turn():
-        nonlocal end_of_pause
-        if bpy.app.use_event_simulate and time.monotonic() < end_of_pause:
+        nonlocal end_of_pause, turns
+        if bpy.app.use_event_simulate and (turns > 0 or time.monotonic() < end_of_pause):
+            turns -= 1
             time.sleep(_SLEEP)
             return 0.0
         try:
@@ -57,6 +61,7 @@ def run(test, timeout=1740.0):
             _fail(repr(error))
         else:
             end_of_pause = time.monotonic() + (pause or 0.0)
+            turns = _TURNS if (pause or 0.0) >= _PAUSE else 0
             return 0.0 if bpy.app.use_event_simulate else pause or 0.0  # 0: in the next turn
         return None
 

@@ -85,7 +85,14 @@ class Button:
     bottom: int
     right: int
     top: int
+    target: str = ""  # what find_button was asked for; "": the mouse need not find it here
+    region_type: str = "UI"
+    area_type: str = "VIEW_3D"
 
     def at(self, across=0.5):
         """Return a point in the middle of its height, at this fraction of its width."""
         return round(self.left + across * (self.right - self.left)), (self.bottom + self.top) // 2
+
+    def has(self, x, y):
+        """Return whether a point is on it."""
+        return self.left <= x <= self.right and self.bottom <= y <= self.top

@@ -31,6 +31,24 @@ def end(key):
     assert gui.running_operators() == []
 
 
+def lost_clicks(run):
+    """Click on what was grey when the mouse came to it, and on what has moved since."""
+    settings = bpy.context.window_manager.dummy_ext
+    settings.is_grey = True
+    yield from gui.wait_redraw("UI")
+    yield from gui.move_mouse(run.at())
+    settings.is_grey = False
+    yield from gui.wait_redraw("UI")
+    yield from start(run)
+    yield from end("ESC")
+    settings.lines_above = 3
+    yield from gui.wait_redraw("UI")
+    yield from start(run)
+    yield from end("ESC")
+    settings.lines_above = 0
+    yield from gui.wait_redraw("UI")
+
+
 def is_black(path):
     image = bpy.data.images.load(path)
     pixels = np.empty(len(image.pixels), dtype=np.float32)  # pyright: ignore[reportArgumentType]
@@ -77,6 +95,8 @@ def test():
     yield from gui.wait_until(lambda: 0.75 in status["speeds"], what="the speed typed in")
     yield from end("ESC")
     assert heights() == rest
+
+    yield from lost_clicks(run)
 
     note = yield from gui.find_button("dummy_ext.note")
     yield from gui.enter_value(note, "Typed text, v_1.0-2")

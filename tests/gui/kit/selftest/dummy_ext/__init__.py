@@ -21,6 +21,8 @@ class DummySceneSettings(bpy.types.PropertyGroup):
 
 class DummyWindowSettings(bpy.types.PropertyGroup):
     speed: bpy.props.FloatProperty(name="Speed", default=0.1, min=0.0, max=1.0)
+    lines_above: bpy.props.IntProperty()
+    is_grey: bpy.props.BoolProperty()
 
 
 class DUMMY_OT_run(bpy.types.Operator):
@@ -75,9 +77,14 @@ class DUMMY_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         column = self.layout.column()
-        column.operator("dummy.run")
+        settings = getattr(context.window_manager, NAME)
+        for _ in range(settings.lines_above):
+            column.label(text="What has just been found")
+        row = column.row()
+        row.enabled = not settings.is_grey
+        row.operator("dummy.run")
         column.prop(getattr(context.scene, NAME), "strength", slider=True)
-        column.prop(getattr(context.window_manager, NAME), "speed", slider=True)
+        column.prop(settings, "speed", slider=True)
         for _ in range(40):
             column.label(text="To scroll over")
         column.prop(getattr(context.scene, NAME), "note")
