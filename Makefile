@@ -64,15 +64,18 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 
 # What Blender itself does for us: data, modes, undo, interface, importers and exporters. What is
 # computed from it, and faults of Python functions, are the same in both; of each test, three cases
-# are enough to see another Blender, as many as there are kinds of results.
+# are enough to see another Blender, as many as there are kinds of results. Blender 4.2 crashes now and
+# then in its glTF exporter if a mesh was in Edit Mode in a file before, without any extension too
+# (docs/reliability.md): what exports has processes of its own.
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, in the oldest bpy that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 --ignore tests/blender/hostile \
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
 		$(patsubst %,--ignore-glob "*/test_%.py",assembly docs_examples edited faults flatten_facets floor \
 		form_from_selection form_settings handle_own_pose handle_reach handles leaks live_inputs live_poses \
 		live_transforms normal_capture orientation other_blenders process refusals regions rigged_limbs \
-		scenes symmetry up_to_date) tests/blender \
+		scenes symmetry up_to_date) --ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
+	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 tests/blender/send
 
 $(VENV)-oldest/.done: requirements/*.txt
 	$(PYTHON) -m venv $(VENV)-oldest
