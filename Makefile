@@ -10,8 +10,9 @@ VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
-# first. Not more than four, as each Blender takes its memory.
-PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder $(THOROUGH)
+# first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
+# another one in its place, --dist loadfile may wait for ever.
+PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder --max-worker-restart 0 $(THOROUGH)
 # A thread each for matrices of NumPy and SciPy: more than there are cores wait for each other at full
 # speed. tests/solver/global_step/test_tall_products.py has several; so have windows and test-wheel.
 test-solver test-blender test-oldest test-py313 test-gpu: export OPENBLAS_NUM_THREADS ?= 1
