@@ -9,7 +9,7 @@ import bpy
 from .. import live
 from ..environment.curves import animated_paths
 from ..object_properties import PROPERTY, object_properties
-from ..screen.text_fit import room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped
 from ..ui import job_progress
 from .properties import bake_properties, source_of
 
@@ -18,7 +18,6 @@ _BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
 
 
 _SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
-_BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
 def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None:
@@ -27,13 +26,9 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
     if not names or source_of(obj) != obj:
         return
     column = layout.box().column()
-    lines = column.column(align=True)
-    icon = "INFO"
     are, them = ("is", "it") if len(names) == 1 else ("are", "them")
     text = f"{', '.join(names)} {are} animated: Cubify Animation bakes {them}"
-    for line in wrapped(text, room_for_text(context, _BOX)):
-        lines.label(text=line, icon=icon)
-        icon = "BLANK1"
+    draw_wrapped(context, column.column(align=True), text, "INFO")
     row = column.row()
     row.enabled = live.current() is None
     job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)

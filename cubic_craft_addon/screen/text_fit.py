@@ -2,6 +2,7 @@
 """Texts that fit the sidebar: Blender truncates long text and does not wrap it."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import blf
 import bpy
@@ -10,6 +11,7 @@ _FONT = 0  # that of the interface
 _UNIT = 20  # pixels at scale 1: the height of a button, the width of an icon
 _TABS = 1.0  # units, at the right edge
 _MARGINS = 2.8  # units, left and right of a line of text together, with its padding
+_BOX = 2.0  # units that a box and an icon in it take from a line
 _NARROW = 8.0  # units for text: less than half of it holds no name of a setting
 
 
@@ -72,3 +74,21 @@ def wrapped(text: str, room: float) -> list[str]:
         else:
             lines.append(word)
     return lines
+
+
+def draw_wrapped(context: bpy.types.Context, column: Any, text: str, icon: Any) -> None:
+    """Draw a text in a box, in as many lines as it needs, with an icon at the first.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Of a panel that is being drawn.
+    column : bpy.types.UILayout
+        An aligned column of the box.
+    text : str
+    icon : str
+        Name of the icon.
+    """
+    for line in wrapped(text, room_for_text(context, _BOX)):
+        column.label(text=line, icon=icon)
+        icon = "BLANK1"

@@ -22,7 +22,7 @@ from ..presets import panel as presets_panel
 from ..read.object_frame import check_frame
 from ..regions import panel as regions_panel
 from ..run.up_to_date import changes_since
-from ..screen.text_fit import is_narrow, room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped, is_narrow, room_for_text, wrapped
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
 from ..worn import panel as worn
@@ -32,7 +32,6 @@ from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
 _ADVANCED = "CUBIC_CRAFT_PT_shape_advanced"
-_BOX = 2.0  # widths of an icon that a box and its icon take from a line
 
 
 class CUBIC_CRAFT_PT_main(bpy.types.Panel):
@@ -115,11 +114,7 @@ def _draw_other(context, layout):
 
 
 def _draw_problem(context, layout, text):
-    column = layout.box().column(align=True)
-    icon = "ERROR"
-    for line in wrapped(text, room_for_text(context, _BOX)):
-        column.label(text=line, icon=icon)
-        icon = "BLANK1"
+    draw_wrapped(context, layout.box().column(align=True), text, "ERROR")
 
 
 def _draw_orientation(layout, obj):

@@ -17,10 +17,9 @@ from ..environment import handlers
 from ..object_properties import object_properties
 from ..screen.found_later import FoundLater
 from ..screen.redraw import redraw_panels
-from ..screen.text_fit import room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped
 from .found import worn_by
 
-_BOX = 2.0  # widths of an icon that a box and its icon take from a line
 _NAMED = 2
 """objects that are named; of more, the number is told"""
 
@@ -58,11 +57,7 @@ def draw(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None
     if not names:
         return
     box = layout.box()
-    column = box.column(align=True)
-    icon = "INFO"
-    for line in wrapped(sentence(names), room_for_text(context, _BOX)):
-        column.label(text=line, icon=icon)
-        icon = "BLANK1"
+    draw_wrapped(context, box.column(align=True), sentence(names), "INFO")
     box.operator("cubic_craft.select_worn", icon="RESTRICT_SELECT_OFF")
 
 
