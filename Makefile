@@ -14,8 +14,8 @@ PIP := -m pip install --quiet --disable-pip-version-check
 # another one in its place, --dist loadfile may wait for ever.
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder --max-worker-restart 0 $(THOROUGH)
 # A thread each for matrices of NumPy and SciPy: more than there are cores wait for each other at full
-# speed. tests/solver/global_step/test_tall_products.py has several; so have windows and test-wheel.
-test-solver test-blender test-oldest test-py313 test-gpu: export OPENBLAS_NUM_THREADS ?= 1
+# speed. tests/solver/global_step/test_tall_products.py has several; so have windows.
+test-solver test-blender test-oldest test-py313 test-gpu test-wheel: export OPENBLAS_NUM_THREADS ?= 1
 ZIP := dist/cubic_craft.zip
 BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 SOURCES := __init__.py blender_manifest.toml \

@@ -10,13 +10,14 @@ from contextlib import AbstractContextManager
 from typing import NamedTuple
 
 from ...solver.console.errors import InputError
+from ...solver.console.interruption import before_ending, end_on_signals, end_with_input
+from ...solver.console.temporary import remove_left_behind, replacing
 from .batch.run import run_batch
 from .options.arguments import parse
 from .options.checks import refuse_empty
-from .process.interruption import before_ending, end_on_signals, end_with_input
 from .process.one_line import one_line
-from .process.output_files import remove_left_behind, replacing, written
-from .process.quiet import mute_stdout
+from .process.output_files import written
+from .process.quiet import mute_stdout, terminal
 from .process.threads import thread_variables
 from .process.version import version
 from .process.watched_process import Limits, end_processes, finish, start
@@ -41,7 +42,7 @@ class Program(NamedTuple):
 
 def main_of(program: Program) -> int:
     """Do what the arguments of a program say, and return the exit code."""
-    end_on_signals(program.name)
+    end_on_signals(program.name, terminal)
     begin = time.perf_counter()
     try:
         options = parse(program.arguments, program.start)

@@ -2,49 +2,40 @@
 """The run of the command, from its options to its exit code."""
 
 import contextlib
-import os
-import signal
 import sys
 import time
 from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import NoReturn
 
 from solver.console.errors import InputError
+from solver.console.interruption import end_on_signals
+from solver.console.temporary import replacing, temporary_folder
 
 from .arguments import parse
 from .formats import FORMATS
-from .output_file import check_writable, replacing
+from .output_file import check_writable
 from .standard_streams import STANDARD, input_file, write_to_standard_output
 
-__all__ = ("main",)
+__all__ = ("main", "run")
 
 PROGRAM = "cubic-craft"
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Do what the command line says, and return the exit code.
+def main() -> int:
+    """Do what the command line of this process says, and return the exit code."""
+    end_on_signals(PROGRAM)
+    return run(sys.argv[1:])
 
-    Parameters
-    ----------
-    arguments : list of str, optional
-        By default those of the process.
-    """
+
+def run(arguments: list[str]) -> int:
+    """Do what a command line says, and return the exit code."""
     try:
-        options = parse(sys.argv[1:] if arguments is None else arguments)
-        jobs = _jobs(options)
-        # So that the temporary file is removed where the process is told to end.
-        signal.signal(signal.SIGTERM, _terminate)
-        return max([_exit_code(*job, options) for job in jobs])
+        options = parse(arguments)
+        return max([_exit_code(*job, options) for job in _jobs(options)])
     except InputError as error:
         _say(f"error: {error}")
         return 2
-    except KeyboardInterrupt:
-        _leave("interrupted", 130)
-    except _Terminated:
-        _leave("told to end", 143)
 
 
 def _exit_code(source: str, output: str, options: Namespace) -> int:
@@ -61,20 +52,6 @@ def _exit_code(source: str, output: str, options: Namespace) -> int:
 
 def _say(line: str) -> None:
     print(f"{PROGRAM}: {line}", file=sys.stderr)
-
-
-class _Terminated(BaseException):
-    """The process is told to end."""
-
-
-def _terminate(*_: object) -> NoReturn:
-    raise _Terminated
-
-
-def _leave(words: str, code: int) -> NoReturn:
-    """End at once: to free a factorisation that was interrupted may crash Python."""
-    print(f"{PROGRAM}: {words}", file=sys.stderr, flush=True)
-    os._exit(code)
 
 
 def _jobs(options: Namespace) -> list[tuple[str, str]]:
@@ -146,7 +123,7 @@ def _output_file(output: str, suffix: str) -> Iterator[Path]:
         with replacing(Path(output)) as temporary:
             yield temporary
         return
-    with TemporaryDirectory(prefix="cubic_craft-") as folder:
-        path = Path(folder) / f"output{suffix}"
+    with temporary_folder() as folder:
+        path = folder / f"output{suffix}"
         yield path
         write_to_standard_output(path)

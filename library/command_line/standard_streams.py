@@ -11,9 +11,9 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from solver.console.errors import InputError
+from solver.console.temporary import temporary_folder
 
 __all__ = ("STANDARD", "format_of", "input_file", "write_to_standard_output")
 
@@ -60,8 +60,8 @@ def input_file(source: str) -> Iterator[Path]:
     if source != STANDARD:
         yield Path(source)
         return
-    with TemporaryDirectory(prefix="cubic_craft-") as folder:
-        copy = Path(folder) / "input"
+    with temporary_folder() as folder:
+        copy = folder / "input"
         with copy.open("wb") as file:
             shutil.copyfileobj(sys.stdin.buffer, file)
         path = copy.rename(copy.with_suffix(format_of(copy)))

@@ -15,9 +15,9 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 from headless_render import leave  # noqa: E402
 
-from cubic_craft.cubic_craft_addon.command_line.process.interruption import end_on_signals  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.process.quiet import mute_stdout  # noqa: E402
 from cubic_craft.solver.console.errors import InputError  # noqa: E402
+from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
 
 PROGRAM = "figures"
 RENDERED = (

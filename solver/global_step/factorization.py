@@ -2,7 +2,7 @@
 """Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
 
 import weakref
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 
 import numpy as np
 
@@ -23,13 +23,26 @@ def factorize(A):
             return _Cholesky(cholespy, A)
     from scipy.sparse.linalg import splu  # takes a tenth of a second to import
 
-    lu = splu(
-        A.tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+    with _one_blas_thread():
+        lu = splu(
+            A.tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
     return lu.solve
+
+
+def _one_blas_thread():
+    """Keep BLAS from sharing out products as small as those of a factorisation.
+
+    It gains nothing, and where other programs use the cores, its threads wait for each other a
+    hundred times as long as they compute.
+    """
+    threadpoolctl = optional_package("threadpoolctl")
+    if threadpoolctl is None:
+        return nullcontext()
+    return threadpoolctl.threadpool_limits(1, user_api="blas")
 
 
 class _Cholesky:

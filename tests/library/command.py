@@ -4,13 +4,12 @@
 import contextlib
 import dataclasses
 import io
-import signal
 import subprocess
 import sys
 from pathlib import Path
 
 from cubic_craft import ProxyOptions, stylize
-from cubic_craft.command_line import main
+from cubic_craft.command_line.program import run
 
 COMMAND = Path(sys.executable).with_name("cubic-craft")
 QUICK = ("--device", "numpy", "--refine", "off", "--tolerance", "0.01")
@@ -28,18 +27,16 @@ def quick(V, F, cubeness=0.4, **options):
 
 def in_this_process(arguments, folder):
     """Run what the command runs, without the second that a process takes to import SciPy."""
-    before, code = signal.getsignal(signal.SIGTERM), 0
+    code = 0
     with (
         contextlib.chdir(folder),
         contextlib.redirect_stdout(io.StringIO()) as out,
         contextlib.redirect_stderr(io.StringIO()) as errors,
     ):
         try:
-            code = main([str(word) for word in arguments])
+            code = run([str(word) for word in arguments])
         except SystemExit as leaving:
             code = leaving.code or 0
-        finally:
-            signal.signal(signal.SIGTERM, before)
     return subprocess.CompletedProcess(arguments, code, out.getvalue(), errors.getvalue())
 
 

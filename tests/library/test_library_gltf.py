@@ -9,10 +9,10 @@ import trimesh
 from command import QUICK, cubic_craft, quick
 from scipy.spatial.transform import Rotation
 
-from cubic_craft.command_line import main
 from cubic_craft.command_line.gltf_data import GltfData
 from cubic_craft.command_line.gltf_file import GltfFile, write_surface
 from cubic_craft.command_line.mesh_files import read
+from cubic_craft.command_line.program import run
 from scripts.benchmark.shapes import blob
 
 V, F = blob(2)
@@ -136,7 +136,7 @@ REFUSED = {
 
 def refused(path, capsys):
     """Run the command in this process, which must refuse with one line, and return the line."""
-    assert main([str(path), str(path.with_name("out.glb")), *QUICK]) == 2
+    assert run([str(path), str(path.with_name("out.glb")), *QUICK]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"cubic-craft: error: {path}: ")
     assert not path.with_name("out.glb").exists()

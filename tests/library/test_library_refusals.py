@@ -14,8 +14,8 @@ import pytest
 from command import COMMAND, QUICK, in_a_process, refused
 
 from cubic_craft.command_line import decompression, mesh_files
-from cubic_craft.command_line.output_file import replacing
 from cubic_craft.console.errors import InputError
+from cubic_craft.console.temporary import replacing
 from scripts.benchmark.shapes import blob
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

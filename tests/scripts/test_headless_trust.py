@@ -87,7 +87,7 @@ PLANT = f"""
 import os, platform, sys
 from pathlib import Path
 sys.path.insert(0, {str(SCRIPT.parent)!r})
-from cubic_craft.cubic_craft_addon.command_line.process.output_files import replacing
+from cubic_craft.solver.console.temporary import replacing
 path = Path(sys.argv[1])
 secret = path.parents[1] / "secret.txt"
 planted = path.with_name(f".result.cubic_craft-{{platform.node()}}-{{os.getpid()}}.obj")

@@ -14,7 +14,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from ....solver.console.errors import InputError
-from ..process.interruption import before_ending
+from ....solver.console.interruption import before_ending
 from ..process.watched_process import end_processes
 from .elsewhere import PLACE, work_elsewhere
 from .plan import Job

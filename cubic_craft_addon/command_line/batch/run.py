@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from ....solver.console.errors import InputError
+from ....solver.console.temporary import replacing
 from ..process.one_line import one_line
-from ..process.output_files import check_writable, replacing, write_json
+from ..process.output_files import check_writable, write_json
 from ..process.progress import ProgressBar
 from ..trust.symlinks import refuse_links
 from .engine import results_of, workers_for

@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ....solver.console.errors import InputError
+from ....solver.console.temporary import remove_left_behind
 from ..process.lock import alone_at
-from ..process.output_files import remove_left_behind
 from ..process.threads import thread_variables
 from ..process.watched_process import Limits, finish, start
 from ..trust.places import is_inside, refuse_special

@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 
 from ....solver.console.errors import InputError
-from ..process.output_files import replacing
+from ....solver.console.temporary import replacing
 from ..process.quiet import captured
 from ..reading.blender_operator import reason
 from .gallery import Gallery

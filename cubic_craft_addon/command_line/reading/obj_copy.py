@@ -8,15 +8,12 @@ its material libraries.
 
 import contextlib
 import os
-import shutil
-import tempfile
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from ..process.interruption import before_ending
+from ....solver.console.temporary import temporary_folder
 from .obj_lines import ObjLines
 
 __all__ = ("file_named", "in_file", "readable_copy")
@@ -36,9 +33,8 @@ def readable_copy(path: Path, encoding: str, offset: np.ndarray) -> Iterator[Pat
     encoding : of its names
     offset : (3,) what is taken from all positions
     """
-    with tempfile.TemporaryDirectory(prefix="cubic_craft-") as folder:
-        before_ending(partial(shutil.rmtree, folder, ignore_errors=True))
-        copy = Path(folder, path.name)
+    with temporary_folder() as folder:
+        copy = folder / path.name
         with copy.open("wb") as file:
             file.writelines(_lines(path, copy.parent, encoding, offset))
         yield copy

@@ -12,13 +12,13 @@ from typing import Any
 import bpy
 
 from ....solver.console.errors import InputError
+from ....solver.console.temporary import replacing
 from ....solver.errors import CubicCraftError
 from ...animation.bake import Bake, BakeOptions
 from ...animation.exchange import export_frames
 from ...animation.parts import part_of
 from ...handles import Handle
 from ...settings.values import Settings
-from ..process.output_files import replacing
 from ..process.progress import ProgressBar
 from ..process.quiet import captured
 from ..reading.load_meshes import Loaded

@@ -2,10 +2,10 @@
 """Look into a file before Blender reads it."""
 
 import contextlib
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ....solver.console.temporary import temporary_folder
 from .fbx import check_fbx
 from .gltf import check_gltf
 from .obj import restricted_copy
@@ -40,6 +40,6 @@ def readable(path: Path, importer: str, has_own_process: bool) -> Iterator[Path]
         check_usd(path)
     if suffix in CRASHING and not has_own_process:
         try_to_read(path, importer)
-    with tempfile.TemporaryDirectory() as folder:
-        copy = restricted_copy(path.resolve(), Path(folder)) if suffix == ".obj" else None
+    with temporary_folder() as folder:
+        copy = restricted_copy(path.resolve(), folder) if suffix == ".obj" else None
         yield copy or path.resolve()

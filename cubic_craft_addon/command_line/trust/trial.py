@@ -26,7 +26,7 @@ def try_to_read(path: Path, importer: str) -> None:
     import bpy
 
     from ....solver.console.errors import InputError
-    from ..process.interruption import before_ending
+    from ....solver.console.interruption import before_ending
 
     blender, own = bpy.app.binary_path, str(Path(__file__).resolve())
     command = [blender, "--background", "--factory-startup", "--python", own, "--"]

@@ -14,8 +14,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ....solver.console.errors import InputError
+from ....solver.console.temporary import replacing
 from ...run import pipeline
-from ..process.output_files import replacing
 from ..process.quiet import captured
 from ..reading.blender_operator import operator, reason
 from ..reading.load_meshes import Loaded

@@ -5,7 +5,9 @@ import numpy as np
 import psutil
 import pytest
 import scipy.sparse as sp
+import scipy.sparse.linalg
 import shapes
+import threadpoolctl
 from optional_marks import needs
 
 from solver.global_step import factorization
@@ -29,9 +31,33 @@ def test_solve_matches_a_dense_solve(use_cholespy, monkeypatch):
 
 
 def test_a_broken_cholespy_is_done_without(monkeypatch):
-    monkeypatch.setattr(factorization, "optional_package", lambda name: factorization)
+    broken = {"cholespy": factorization}
+    monkeypatch.setattr(factorization, "optional_package", broken.get)
     A = sp.csr_matrix(np.diag([1.0, 2.0, 4.0]))
     np.testing.assert_allclose(factorization.factorize(A)(np.eye(3)), np.diag([1.0, 0.5, 0.25]))
+
+
+def test_scipy_factorises_with_one_thread(monkeypatch):
+    seen, splu = [], scipy.sparse.linalg.splu
+
+    def watched(*arguments, **options):
+        seen.append(threads_of_blas())
+        return splu(*arguments, **options)
+
+    monkeypatch.setattr(scipy.sparse.linalg, "splu", watched)
+    packages = {"threadpoolctl": threadpoolctl}
+    monkeypatch.setattr(factorization, "optional_package", packages.get)
+    with threadpoolctl.threadpool_limits(2, user_api="blas"):
+        factorization.factorize(sp.identity(3, format="csr"))
+        assert (seen, threads_of_blas()) == ([{1}], {2})
+
+
+def threads_of_blas():
+    return {
+        info["num_threads"]
+        for info in threadpoolctl.threadpool_info()
+        if info["user_api"] == "blas"
+    }
 
 
 def test_a_folder_left_behind_is_no_package(tmp_path, monkeypatch):

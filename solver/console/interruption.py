@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ctrl-C, or being told to end: one line, the exit code that shells expect, and nothing half-done.
 
-Python runs signal handlers in the main thread, which cannot be told anything while Blender renders
-or exports. So our thread waits for the signal, tidies up and ends the process at once.
-Nothing is lost by that: every file is written under a temporary name (see `output_files`).
+Python runs signal handlers in the main thread, which cannot be told anything while it is in other
+code: a factorisation, or Blender that renders or exports. So our thread waits for the signal,
+tidies up and ends the process at once. Nothing is lost by that: every file is written under a
+temporary name (see `temporary`).
 """
 
 import os
 import signal
-import sys
 import threading
 from collections.abc import Callable
 
-from .output_files import remove_temporaries
-from .quiet import terminal
+from .temporary import remove_temporaries
 
 __all__ = ("before_ending", "end_on_signals", "end_with_input")
 
@@ -23,13 +22,23 @@ _CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
 _duties: list[Callable[[], None]] = [remove_temporaries]
 
 
+def _standard_error() -> int:
+    return 2
+
+
 def before_ending(duty: Callable[[], None]) -> None:
     """Have something done, in another thread, before the process ends because it is told to."""
     _duties.append(duty)
 
 
-def end_on_signals(program: str) -> None:
-    """From now on end with the exit code 128 + number on SIGINT (so 130 on Ctrl-C) and SIGTERM."""
+def end_on_signals(program: str, terminal: Callable[[], int] = _standard_error) -> None:
+    """From now on end with the exit code 128 + number on SIGINT (so 130 on Ctrl-C) and SIGTERM.
+
+    Parameters
+    ----------
+    program : its name in the line that says so
+    terminal : gives the file descriptor for that line
+    """
     arrivals, departures = os.pipe()
     os.set_blocking(departures, False)
     signal.set_wakeup_fd(departures)
@@ -37,7 +46,9 @@ def end_on_signals(program: str) -> None:
         if signal.getsignal(number) != signal.SIG_IGN:  # as shells have it for background jobs
             # It does nothing itself, but without a handler there is no byte for the thread.
             signal.signal(number, lambda *_: None)
-    threading.Thread(target=_wait_for_signal, args=(arrivals, program), daemon=True).start()
+    threading.Thread(
+        target=_wait_for_signal, args=(arrivals, program, terminal), daemon=True
+    ).start()
 
 
 def end_with_input() -> None:
@@ -45,25 +56,26 @@ def end_with_input() -> None:
     threading.Thread(target=_wait_for_end_of_input, daemon=True).start()
 
 
-def _wait_for_signal(arrivals: int, program: str) -> None:
+def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -> None:
     while True:
         number = os.read(arrivals, 1)[0]
         if number in _WORDS:
             break
     line = f"{program}: {_WORDS[signal.Signals(number)]}\n".encode()
-    _end(128 + number, _CLEAN_LINE + line if sys.stderr.isatty() else line)
+    _tidy_up()
+    last_words = os.dup(terminal())
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
+    os.write(last_words, _CLEAN_LINE + line if os.isatty(last_words) else line)
+    os._exit(128 + number)
 
 
 def _wait_for_end_of_input() -> None:
     while os.read(0, 1):
         pass
-    _end(128 + signal.SIGTERM, b"")
+    _tidy_up()
+    os._exit(128 + signal.SIGTERM)
 
 
-def _end(code: int, words: bytes) -> None:
+def _tidy_up() -> None:
     for duty in _duties:
         duty()
-    last_words = os.dup(terminal())
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
-    os.write(last_words, words)
-    os._exit(code)
