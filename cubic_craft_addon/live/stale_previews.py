@@ -47,7 +47,7 @@ def _keep(*_):
 
 def _keep_if_noted(mesh):
     outcome = mesh_bridge.noted_outcome(mesh)
-    if outcome is None:
+    if outcome is None or mesh.is_editmode:  # where only the shape from before can be written
         return
     try:
         with settings_kept([mesh]):

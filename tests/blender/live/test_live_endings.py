@@ -300,6 +300,29 @@ def test_a_file_written_behind_its_back_is_as_before_where_a_key_was_to_be_writt
     assert not bpy.ops.cubic_craft.restore.poll()
 
 
+def test_a_preview_that_is_found_in_edit_mode_ends(live, begin, extension, tmp_path, caplog):
+    """As after an undo while the extension is switched off."""
+    session = tick_to_rest(begin(add_monkey(), cubeness=0.7))
+    path = str(tmp_path / "behind.blend")
+    bpy.data.libraries.write(path, {bpy.context.scene})
+    session.on(live.Event.CANCEL)
+    original = bits(bpy.data.objects["Suzanne"])
+    stale = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.stale_previews")
+    stale.unregister()
+    try:
+        bpy.ops.wm.open_mainfile(filepath=path)
+        obj = bpy.data.objects["Suzanne"]
+        assert bits(obj) != original
+        select(obj)
+        bpy.ops.object.mode_set(mode="EDIT")
+        stale._keep()
+        bpy.ops.object.mode_set(mode="OBJECT")
+    finally:
+        stale.register()
+    assert bits(obj) == original and not caplog.records
+    check_gone(live)
+
+
 @pytest.mark.parametrize("outcome", [None, 1, {"values": {}}, {"values": {"result": "MESH"}}])
 def test_a_file_that_says_anything_else_heals(live, begin, tmp_path, outcome):
     obj = add_monkey()
