@@ -51,7 +51,7 @@ _IN_LIVE = (
 )
 _IN_CUBIFY = (("undo_pre", "_on_undo"), ("redo_pre", "_on_undo"), ("load_pre", "_on_load"))
 _MAKE_SEEN = ("cubify", "rest")
-_REWRITE = ("cubify", "restore", "start_or_confirm_live", "confirm_live", "rest")
+_REWRITE = ("cubify", "redo_panel", "restore", "start_or_confirm_live", "confirm_live", "rest")
 _RESTORES_FIRST = re.compile(r"bpy\.ops\.cubic_craft\.restore_first\(")
 _REWRITING_BUTTONS = re.compile(r"bpy\.ops\.cubic_craft\.(cubify|restore|live)\(")
 _MENUS_OF_BRUSHES = re.compile(r"/bl_ui/(space_view3d|properties_paint_common)\.py$")
