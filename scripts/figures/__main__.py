@@ -15,7 +15,7 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 from headless_render import leave  # noqa: E402
 
-from cubic_craft.cubic_craft_addon.command_line.process.quiet import mute_stdout  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.process.quiet import mute_stdout, terminal  # noqa: E402
 from cubic_craft.solver.console.errors import InputError  # noqa: E402
 from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
 
@@ -70,7 +70,7 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Make what was asked for and return the exit code."""
     options = arguments()
-    end_on_signals(PROGRAM)
+    end_on_signals(PROGRAM, terminal)
     mute_stdout(options.verbose)
     try:
         if options.meshes is not None and not options.meshes.is_dir():

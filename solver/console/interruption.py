@@ -9,6 +9,7 @@ temporary name (see `temporary`).
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable
 
@@ -40,7 +41,8 @@ def end_on_signals(program: str, terminal: Callable[[], int] = _standard_error) 
     terminal : gives the file descriptor for that line
     """
     arrivals, departures = os.pipe()
-    os.set_blocking(departures, False)
+    if sys.platform != "win32":  # there it is not asked for, and Python 3.11 cannot do it
+        os.set_blocking(departures, False)
     signal.set_wakeup_fd(departures)
     for number in _WORDS:
         if signal.getsignal(number) != signal.SIG_IGN:  # as shells have it for background jobs

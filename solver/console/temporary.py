@@ -34,6 +34,11 @@ def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
     ----------
     has_own_name : it gets the name of ``path``, in a folder of its own, because the format writes
         its name into the file
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
     """
     remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")

@@ -203,8 +203,8 @@ def test_a_run_that_is_stopped_leaves_nothing(number, words, is_reading, tmp_pat
         process.stdin.close()
         time.sleep(3.0)  # it solves, for minutes
     process.send_signal(number)
-    said = process.stderr.read().decode()
-    assert (process.wait(), said) == (128 + number, f"cubic-craft: {words}\n")
+    code, said = process.wait(timeout=60), process.stderr.read().decode()
+    assert (code, said) == (128 + number, f"cubic-craft: {words}\n")
     assert list(tmp_path.iterdir()) == [large]
 
 
