@@ -74,7 +74,9 @@ def smoothed(skin, areas, normals, radius, coupling=None, coarser=None):
         l, between 0 and 1.
     """
     A = _operator(skin, areas, radius, coupling)
-    found = _solved(A, (areas + _LEAST_AREA)[:, None] * normals, normals, coarser)
+    b = (areas + _LEAST_AREA)[:, None] * normals
+    near = (normals, _MOST_ITERATIONS) if coarser is None else (coarser, _AFTER_COARSER)
+    found = solved(A, b, *near)
     length = np.sqrt((found * found).sum(axis=1))
     is_defined = (length > 1e-6) & normals.any(axis=1)
     unit = np.where(is_defined[:, None], found, 0.0) / np.where(is_defined, length, 1.0)[:, None]
@@ -94,15 +96,18 @@ def _operator(skin, areas, radius, coupling):
     return sp.csr_matrix((values, skin.indices, skin.indptr), shape=(n, n))
 
 
-def _solved(A, b, normals, coarser):
-    """Solve A x = b by conjugate gradients, all three columns at once."""
-    x = (normals if coarser is None else coarser).copy()
+def solved(A, b, near, most=_MOST_ITERATIONS):
+    """Solve A x = b (n,3) from a solution near it, by conjugate gradients.
+
+    To a hundredth of the distance, roughly, or as many iterations as there may be.
+    """
+    x = near.copy()
     scale = 1.0 / A.diagonal()[:, None]
     residual = b - A @ x
     z = scale * residual
     direction, rate = z.copy(), (residual * z).sum()
     goal = _TOLERANCE**2 * max(rate, 1e-300)
-    for _ in range(_MOST_ITERATIONS if coarser is None else _AFTER_COARSER):
+    for _ in range(most):
         if rate <= goal:
             break
         image = A @ direction

@@ -40,6 +40,8 @@ def stylize(
     capture: NormalCapture | Sequence[NormalCapture] | None = None,
     capture_strength: ArrayLike = 0.0,
     capture_of: ArrayLike | None = None,
+    crispness: ArrayLike = 0.0,
+    detail_strength: ArrayLike = 1.0,
     limbs: KnownLimbs | None = None,
     keep_rotation: bool = False,
     device: Device = "auto",
@@ -85,6 +87,10 @@ def stylize(
         How strongly they do.
     capture_of : (n,) numpy int array, optional
         Which of several captures each vertex has.
+    crispness : float or (n,) numpy array
+        From 0 to 1: how far sides are made flat and edges straight in the end.
+    detail_strength : float or (n,) numpy array
+        How high details stand out, relative to those at rest; see `ProxyOptions.detail`.
     limbs : KnownLimbs, optional
         Limbs that are known, as from bones; see `Pose`.
     keep_rotation : bool
@@ -145,6 +151,8 @@ def stylize(
         capture=capture,
         capture_strength=capture_strength,
         capture_of=capture_of,
+        crispness=crispness,
+        detail_strength=detail_strength,
     )
     options = SolverOptions(
         device=device,

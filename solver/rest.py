@@ -172,17 +172,21 @@ class RestMesh(Value):
         return found[nearest]
 
     @cached_property
-    def _drawn(self) -> tuple[FloatArray, FloatArray]:
-        if not self.options.detail:
-            return self.normals, self.normal_shares
+    def detail_radii(self) -> FloatArray:
+        """(n,) radius over which normals are averaged, so that details have none of their own."""
         parts, component = self.topology.part, self.topology.component
-        radius = details.radii(
+        return details.radii(
             self.options.detail * extents(self.V, component)[component],
             self.thickness,
             extents(self.V, parts)[parts],
             np.bincount(parts)[parts] == np.bincount(component)[component],
         )
-        normals, length = self._smoothed(radius)
+
+    @cached_property
+    def _drawn(self) -> tuple[FloatArray, FloatArray]:
+        if not self.options.detail:
+            return self.normals, self.normal_shares
+        normals, length = self._smoothed(self.detail_radii)
         # without their details, creases have normals, too, but for those between flat sides
         weight = np.where(self.is_flat, self.normal_shares, details.WEIGHT)
         return normals, weight * length * length

@@ -19,6 +19,7 @@ from .coarse_to_fine.start import (
 from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
+from .hardening.hardening import ROUNDS
 from .inputs import instance, real_number, switch
 from .progress_bar import progress_bar
 from .result import Reason, Result
@@ -183,6 +184,7 @@ class Run:
         self._apart = KeepApart(rest) if is_kept else None
         self._end: Reason = "converged"
         self._round = 0
+        self._soft: Stylization | None = None
 
     @property
     def is_on_coarser_mesh(self) -> bool:
@@ -195,17 +197,32 @@ class Run:
         return self._round > 0
 
     @property
+    def is_hardening(self) -> bool:
+        """Whether the soft shape is done, and its sides become flat."""
+        return self._soft is not None
+
+    @property
+    def soft(self) -> Stylization:
+        """The Stylization of the soft shape: at its end, once the sides become flat."""
+        return self._soft or self.stylization
+
+    @property
     def iterations(self) -> int:
-        """Number of iterations done, including those on coarser meshes."""
+        """Number of iterations done, including those on coarser meshes, up to the soft shape."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
-        return coarse + self.stylization.iteration
+        return coarse + self.soft.iteration
+
+    @property
+    def steps(self) -> int:
+        """Number of all global steps, those after the soft shape included."""
+        return self.iterations - self.soft.iteration + self.stylization.iteration
 
     @property
     def energy(self) -> Energy | None:
         """The energy of the last iteration, which may be one on a coarser mesh; None before it."""
         if self._coarse is not None:
             return self._coarse.energy
-        return self.stylization.energy or self._coarse_energy
+        return self.soft.energy or self._coarse_energy
 
     @property
     def seconds(self) -> float:
@@ -245,7 +262,9 @@ class Run:
     def _ended(self, reason: Reason) -> None:
         """Decide what follows when the iteration has come to its end."""
         if self._apart is None:
-            self.reason = reason
+            self._end = reason
+            self._phase = self._harden_or_end
+            self._phase()
             return
         if not self._round:
             done = self.stylization.iteration
@@ -268,7 +287,35 @@ class Run:
 
     def _finish(self, apart: KeepApart) -> None:
         apart.finish(self.stylization)
-        self.reason = self._end
+        self._harden_or_end()
+
+    def _harden_or_end(self) -> None:
+        state = self.stylization
+        if self._soft is None and not state.is_coarse and state.style.is_hardened:
+            self._phase = self._harden
+        else:
+            self.reason = self._end
+
+    def _harden(self) -> None:
+        self._soft = self.stylization
+        self._soft.finish()
+        self.stylization = self._soft.hardened()
+        self._phase = self._hard_local_step
+
+    def _hard_local_step(self) -> None:
+        self.stylization.local_step()
+        self._phase = self._hard_global_step
+
+    def _hard_global_step(self) -> None:
+        self.stylization.global_step()
+        self._phase = self._hard_local_step
+        if self.stylization.iteration < self.soft.iteration + ROUNDS:
+            return
+        if self._apart is None:
+            self.reason = self._end
+            return
+        self._apart.begin_again()
+        self._phase = partial(self._check, self._apart)
 
     def complete(self, on_iteration: OnIteration | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
@@ -301,7 +348,7 @@ class Run:
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
-        energy = self.stylization.finish()
+        energy = self.soft.energy if self.is_hardening else self.stylization.finish()
         self._seconds += time.perf_counter() - begin
         return self._result(energy)
 
@@ -323,10 +370,10 @@ class Run:
             positions,
             rotations,
             energy,
-            state.iteration,
+            self.soft.iteration,
             self.reason or "cancelled",
-            state.device,
-            state.compile_seconds,
+            self.soft.device,
+            self.soft.compile_seconds,
             seconds,
             None if apart is None else apart.crossings,
             None if apart is None else apart.vertices,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import BoolArray
+from .aliases import BoolArray, FloatArray
 from .errors import CubicCraftError
 from .global_step.holds import HoldFields
 from .global_step.step import GlobalStep
@@ -197,6 +197,22 @@ class Setup(Stored):
             return other
         weights, other.hold_fields = self.hold_fields.weights, None
         return other.with_holds(weights)
+
+    def held(self, hold: FloatArray) -> "Setup":
+        """Return the setup whose global step draws vertices to given places, factorized anew.
+
+        Parameters
+        ----------
+        hold : (n,) array
+            How firmly, see `GlobalStep`.
+        """
+        other = copy(self)
+        other.__dict__.pop("coarse", None)
+        other.has_pin = np.ones_like(self.has_pin)  # no component floats
+        other.global_step = GlobalStep(self.rest, self.pinned, hold)
+        if self.hold_fields is not None:
+            other.hold_fields = HoldFields(other, self.hold_fields.weights)
+        return other
 
     def _solved(self, mirrors):
         """Return mirrors of the input as those of the solved vertices."""

@@ -9,18 +9,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .acceleration import Momentum
-from .aliases import FloatArray
+from .aliases import FloatArray, IntArray
 from .backends import local_step_class
 from .coarse_to_fine.coarser import coarser_pose, coarser_style
 from .energy import Energy
 from .global_step.holds import Holds
+from .hardening.face_step import FaceStep
+from .hardening.hardening import Hardening, hardening_of
 from .inputs import instance, real_numbers
 from .options import SolverOptions
 from .pose import Pose, pins_moved
 from .setup import Setup
 from .styles.admm import AdmmOptions
 from .styles.polytope_step import polytopes
-from .styles.solved_style import solved_style
+from .styles.solved_style import SolvedStyle, solved_style
 from .styles.style import Style
 from .symmetry import Mirror
 from .values import Stored, described
@@ -52,6 +54,8 @@ class Stylization(Stored):
         Whether the mesh is a coarser one that provides the start for another, see `coarser`.
     is_started : bool
         Whether it has begun elsewhere than at rest.
+    hardening : Hardening or None
+        Of one that `hardened` has returned.
     iteration : int
         Number of steps done.
     energy : Energy or None
@@ -110,6 +114,8 @@ class Stylization(Stored):
         options = SolverOptions() if options is None else options
         self.options = instance(options, "options", SolverOptions)
         self.is_coarse = False
+        self.hardening: Hardening | None = None
+        self._placed: tuple[FloatArray, FloatArray] | None = None
         keep_rotation = options.keep_rotation
         self._style = solved_style(style, setup, pose.limbs, keep_rotation=keep_rotation)
         self._begin_at_rest(setup, pose)
@@ -130,17 +136,10 @@ class Stylization(Stored):
 
     def _begin(self, setup: Setup, U: FloatArray, R: FloatArray | None = None) -> None:
         """Make both steps for a setup, from positions U (n,3) and rotations R (n,3,3)."""
-        self.setup, self.rest = setup, setup.rest
-        style, options = self._style, self.options
-        self._local = local_step_class(options.device, options.precision)(
-            setup.rest,
-            style.lam,
-            style.Q,
-            options.admm or AdmmOptions(),
-            polytopes(style.forms, style.form_of),
-            style.captured,
-            style.normals,
-        )
+        self.setup, self.rest, self._placed = setup, setup.rest, None
+        self._local = self._local_step_of(setup.rest)
+        if self.hardening is not None:
+            setup = setup.held(self.hardening.target.hold)
         constraints: list[Mirror | Holds] = list(setup.mirrors)
         if setup.hold_fields is not None:
             constraints.insert(0, Holds(setup.hold_fields, self._hold_matrices))
@@ -150,9 +149,23 @@ class Stylization(Stored):
         if R is not None:
             self._local.start_from(R)
 
+    def _local_step_of(self, rest):
+        if self.hardening is not None:
+            return FaceStep(rest, self.hardening.target)
+        style, options = self._style, self.options
+        return local_step_class(options.device, options.precision)(
+            rest,
+            style.lam,
+            style.Q,
+            options.admm or AdmmOptions(),
+            polytopes(style.forms, style.form_of),
+            style.captured,
+            style.normals,
+        )
+
     def __getstate__(self) -> dict[str, Any]:
         state = super().__getstate__()
-        return {**state, "positions": self.positions, "rotations": self.rotations}
+        return {**state, "positions": self._motion.positions, "rotations": self._local.R}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         U, R = state.pop("positions"), state.pop("rotations")
@@ -166,11 +179,27 @@ class Stylization(Stored):
     def continued(self, setup: Setup) -> "Stylization":
         """Return a Stylization that goes on from here, with another setup of the same vertices."""
         other = copy(self)
-        other._begin(setup, self.positions.copy(), self.rotations.copy())
+        other._begin(setup, self._motion.positions.copy(), self._local.R.copy())
         other.is_started = True
         still = np.zeros(other.rest.topology.component_count)
         for _ in range(_FIRST_SOLVES):
             other._motion.step(still, still, other.options.keep_rotation)
+        return other
+
+    def hardened(self, before: IntArray | None = None) -> "Stylization":
+        """Return a Stylization that goes on from the present, soft shape with flat sides.
+
+        Its positions are between that shape and the hard one, as far as the crispness says; its
+        energy is that of `FaceStep`.
+
+        Parameters
+        ----------
+        before : (m,) int array, optional
+            The sides of the triangles in the frame of an animation before, `hardening.side`.
+        """
+        other = copy(self)
+        other.hardening = hardening_of(self, before)
+        other._begin(self.setup, other.hardening.soft.copy(), self.rotations.copy())
         return other
 
     def moved(self, setup: Setup, pose: Pose | None = None) -> "Stylization":
@@ -227,6 +256,9 @@ class Stylization(Stored):
 
     def go_to(self, R: FloatArray, U: FloatArray) -> None:
         """Go to rotations (n,3,3) and positions (n,3) in the unit box, as they are."""
+        if self.hardening is not None:
+            self._placed = R, U
+            return
         self._local.start_from(R)
         self._motion.put(U)
         self._acceleration = self._momentum()
@@ -249,12 +281,21 @@ class Stylization(Stored):
     @property
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
-        return self._motion.positions
+        if self.hardening is None:
+            return self._motion.positions
+        return self._placed[1] if self._placed else self.hardening.positions(self._motion.positions)
 
     @property
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
-        return self._local.R
+        if self.hardening is None:
+            return self._local.R
+        return self._placed[0] if self._placed else self.hardening.between(self._local.R)
+
+    @property
+    def style(self) -> SolvedStyle:
+        """The Style at the vertices of `rest`."""
+        return self._style
 
     @property
     def orientations(self) -> FloatArray:

@@ -63,6 +63,10 @@ class KeepApart:
         self._progress = 0, 0
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
+    def begin_again(self):
+        """Forget all but the links: the shape is another one now."""
+        self._rounds, self._now, self._best, self._progress = 0, None, None, (0, 0)
+
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
         U, R = stylization.positions, stylization.rotations

@@ -34,6 +34,9 @@ class GlobalStep:
     rest : RestMesh
     pinned : (k,) int array
         Pinned vertices, as indices into ``rest.V``.
+    hold : (n,) array, optional
+        Added to the diagonal of L: how firmly vertices are drawn to given places, which belong to
+        the right-hand side. Then nothing floats.
 
     Attributes
     ----------
@@ -46,15 +49,18 @@ class GlobalStep:
         is held stays as it is in X.
     """
 
-    def __init__(self, rest, pinned):
+    def __init__(self, rest, pinned, hold=None):
         n = len(rest.V)
-        self._rest = rest
+        self._rest, self._hold = rest, hold
         has_pin = np.zeros(rest.topology.component_count, dtype=bool)
         has_pin[rest.topology.component[pinned]] = True
         is_held = np.zeros(n, dtype=bool)
         is_held[pinned] = True
-        _, first_vertex = np.unique(rest.topology.component, return_index=True)
-        is_held[first_vertex[~has_pin]] = True
+        if hold is None:
+            _, first_vertex = np.unique(rest.topology.component, return_index=True)
+            is_held[first_vertex[~has_pin]] = True
+        else:
+            has_pin[:] = True
         self._is_held = is_held
         is_small = rest.topology.largest_component <= FACTORIZED_VERTICES
         self.is_factorized = is_small or not has_multigrid()
@@ -66,7 +72,8 @@ class GlobalStep:
 
     @property
     def _laplacian(self):
-        return self._rest.matrices.matrix(self._rest.matrices.laplacian)
+        L = self._rest.matrices.matrix(self._rest.matrices.laplacian)
+        return L if self._hold is None else (L + sp.diags(self._hold)).tocsr()
 
     @cached_property
     def multigrid(self):

@@ -40,12 +40,17 @@ class Edges:
 
         If an edge has more than two triangles, each is paired with the next.
         """
+        return self.pairs()[:2]
+
+    def pairs(self):
+        """Return the same, and the number of the edge (k,) of each pair."""
         is_edge = self.lower != self.upper
         is_same = ~self._is_new
         is_same[is_same] = is_edge[self.number.ravel()[self._order[is_same]]]
         other = np.flatnonzero(is_same)
         m = self.number.shape[1]
-        return self._order[other - 1] % m, self._order[other] % m
+        edge = self.number.ravel()[self._order[other]]
+        return self._order[other - 1] % m, self._order[other] % m, edge
 
 
 def edges_of(start, end, n):

@@ -42,6 +42,15 @@ class SolvedStyle(Value):
     """(n,) int"""
     normals: FloatArray
     """(n,3) unit normals at rest that the cubic term sees, or zero"""
+    crispness: FloatArray
+    """(n,) from 0 to 1; 0 where nothing draws the normals to the form"""
+    detail_strength: FloatArray
+    """(n,) relative to the details at rest; 1 at pins"""
+
+    @property
+    def is_hardened(self) -> bool:
+        """Whether the soft shape is not the end."""
+        return bool(self.crispness.any() or (self.detail_strength != 1.0).any())
 
     @cached_property
     def captured(self) -> FloatArray | None:
@@ -101,7 +110,13 @@ def solved_style(
     Q = _along_limbs(orientation, limbs, forms, form_of, setup)
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
-    return SolvedStyle(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals)
+    crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
+    is_drawn = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0) > 0.0
+    return SolvedStyle(
+        *(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals),
+        np.where(is_drawn & (mu == 0.0), np.minimum(crispness, 1.0), 0.0),
+        _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
+    )
 
 
 def unit(vectors: FloatArray) -> FloatArray:
@@ -112,11 +127,17 @@ def unit(vectors: FloatArray) -> FloatArray:
 
 def _spread(weights, name, setup):
     """Return a number or weights (N,) of the input at the solved vertices (n,)."""
+    weights = _at_free(weights, name, setup, at_pins=0.0)
+    return weights * setup.rest.cubic_shares
+
+
+def _at_free(values, name, setup, *, at_pins):
+    """Return a number or values (N,) of the input at the solved vertices (n,), but for pins."""
     rest = setup.rest
-    weights = per_vertex(weights, name, len(rest.input_positions))
-    weights = rest.input_map.spread(weights) * rest.cubic_shares
-    weights[setup.pinned] = 0.0
-    return weights
+    values = rest.input_map.spread(per_vertex(values, name, len(rest.input_positions)))
+    values = np.array(values)
+    values[setup.pinned] = at_pins
+    return values
 
 
 def _orientation(style, rest):

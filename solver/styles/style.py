@@ -62,6 +62,12 @@ class Style(Value):
     """a number, or (N,) of them: weight mu of the capture, in addition to the cubeness"""
     capture_of: ArrayLike | None = field(default=None, kw_only=True)
     """(N,) int, which of several captures each vertex has"""
+    crispness: ArrayLike = field(default=0.0, kw_only=True)
+    """a number from 0 to 1, or (N,) of them: how far the sides of the cubic shape are made flat and
+    its edges straight, see `hardening`"""
+    detail_strength: ArrayLike = field(default=1.0, kw_only=True)
+    """a number from 0, or (N,) of them: how high details stand out, relative to those at rest. What
+    is a detail, `ProxyOptions.detail` says"""
 
     @property
     def forms(self) -> list[Polytope]:

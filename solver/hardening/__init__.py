@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hardening: from the soft cubic shape on, sides become flat and edges straight.
+
+`base` finds the surface without its details and their heights above it, `sides` which side of the
+form each triangle belongs to, and `face_step` is the local step of an iteration in which these
+stay as they are. `hardening` puts them together.
+"""

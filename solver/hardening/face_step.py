@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The local step of hardening: a rotation for each triangle, which puts it on its side.
+
+A triangle f of a side has one rotation R_f, which takes its normal without details c_f to that of
+the side t_f; only its turn about that is free. It is fitted to a triangle that lies flat but for
+its details: with its edges across c_f, and the heights h of its corners along it. In the units of
+`spokes_and_rims`, where each triangle counts three times,
+
+    E = 3 sum_f [ (1 - b) sum_e w_fe/2 |R_f d_e - d~_e|^2 + b/2 (U t_f - h)' L_f (U t_f - h) ]
+        + links + 3/2 sum_i s_i |u_i - v_i|^2
+
+The second term, with the larger weight b = `FLATNESS`, asks for the heights alone: a side may
+stretch as it becomes flat. Its stiffness L_f is that of the first, so the matrix of the global step
+is L as before, but for the third term, which holds the shape near the soft one v and keeps its
+volume. Links pull at the rotations of the triangles around their vertices, in equal shares. A
+triangle without a side keeps its shape in the soft one as rigidly as it can.
+
+With R_f = R0 turned about t_f by an angle, tr(R_f S_f) is x cos + y sin + const, where x and y are
+linear in the positions: so the best angle has the cosine x / |(x, y)| and the sine y / |(x, y)|, and
+the energy falls in both steps (Sorkine and Alexa, "As-Rigid-As-Possible Surface Modeling", 2007).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from ..aliases import BoolArray, FloatArray
+from ..global_step.motion import Motion
+from ..limbs.turns import smallest_turns
+from ..rotation_fit import fit_rotations, svd_rotations
+from .base import Base
+
+FLATNESS = 0.9
+"""b"""
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """What the triangles become.
+
+    Attributes
+    ----------
+    base : Base
+    heights : (n,) array
+        Of the details that the result has, in the unit box.
+    directions : (m,3) array
+        t_f, zero for triangles without a side.
+    is_free : (m,) bool array
+        These.
+    soft : (n,3) array
+        v, in the unit box.
+    hold : (n,) array
+        s_i, with the areas of the vertices.
+    """
+
+    base: Base
+    heights: FloatArray
+    directions: FloatArray
+    is_free: BoolArray
+    soft: FloatArray
+    hold: FloatArray
+
+
+class FaceStep:
+    """Rotations of triangles from positions, and the right-hand side of the global step.
+
+    It has the interface of `NumpyLocalStep`.
+
+    Parameters
+    ----------
+    rest : RestMesh
+    target : Target
+    """
+
+    device = "numpy"
+    compile_seconds = 0.0
+    resolution = 1e-9
+
+    def __init__(self, rest, target):
+        self._rest, self._target = rest, target
+        self._corners = target.base.corners
+        self._free = np.flatnonzero(target.is_free)
+        self._flatness = np.where(target.is_free, 0.0, FLATNESS)
+        edges = self._flat_edges()
+        self._pulls = self._pull_matrix(edges)
+        self._pulls_back = self._pulls.T.tocsr()
+        skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
+        self._sided = self._corners.stiffness(self._flatness)
+        self._rigid = whole - self._sided
+        self._rest_terms = 1.5 * self._sums_over_faces(
+            (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
+        ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
+        self._begin()
+
+    def _flat_edges(self):
+        """Return the corners (m,3,3) that triangles have at rest: flat but for their details."""
+        target, F = self._target, self._rest.F
+        corners, up = self._rest.V[F], target.base.normals[:, None]
+        heights = target.heights[F] - np.einsum("mkj,mlj->mk", corners, up)
+        corners = corners + heights[..., None] * up
+        corners[self._free] = target.soft[F[self._free]]
+        return corners
+
+    def _pull_matrix(self, edges):
+        """Return the csr_matrix (3m,n) from positions to the matrices S_f (m,3,3) to fit."""
+        rest, F = self._rest, self._rest.F
+        m, n = len(F), len(rest.V)
+        weight = 3.0 * (1.0 - self._flatness)
+        pulls = (weight[:, None, None] * self._corners.pulls(edges)).swapaxes(1, 2)
+        rows, columns = np.repeat(np.arange(3 * m), 3), np.repeat(F, 3, axis=0).ravel()
+        of_skin = sp.csr_matrix((pulls.ravel(), (rows, columns)), shape=(3 * m, n))
+        if not len(rest.links):
+            return of_skin
+        count = np.bincount(F.ravel(), minlength=n)
+        row, column, _, gather = rest.links.entries(rest.V)
+        at = (3 * row[:, None] + np.arange(3)).ravel(), np.repeat(column, 3)
+        of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
+        shares = (1.0 / count[F.ravel()], F.ravel(), np.arange(0, 3 * m + 1, 3))
+        around = sp.kron(sp.csr_matrix(shares, shape=(m, n)), sp.identity(3), format="csr")
+        return of_skin + around @ of_links
+
+    def _begin(self):
+        """Take the parts of the rotations, transposed (m,3,3): x cos + y sin + what stays."""
+        c, t = self._target.base.normals, self._target.directions
+        R = smallest_turns(c, t)
+        along = t[:, :, None] * c[:, None, :]
+        across = R - along
+        turned = np.cross(t[:, :, None], across, axisa=1, axisb=1, axisc=1)
+        self._stays, self._cos, self._sin = (x.swapaxes(1, 2).copy() for x in (along, across, turned))
+        self._T = R.swapaxes(1, 2).copy()
+        self._T[self._free] = np.eye(3)
+
+    @property
+    def R(self):  # noqa: N802 - as in `NumpyLocalStep`
+        """(n,3,3) rotations of the vertices: between those of the triangles around them."""
+        sums = self._corners.sums(np.repeat(self._T.reshape(-1, 1, 9), 3, axis=1))
+        return svd_rotations(sums.reshape(-1, 3, 3))
+
+    def start_from(self, R):
+        """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
+        means = R[self._rest.F[self._free]].sum(axis=1)
+        self._T[self._free] = svd_rotations(means.swapaxes(1, 2)).swapaxes(1, 2)
+
+    def motion(self, setup, U, constraints=()):
+        """Return the Motion that follows these rotations, from positions U (n,3)."""
+        self.update(U)
+        return Motion(setup, self, U, constraints)
+
+    def update(self, U):
+        """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
+        S = (self._pulls @ U).reshape(-1, 3, 3)
+        x, y = (np.einsum("mij,mij->m", S, part) for part in (self._cos, self._sin))
+        size = np.sqrt(x * x + y * y)
+        is_clear = size > 0.0
+        x, y = np.where(is_clear, x, 1.0), np.where(is_clear, y, 0.0)
+        size = np.where(is_clear, size, 1.0)
+        last = self._T[self._free]
+        self._T = self._stays + (x / size)[:, None, None] * self._cos
+        self._T += (y / size)[:, None, None] * self._sin
+        if len(self._free):
+            R = fit_rotations(S[self._free], last.swapaxes(1, 2))
+            self._T[self._free] = R.swapaxes(1, 2)
+        self._rhs = self._right_hand_side(U)
+        return self._energies(U, S), np.zeros(self._rest.topology.component_count)
+
+    def right_hand_side(self):
+        """Return the right-hand side (n,3) of the global step for the present rotations."""
+        return self._rhs
+
+    def _right_hand_side(self, U):
+        t, target = self._target.directions, self._target
+        self._above = np.einsum("mkj,mj->mk", U[self._rest.F], t) - target.heights[self._rest.F]
+        self._push = self._flatness[:, None] * self._corners.pulls(self._above)
+        flat = self._sided @ U - self._corners.sums(self._push[:, :, None] * t[:, None, :])
+        turned = self._pulls_back @ self._T.reshape(-1, 3)
+        return turned / 3.0 + flat + target.hold[:, None] * target.soft
+
+    def _energies(self, U, S):
+        target, sum_parts = self._target, self._rest.topology.sum_parts
+        of_faces = 1.5 * (self._above * self._push).sum(axis=1) - (self._T * S).sum(axis=(1, 2))
+        off = U - target.soft
+        of_vertices = (U * (self._rigid @ U)).sum(axis=1) + target.hold * (off * off).sum(axis=1)
+        return self._rest_terms + self._sums_over_faces(of_faces) + 1.5 * sum_parts(of_vertices)
+
+    def _sums_over_faces(self, values):
+        topology = self._rest.topology
+        return np.bincount(topology.component[self._rest.F[:, 0]], values, topology.component_count)

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a soft cubic shape becomes as its sides are made flat and its details are put back."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..aliases import FloatArray, IntArray
+from ..proxy.samples import extents
+from ..rotation_fit import orthonormalize, svd_rotations
+from .base import base_of
+from .face_step import Target
+from .sides import NO_SIDE, sides_of
+
+ROUNDS = 25
+"""steps of the iteration; sides are flat after them, and what still moves is not seen"""
+HOLD = 0.1
+"""largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
+_ORTHONORMALIZATIONS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Hardening:
+    """A soft shape, and what it becomes.
+
+    Attributes
+    ----------
+    soft : (n,3) array
+        Positions of the soft shape in the unit box, with the strength of details asked for.
+    rotations : (n,3,3) array
+        Of the soft shape.
+    crispness : (n,) array
+        How far the vertices go from there to the hard shape, from 0 to 1.
+    target : Target
+    side : (m,) int array
+        As `sides_of` returns them.
+    """
+
+    soft: FloatArray
+    rotations: FloatArray
+    crispness: FloatArray
+    target: Target
+    side: IntArray
+
+    def positions(self, U):
+        """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
+        return self.soft + self.crispness[:, None] * (U - self.soft)
+
+    def between(self, R):
+        """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
+        share = self.crispness[:, None, None]
+        mixed = (1.0 - share) * self.rotations + share * R
+        return svd_rotations(mixed.swapaxes(1, 2))
+
+
+def hold_of(rest):
+    """Return how firmly vertices (n,) are held near the soft shape, in the units of L."""
+    component = rest.topology.component
+    reach = HOLD * np.maximum(extents(rest.V, component), 1e-12)[component]
+    return rest.areas / (reach * reach)
+
+
+def hardening_of(stylization, before=None):
+    """Return the Hardening of a Stylization at its present, soft shape.
+
+    Parameters
+    ----------
+    stylization : Stylization
+    before : (m,) int array, optional
+        The sides of triangles in the frame of an animation before.
+    """
+    style, rest = stylization.style, stylization.rest
+    F, base = rest.F, base_of(stylization.setup)
+    R = stylization.rotations.copy()
+    is_crisp = style.crispness > 0.0
+    is_free = ~is_crisp[F].all(axis=1) | ~base.normals.any(axis=1)
+    frames = np.broadcast_to(style.Q, R.shape)
+    normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
+    side, directions = sides_of(
+        base.graph,
+        np.einsum("mij,mj->mi", _at_faces(R, F), normals),
+        _at_faces(frames, F),
+        style.forms,
+        style.form_of[F[:, 0]],
+        is_free=is_free,
+        before=before,
+    )
+    if style.forms:  # what is inside out faces the other way
+        directions = directions * rest.outward[F[:, 0]]
+    soft = stylization.positions.copy()
+    if (style.detail_strength != 1.0).any():
+        added = (style.detail_strength - 1.0) * base.heights
+        soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
+        stylization.impose(soft)
+    heights = style.detail_strength * base.heights
+    target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
+    return Hardening(soft, R, style.crispness, target, side)
+
+
+def _at_faces(R, F):
+    """Return rotations (n,3,3) of vertices at the triangles (m,3,3)."""
+    means = R[F].mean(axis=1)
+    sides = np.linalg.det(means) < 0.0  # mirrored frames are between mirrored ones
+    means[sides] *= -1.0
+    means = orthonormalize(means, _ORTHONORMALIZATIONS)
+    means[sides] *= -1.0
+    return means
