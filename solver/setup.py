@@ -190,9 +190,10 @@ class Setup(Stored):
         other = copy(self)
         other.__dict__.pop("coarse", None)
         other.rest = rest.linked(links)
-        other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
+        hold = self.global_step.hold
+        other.has_pin = np.full(other.rest.topology.component_count, hold is not None)
         other.has_pin[other.rest.topology.component[self.pinned]] = True
-        other.global_step = GlobalStep(other.rest, self.pinned)
+        other.global_step = GlobalStep(other.rest, self.pinned, hold)
         if self.hold_fields is None:
             return other
         weights, other.hold_fields = self.hold_fields.weights, None

@@ -138,8 +138,6 @@ class Stylization(Stored):
         """Make both steps for a setup, from positions U (n,3) and rotations R (n,3,3)."""
         self.setup, self.rest, self._placed = setup, setup.rest, None
         self._local = self._local_step_of(setup.rest)
-        if self.hardening is not None:
-            setup = setup.held(self.hardening.target.hold)
         constraints: list[Mirror | Holds] = list(setup.mirrors)
         if setup.hold_fields is not None:
             constraints.insert(0, Holds(setup.hold_fields, self._hold_matrices))
@@ -199,7 +197,8 @@ class Stylization(Stored):
         """
         other = copy(self)
         other.hardening = hardening_of(self, before)
-        other._begin(self.setup, other.hardening.soft.copy(), self.rotations.copy())
+        held = self.setup.held(other.hardening.target.hold)
+        other._begin(held, other.hardening.soft.copy(), other.hardening.rotations)
         return other
 
     def moved(self, setup: Setup, pose: Pose | None = None) -> "Stylization":

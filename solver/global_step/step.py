@@ -40,6 +40,8 @@ class GlobalStep:
 
     Attributes
     ----------
+    hold
+        As given.
     is_factorized : bool
         Whether `positions` solves by the factorisation, not by multigrid.
     is_anchored : (component_count,) bool array
@@ -51,7 +53,7 @@ class GlobalStep:
 
     def __init__(self, rest, pinned, hold=None):
         n = len(rest.V)
-        self._rest, self._hold = rest, hold
+        self._rest, self.hold = rest, hold
         has_pin = np.zeros(rest.topology.component_count, dtype=bool)
         has_pin[rest.topology.component[pinned]] = True
         is_held = np.zeros(n, dtype=bool)
@@ -73,7 +75,7 @@ class GlobalStep:
     @property
     def _laplacian(self):
         L = self._rest.matrices.matrix(self._rest.matrices.laplacian)
-        return L if self._hold is None else (L + sp.diags(self._hold)).tocsr()
+        return L if self.hold is None else (L + sp.diags(self.hold)).tocsr()
 
     @cached_property
     def multigrid(self):

@@ -18,7 +18,6 @@ from its normal to that one. What is left of the surface are the heights of its 
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from .. import details
 from ..algebra import columns, dot
@@ -64,7 +63,8 @@ class Base:
 def base_of(setup):
     """Return the Base of the rest shape of a Setup."""
     rest = setup.rest
-    graph, corners = FaceGraph(rest.V, rest.F), Corners(rest.F, rest.cotangents, len(rest.V))
+    graph = FaceGraph(rest.V, rest.F)
+    corners = Corners(rest.F, rest.cotangents, graph.edges, len(rest.V))
     normals, heights = graph.normals, np.zeros(len(rest.V))
     if rest.options.detail:
         normals = _smooth_normals(graph, rest.detail_radii[rest.F].mean(axis=1))
@@ -92,9 +92,8 @@ def _smooth_normals(graph, radius):
 
 def _diffused(graph, conductance, near):
     """Solve (M + div(k grad)) g = M n from a solution near it."""
-    flow = graph.symmetric(conductance)
     areas = graph.areas + _LEAST_AREA
-    A = (sp.diags(areas + np.asarray(flow.sum(axis=1)).ravel()) - flow).tocsr()
+    A = graph.matrix(-conductance, areas + graph.sums(conductance))
     return details.solved(A, areas[:, None] * graph.normals, near)
 
 

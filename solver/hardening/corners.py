@@ -6,7 +6,8 @@ of that over all triangles is L x.
 """
 
 import numpy as np
-import scipy.sparse as sp
+
+from ..mesh.spokes_and_rims import Pattern
 
 
 class Corners:
@@ -17,12 +18,15 @@ class Corners:
     F : (m,3) int array
     cotangents : (m,3) array
         Weight of the edge opposite each corner.
+    edges : Edges
+        Those of F.
     n : int
         Number of vertices.
     """
 
-    def __init__(self, F, cotangents, n):
+    def __init__(self, F, cotangents, edges, n):
         self.F, self._C, self.n = F, cotangents, n
+        self._pattern = Pattern(edges, n)
 
     def pulls(self, values):
         """Return L_f x of values x (m,3,...) at the corners."""
@@ -43,9 +47,6 @@ class Corners:
 
     def stiffness(self, weights):
         """Return sum_f w_f L_f, for weights (m,), as csr_matrix (n,n)."""
-        w = (weights[:, None] * self._C).T
-        i, j = self.F.T[[1, 2, 0]].ravel(), self.F.T[[2, 0, 1]].ravel()
-        w = w.ravel()
-        entries = np.concatenate([-w, -w, w, w])
-        at = np.concatenate([i, j, i, j]), np.concatenate([j, i, i, j])
-        return sp.csr_matrix((entries, at), shape=(self.n, self.n))
+        at_edges = self._pattern.sum_at_edges((weights[:, None] * self._C).T)
+        values = self._pattern.filled(-at_edges, -at_edges)
+        return self._pattern.matrix(values)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangles as the nodes of a graph, neighbors where they share an edge."""
 
+from functools import cached_property
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -20,7 +22,7 @@ class FaceGraph:
 
     Attributes
     ----------
-    areas, normals
+    areas, normals, edges
         As of `Triangles`.
     one, other : (k,) int arrays
         Pairs of triangles that share an edge.
@@ -32,6 +34,7 @@ class FaceGraph:
 
     def __init__(self, V, F):
         triangles = Triangles(V, F)
+        self.edges = triangles.edges
         self.areas, self.normals = triangles.areas, triangles.normals
         self.one, self.other, edge = triangles.edges.pairs()
         self._centroids = V[F].mean(axis=1)
@@ -43,11 +46,27 @@ class FaceGraph:
         ]
         self.distance = np.maximum(ways[0] + ways[1], _SHORTEST)
 
-    def symmetric(self, values):
-        """Return values (k,) of the pairs as csr_matrix (m,m)."""
+    @cached_property
+    def _pattern(self):
+        """The csr_matrix (m,m) with the number of each entry among pairs, pairs and triangles."""
         m = len(self.areas)
-        ends = np.concatenate([self.one, self.other]), np.concatenate([self.other, self.one])
-        return sp.csr_matrix((np.concatenate([values, values]), ends), shape=(m, m))
+        own = np.arange(m, dtype=np.int32)
+        one, other = self.one.astype(np.int32), self.other.astype(np.int32)
+        ends = np.concatenate([one, other, own]), np.concatenate([other, one, own])
+        # counted from 1, as sparse matrices drop zeros
+        numbers = np.arange(1, len(ends[0]) + 1)
+        return sp.csr_matrix((numbers, ends), shape=(m, m))
+
+    def matrix(self, values, diagonal):
+        """Return the symmetric csr_matrix (m,m) of values (k,) of pairs, and the diagonal (m,)."""
+        pattern = self._pattern
+        data = np.concatenate([values, values, diagonal])[pattern.data - 1]
+        return sp.csr_matrix((data, pattern.indices, pattern.indptr), shape=pattern.shape)
+
+    def sums(self, values):
+        """Return the sums (m,) of values (k,) of the pairs of each triangle."""
+        m = len(self.areas)
+        return np.bincount(self.one, values, m) + np.bincount(self.other, values, m)
 
     def is_convex(self, normals):
         """Return over which pairs (k,) a surface with normals (m,3) bends outward."""

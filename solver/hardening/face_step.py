@@ -86,11 +86,11 @@ class FaceStep:
         self._pulls = self._pull_matrix(edges)
         self._pulls_back = self._pulls.T.tocsr()
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
-        self._sided = self._corners.stiffness(self._flatness)
-        self._rigid = whole - self._sided
+        self._rigid = whole - self._corners.stiffness(self._flatness)
         self._rest_terms = 1.5 * self._sums_over_faces(
             (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
         ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
+        self._begin_flatness()
         self._begin()
 
     def _flat_edges(self):
@@ -168,19 +168,36 @@ class FaceStep:
         """Return the right-hand side (n,3) of the global step for the present rotations."""
         return self._rhs
 
+    def _begin_flatness(self):
+        """Take sum_f b t_f t_f' L_f, of which six parts differ, and its image of the heights."""
+        target, F = self._target, self._rest.F
+        t, weight = target.directions, self._flatness
+        parts = {
+            (p, q): self._corners.stiffness(weight * t[:, p] * t[:, q])
+            for p in range(3)
+            for q in range(p, 3)
+        }
+        self._across = [[parts[min(p, q), max(p, q)] for q in range(3)] for p in range(3)]
+        self._sided = self._corners.stiffness(weight)
+        heights = target.heights[F]
+        pulls = weight[:, None] * self._corners.pulls(heights)
+        self._lift = self._corners.sums(pulls[:, :, None] * t[:, None, :])
+        self._rest_terms = self._rest_terms + 1.5 * self._sums_over_faces((heights * pulls).sum(axis=1))
+
     def _right_hand_side(self, U):
-        t, target = self._target.directions, self._target
-        self._above = np.einsum("mkj,mj->mk", U[self._rest.F], t) - target.heights[self._rest.F]
-        self._push = self._flatness[:, None] * self._corners.pulls(self._above)
-        flat = self._sided @ U - self._corners.sums(self._push[:, :, None] * t[:, None, :])
+        x, target = U.T.copy(), self._target
+        off = np.stack([sum(K @ x[q] for q, K in enumerate(row)) for row in self._across], axis=1)
         turned = self._pulls_back @ self._T.reshape(-1, 3)
+        self._off = off
+        flat = self._sided @ U - off + self._lift
         return turned / 3.0 + flat + target.hold[:, None] * target.soft
 
     def _energies(self, U, S):
         target, sum_parts = self._target, self._rest.topology.sum_parts
-        of_faces = 1.5 * (self._above * self._push).sum(axis=1) - (self._T * S).sum(axis=(1, 2))
-        off = U - target.soft
-        of_vertices = (U * (self._rigid @ U)).sum(axis=1) + target.hold * (off * off).sum(axis=1)
+        of_faces = -(self._T * S).sum(axis=(1, 2))
+        moved = U - target.soft
+        of_vertices = (U * (self._rigid @ U + self._off - 2.0 * self._lift)).sum(axis=1)
+        of_vertices += target.hold * (moved * moved).sum(axis=1)
         return self._rest_terms + self._sums_over_faces(of_faces) + 1.5 * sum_parts(of_vertices)
 
     def _sums_over_faces(self, values):

@@ -25,7 +25,7 @@ from ..styles.solved_style import unit
 
 TEMPERATURE = 0.15
 WEIGHT = 1.35
-ROUNDS = 40
+ROUNDS = 25
 CURVED = np.cos(np.radians(20.0))
 """sides at a smaller angle than this are those of a round form, which stays as it is"""
 LEANING = np.cos(np.radians(20.0)), np.cos(np.radians(10.0))
@@ -102,9 +102,9 @@ def _costs(local, forms, form_of):
 def _followed(graph, form_of, is_free):
     """Return the shares (m,m) of the neighbors that a triangle follows: those of the same form."""
     is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
-    weights = graph.symmetric(graph.length * (is_followed & ~is_free[graph.other]))
-    total = np.asarray(weights.sum(axis=1)).ravel()
-    shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ weights
+    weights = graph.length * (is_followed & ~is_free[graph.other])
+    total = graph.sums(weights)
+    shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ graph.matrix(weights, 0.0 * total)
     return shares.tocsr().astype(np.float32)
 
 

@@ -102,7 +102,7 @@ def spokes_and_rims(V, F, C, edges=None):
     """
     if edges is None:
         edges = Edges(F, len(V))
-    pattern = _Pattern(edges, len(V))
+    pattern = Pattern(edges, len(V))
     weights = np.ascontiguousarray(C.T)
     weight = pattern.sum_at_edges(weights)
     laplacian = pattern.filled(-weight, -weight)
@@ -123,7 +123,7 @@ def spokes_and_rims(V, F, C, edges=None):
     return SpokesAndRims(pattern.indptr, pattern.indices, laplacian, gather, scatter)
 
 
-class _Pattern:
+class Pattern:
     """The places in a sparse matrix of the pairs of vertices that share an edge.
 
     Parameters
@@ -158,6 +158,11 @@ class _Pattern:
         self._source[self.diagonal] = 2 * len(count) + np.arange(n)
         self.indices = self._placed(upper, lower, np.arange(n, dtype=np.int32))
         self.indptr = indptr.astype(np.int32)
+
+    def matrix(self, values):
+        """Return values (nnz,) as csr_matrix (n,n)."""
+        n = len(self.diagonal)
+        return sp.csr_matrix((values, self.indices, self.indptr), shape=(n, n))
 
     def sum_at_edges(self, values):
         """Return the sums over the sides (3,m) of triangles that are the same edge."""
