@@ -4,31 +4,37 @@
 The cubic term turns the normals of the rest shape toward the form. Of a bump smaller than a given
 size, it would turn each side on its own and so flatten it. If it sees the normals of the surface
 below instead, the bump is carried along as it is, and what was spent on flattening it is free for
-the whole. The smoothed normals solve
+the whole. The smoothed normals g of the triangles, with areas M, solve
 
-    (M + div(k grad)) n' = M n,    k_i = r_i^2 / 4
+    (M + div(k grad)) g = M n,    k = r^2 / 4
 
-with the areas M and the radius r_i in which they are averaged: that of the details, but not more
-than half of what the surface is thick there, or a limb would average its front and its back. The
-length l_i of n'_i says how far the normals around a vertex agree; its cubeness counts
-`WEIGHT` l_i^2 times, so that bumpy and tightly curved places are drawn less, and the rest more.
+where the radius r is that of the details, but not more than half of what the surface is thick
+there, or a limb would average its front and its back.
 
-Nothing is averaged across sharp creases: the sides of a box keep the normals that they have.
+What is flat stays flat: edges of the whole shape survive. In further rounds, the flow between two
+triangles is divided by 1 + x^2, where the result of the round before turns by x times `EDGE`
+radians over the radius (Wang and others, "Rolling guidance normal filter for geometric processing",
+2015, with diffusion in place of a sum). Only where the surface bends outward: the edge of a cushion
+belongs to the whole; a fold, an eye socket or a mouth is a detail.
+
+A vertex has the mean of the triangles around it. The length l of that says how far they agree; its
+cubeness counts `WEIGHT` l^2 times, so that bumpy and tightly curved places are drawn less, and the
+rest more.
 """
 
 import numpy as np
-import scipy.sparse as sp
 
 WEIGHT = 1.75
 """of the cubeness where all normals agree"""
 SMALL_PART = 2.0
 """times the size of the details: a smaller part that touches others is itself a detail"""
-MANY = 60_000
-"""vertices; of more, the normals of a coarser mesh are smoothed first"""
+EDGE = 0.35
+"""radians over the radius; edges that turn by more survive"""
+ROUNDS = 4
+"""in which edges become sharp again"""
 
 _TOLERANCE = 1e-2  # error of the normals, roughly
 _MOST_ITERATIONS = 60
-_AFTER_COARSER = 10  # iterations
 _LEAST_AREA = 1e-12
 
 
@@ -50,21 +56,32 @@ def radii(size, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
 
 
-def smoothed(skin, areas, normals, radius, coupling=None, coarser=None):
-    """Return normals without their details, and how far they agree.
+def smoothed(graph, radius, coupling):
+    """Return the normals (m,3) of triangles without their details; zero without area.
 
     Parameters
     ----------
-    skin : SpokesAndRims
-        With the cotangent Laplacian of the surface.
-    areas : (n,) array
-    normals : (n,3) array
-    radius : (n,) array
+    graph : FaceGraph
+    radius : (m,) array
         See `radii`.
-    coupling : (n,) array, optional
-        From 0 in sharp creases, across which nothing is averaged, to 1.
-    coarser : (n,3) array, optional
-        The solution on a coarser mesh, from which a few iterations lead to this one.
+    coupling : (k,) array
+        Of the pairs of triangles of the graph, from 0 across the sharp creases of flat sides, where
+        nothing is averaged, to 1.
+    """
+    conductance = coupling * graph.length / graph.distance
+    conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
+    between = 0.5 * (radius[graph.one] + radius[graph.other])
+    found = _diffused(graph, conductance, graph.normals)
+    for _ in range(ROUNDS):
+        guide = _unit(found)
+        turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
+        x = turn * between / graph.distance / EDGE * graph.is_convex(guide)
+        found = _diffused(graph, conductance / (1.0 + x * x), found)
+    return _unit(np.where(graph.areas[:, None] > 0.0, found, 0.0))
+
+
+def at_vertices(normals, areas, F, n):
+    """Return the means of normals (m,3) of triangles at the vertices, and how far they agree.
 
     Returns
     -------
@@ -73,33 +90,33 @@ def smoothed(skin, areas, normals, radius, coupling=None, coarser=None):
     (n,) array
         l, between 0 and 1.
     """
-    A = _operator(skin, areas, radius, coupling)
-    b = (areas + _LEAST_AREA)[:, None] * normals
-    near = (normals, _MOST_ITERATIONS) if coarser is None else (coarser, _AFTER_COARSER)
-    found = solved(A, b, *near)
-    length = np.sqrt((found * found).sum(axis=1))
-    is_defined = (length > 1e-6) & normals.any(axis=1)
-    unit = np.where(is_defined[:, None], found, 0.0) / np.where(is_defined, length, 1.0)[:, None]
+    corners = F.ravel()
+    sums = [np.bincount(corners, np.repeat(areas * x, 3), n) for x in normals.T]
+    means = np.stack(sums, axis=1)
+    total = np.bincount(corners, np.repeat(areas, 3), n)
+    means /= np.where(total > 0.0, total, 1.0)[:, None]
+    length = np.sqrt((means * means).sum(axis=1))
+    is_defined = length > 1e-6
+    unit = np.where(is_defined[:, None], means, 0.0) / np.where(is_defined, length, 1.0)[:, None]
     return unit, np.where(is_defined, np.minimum(length, 1.0), 0.0)
 
 
-def _operator(skin, areas, radius, coupling):
-    """Return M + div(k grad) as csr_matrix (n,n), with k at an edge the mean of its ends."""
-    n, k = len(areas), 0.25 * radius * radius
-    row = np.repeat(np.arange(n, dtype=np.int32), np.diff(skin.indptr))
-    is_diagonal = row == skin.indices
-    values = np.minimum(skin.laplacian, 0.0) * (0.5 * (k[row] + k[skin.indices]))
-    if coupling is not None:
-        values *= coupling[row] * coupling[skin.indices]
-    values[is_diagonal] = 0.0
-    values[is_diagonal] = areas + _LEAST_AREA - np.bincount(row, values, n)
-    return sp.csr_matrix((values, skin.indices, skin.indptr), shape=(n, n))
+def _unit(vectors):
+    length = np.sqrt((vectors * vectors).sum(axis=1, keepdims=True))
+    return vectors / np.where(length > 1e-12, length, 1.0)
 
 
-def solved(A, b, near, most=_MOST_ITERATIONS):
+def _diffused(graph, conductance, near):
+    """Solve (M + div(k grad)) g = M n from a solution near it."""
+    areas = graph.areas + _LEAST_AREA
+    A = graph.matrix(-conductance, areas + graph.sums(conductance))
+    return _solved(A, areas[:, None] * graph.normals, near)
+
+
+def _solved(A, b, near):
     """Solve A x = b (n,3) from a solution near it, by conjugate gradients.
 
-    To a hundredth of the distance, roughly, or as many iterations as there may be.
+    To a hundredth of the distance, roughly.
     """
     x = near.copy()
     scale = 1.0 / A.diagonal()[:, None]
@@ -107,7 +124,7 @@ def solved(A, b, near, most=_MOST_ITERATIONS):
     z = scale * residual
     direction, rate = z.copy(), (residual * z).sum()
     goal = _TOLERANCE**2 * max(rate, 1e-300)
-    for _ in range(most):
+    for _ in range(_MOST_ITERATIONS):
         if rate <= goal:
             break
         image = A @ direction

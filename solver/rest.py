@@ -17,8 +17,9 @@ from .inputs import instance, real_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings
 from .memory import check_memory
 from .mesh.cotangents import cotangents
+from .mesh.face_graph import FaceGraph
 from .mesh.mesh_checks import check_mesh
-from .mesh.rest_measures import areas_and_normals
+from .mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .mesh.topology import Topology, topology
 from .mesh.triangles import Triangles
@@ -183,10 +184,23 @@ class RestMesh(Value):
         )
 
     @cached_property
+    def face_normals(self) -> FloatArray:
+        """(m,3) unit normals of the triangles, without their details; zero without area."""
+        graph = FaceGraph(self.V, self.F)
+        if not self.options.detail:
+            return graph.normals
+        crease = np.where(self.is_flat, self.smoothness, 1.0)
+        lower, upper = (ends[graph.edge] for ends in (graph.edges.lower, graph.edges.upper))
+        radius = self.detail_radii[self.F].mean(axis=1)
+        return details.smoothed(graph, radius, np.maximum(crease[lower], crease[upper]))
+
+    @cached_property
     def _drawn(self) -> tuple[FloatArray, FloatArray]:
         if not self.options.detail:
             return self.normals, self.normal_shares
-        normals, length = self._smoothed(self.detail_radii)
+        F, n = self.F, len(self.V)
+        areas, _ = triangle_areas_and_normals(self.V, F)
+        normals, length = details.at_vertices(self.face_normals, areas, F, n)
         # without their details, creases have normals, too, but for those between flat sides
         weight = np.where(self.is_flat, self.normal_shares, details.WEIGHT)
         return normals, weight * length * length
@@ -219,17 +233,6 @@ class RestMesh(Value):
         is_linked[links.vertices[is_end]] = True
         area = np.bincount(part, self.areas)
         return np.bincount(part, self.areas * is_linked) / np.where(area > 0.0, area, 1.0)
-
-    def _smoothed(self, radius) -> Any:
-        """Return what `details.smoothed` does for radii (n,), of many vertices with a start."""
-        start = None
-        if len(self.V) > details.MANY and self.coarse is not None:
-            cluster, coarse = self.coarse.cluster, self.coarse.rest
-            means = np.bincount(cluster, radius) / np.bincount(cluster)
-            unit, length = coarse._smoothed(means)
-            start = (length[:, None] * unit)[cluster]
-        coupling = np.where(self.is_flat, self.smoothness, 1.0)
-        return details.smoothed(self.skin, self.areas, self.normals, radius, coupling, start)
 
     @cached_property
     def shown(self) -> NDArray[np.int32]:

@@ -57,15 +57,16 @@ class KeepApart:
 
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
-        self._links, self._gaps, self._rounds = no_links(), None, 0
+        self._links, self._gaps, self._rounds, self._most = no_links(), None, 0, ROUNDS
         self._now: _State | None = None
         self._best: _State | None = None
         self._progress = 0, 0
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
     def begin_again(self):
-        """Forget all but the links: the shape is another one now."""
-        self._rounds, self._now, self._best, self._progress = 0, None, None, (0, 0)
+        """Forget all but the links: the shape is another one now, near one that was kept apart."""
+        self._rounds, self._most = 0, 1
+        self._now, self._best, self._progress = None, None, (0, 0)
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
@@ -76,7 +77,7 @@ class KeepApart:
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
         self._progress = progress
-        if not now.count or self._rounds == ROUNDS or is_stuck:
+        if not now.count or self._rounds == self._most or is_stuck:
             return False
         if now.count > max(FEW * len(self._shown), FEWEST):
             return True

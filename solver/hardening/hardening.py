@@ -16,6 +16,8 @@ ROUNDS = 25
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
 HOLD = 0.1
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
+THIN = 0.4, 0.8
+"""of the size of details: parts thinner than the first stay soft, those from the second on do not"""
 _ORTHONORMALIZATIONS = 4
 
 
@@ -72,8 +74,8 @@ def hardening_of(stylization, before=None):
     style, rest = stylization.style, stylization.rest
     F, base = rest.F, base_of(stylization.setup)
     R = stylization.rotations.copy()
-    is_crisp = style.crispness > 0.0
-    is_free = ~is_crisp[F].all(axis=1) | ~base.normals.any(axis=1)
+    crispness = style.crispness * _share_of_thickness(rest)
+    is_free = ~(crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
     side, directions = sides_of(
@@ -94,7 +96,17 @@ def hardening_of(stylization, before=None):
         stylization.impose(soft)
     heights = style.detail_strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
-    return Hardening(soft, R, style.crispness, target, side)
+    return Hardening(soft, R, crispness, target, side)
+
+
+def _share_of_thickness(rest):
+    """Return how far vertices (n,) take part: what is thinner than details is one itself."""
+    if not rest.options.detail:
+        return np.ones(len(rest.V))
+    component = rest.topology.component
+    size = rest.options.detail * np.maximum(extents(rest.V, component), 1e-12)[component]
+    t = np.clip((rest.thickness / size - THIN[0]) / (THIN[1] - THIN[0]), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
 
 
 def _at_faces(R, F):

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from ..mesh.triangles import Triangles
+from .triangles import Triangles
 
 _SHORTEST = 1e-9  # in the unit box, between two centroids
 
@@ -24,8 +24,8 @@ class FaceGraph:
     ----------
     areas, normals, edges
         As of `Triangles`.
-    one, other : (k,) int arrays
-        Pairs of triangles that share an edge.
+    one, other, edge : (k,) int arrays
+        Pairs of triangles that share an edge, and its number.
     length : (k,) array
         Of that edge.
     distance : (k,) array
@@ -36,9 +36,9 @@ class FaceGraph:
         triangles = Triangles(V, F)
         self.edges = triangles.edges
         self.areas, self.normals = triangles.areas, triangles.normals
-        self.one, self.other, edge = triangles.edges.pairs()
+        self.one, self.other, self.edge = triangles.edges.pairs()
         self._centroids = V[F].mean(axis=1)
-        ends = V[triangles.edges.lower[edge]], V[triangles.edges.upper[edge]]
+        ends = V[triangles.edges.lower[self.edge]], V[triangles.edges.upper[self.edge]]
         middle = 0.5 * (ends[0] + ends[1])
         self.length = np.linalg.norm(ends[1] - ends[0], axis=1)
         ways = [
