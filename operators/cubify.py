@@ -96,6 +96,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         if self.is_edited:
             layout.column().prop(self, "start", expand=True)
         layout.prop(self, "cubeness", slider=True)
+        layout.prop(self, "crispness", slider=True)
         layout.prop(self, "form")
         for name in form_settings(self.form):
             if name == "form_directions":
@@ -121,6 +122,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         if groups is not None:
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
             layout.prop(self, "map_invert")
+            layout.prop_search(self, "detail_group", groups, "vertex_groups", text="Details")
         layout.prop(self, "result")
         if self.result == "NEW_OBJECT":
             layout.prop(self, "with_modifiers")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TypeAlias
 
-from .aliases import FloatArray
+from .aliases import FloatArray, IntArray
 from .coarse_to_fine.start import (
     MAX_ITERATIONS,
     TOLERANCE,
@@ -160,6 +160,7 @@ class Run:
         max_iterations: int = 1000,
         tolerance: float = 1e-3,
         keep_apart: bool = True,
+        harden: bool = True,
     ):
         instance(stylization, "stylization", Stylization)
         tolerance = real_number(tolerance, "tolerance")
@@ -185,6 +186,7 @@ class Run:
         self._end: Reason = "converged"
         self._round = 0
         self._soft: Stylization | None = None
+        self._is_hardened_itself = switch(harden, "harden")
 
     @property
     def is_on_coarser_mesh(self) -> bool:
@@ -291,15 +293,20 @@ class Run:
 
     def _harden_or_end(self) -> None:
         state = self.stylization
-        if self._soft is None and not state.is_coarse and state.style.is_hardened:
-            self._phase = self._harden
+        is_soft = self._soft is None and not state.is_coarse and state.style.is_hardened
+        if is_soft and self._is_hardened_itself:
+            self._phase = self.harden
         else:
             self.reason = self._end
 
-    def _harden(self) -> None:
-        self._soft = self.stylization
+    def harden(self, before: IntArray | None = None) -> None:
+        """Make the sides of the soft shape flat; `before` as of `Stylization.hardened`.
+
+        A Run does so itself, but for one of a `FrameSequence`, which goes on when it is told to.
+        """
+        self.reason, self._soft = None, self.stylization
         self._soft.finish()
-        self.stylization = self._soft.hardened()
+        self.stylization = self._soft.hardened(before)
         self._phase = self._hard_local_step
 
     def _hard_local_step(self) -> None:

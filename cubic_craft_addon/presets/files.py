@@ -21,12 +21,12 @@ INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 """folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
 SETTINGS = (
-    *("cubeness", "solidity", "keep_pose", "detail", "keep_apart"),
+    *("cubeness", "crispness", "solidity", "keep_pose", "detail", "detail_strength", "keep_apart"),
     *("together", "refine", "rotation", "hold_rest"),
 )
 """the settings of a look; the orientation belongs to a mesh, the device to a machine"""
 
-_ORDER = ("Soft", "Rounded", DEFAULT, "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper")
+_ORDER = ("Soft", "Rounded", DEFAULT, "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper")
 _PREFIX = "bpy.context.object.cubic_craft."
 _FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
 _known: list[Preset] = []

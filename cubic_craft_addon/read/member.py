@@ -168,6 +168,7 @@ def read_member(
         handle_of=handle_of,
         rest_weights=_rest_weights(settings, V, shape.triangles, handle_of, known),
         map_weights=_map_weights(obj, settings, known),
+        detail_weights=_detail_weights(obj, settings, known),
         region_shares=_region_shares(obj, settings, known),
         bones=bones,
         seconds=time.perf_counter() - begin,
@@ -210,6 +211,14 @@ def _map_weights(obj, settings, known):
         return known.map_weights
     weights = mesh_bridge.group_weights(obj, settings.map_group)
     return 1.0 - weights if settings.map_invert else weights
+
+
+def _detail_weights(obj, settings, known):
+    if not settings.detail_group:
+        return 1.0
+    if known and settings.detail_group == known.settings.detail_group:
+        return known.detail_weights
+    return mesh_bridge.group_weights(obj, settings.detail_group)
 
 
 def _region_shares(obj, settings, known):

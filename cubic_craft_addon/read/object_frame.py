@@ -99,7 +99,13 @@ def _style(obj, settings, turn, capture):
     """Return the style of an object or a region, without its capture."""
     form = form_of(settings)
     orientation = _orientation(obj, settings, turn, None, form, capture)
-    return Style(settings.cubeness, orientation, form)
+    return Style(
+        settings.cubeness,
+        orientation,
+        form,
+        crispness=settings.crispness,
+        detail_strength=settings.detail_strength,
+    )
 
 
 def _orientation(obj, settings, turn, into, form, capture):

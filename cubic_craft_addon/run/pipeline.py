@@ -123,7 +123,7 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
         As `start`, without the name.
     """
     settings = settings_of_all(problem)
-    stylization = run.stylization.moved(problem.setup, problem.pose_of_handles)
+    stylization = run.soft.moved(problem.setup, problem.pose_of_handles)
     return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
 
 

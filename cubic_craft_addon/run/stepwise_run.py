@@ -274,7 +274,7 @@ class StepwiseRun:
     def _state(self):
         if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):
             return None  # keep the visible shape until there is a better one
-        return self._starts, self._run.iterations, self.is_done
+        return self._starts, self._run.steps, self.is_done
 
     def intermediate_result(self, uid: int, with_rotations: bool):
         """Return current positions and rotations of an object, None if it does not take part.
@@ -297,7 +297,11 @@ class StepwiseRun:
 
 def _looks_at_weights(task):
     return bool(
-        task.settings.map_group or task.settings.handles or task.settings.regions or task.bones
+        task.settings.map_group
+        or task.settings.detail_group
+        or task.settings.handles
+        or task.settings.regions
+        or task.bones
     )
 
 
@@ -317,5 +321,5 @@ def _has_weights_of(now, before):
     is_like = now.bones.is_like(before.bones) if now.bones else before.bones is None
     return is_like and all(
         np.array_equal(getattr(now, name), getattr(before, name))
-        for name in ("map_weights", "region_shares", "handle_of")
+        for name in ("map_weights", "detail_weights", "region_shares", "handle_of")
     )

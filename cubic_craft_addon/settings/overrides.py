@@ -33,7 +33,7 @@ POINTERS = {
 }
 """settings that are objects, and whether other settings ask for them; in the operator and in Live
 they are given by name"""
-OF_EACH_OBJECT = ("use_handles", "use_regions", "map_group", "map_invert")
+OF_EACH_OBJECT = ("use_handles", "use_regions", "map_group", "map_invert", "detail_group")
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 

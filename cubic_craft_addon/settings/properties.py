@@ -130,6 +130,17 @@ class RunProperties:
     """
 
     cubeness: form_properties.cubeness()
+    crispness: FloatProperty(
+        name="Crispness",
+        description="How far the sides of the cubic shape are made flat and its edges straight."
+        " 0 is soft, 1 is cut as with a knife; details stay on the sides",
+        default=Settings.crispness,
+        min=0.0,
+        max=1.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
     form: form_properties.form()
     form_sides: form_properties.form_sides()
     form_weights: form_properties.form_weights()
@@ -227,6 +238,23 @@ class RunProperties:
         soft_max=0.2,
         step=1,
         precision=3,
+        options=_OPTIONS,
+    )
+    detail_strength: FloatProperty(
+        name="Detail Strength",
+        description="How high details stand out: 0 leaves a smooth sculpture, 1 keeps them as they"
+        " are, more exaggerates them",
+        default=Settings.detail_strength,
+        min=0.0,
+        max=10.0,
+        soft_max=2.0,
+        step=1,
+        precision=3,
+        options=_OPTIONS,
+    )
+    detail_group: StringProperty(
+        name="Detail Group",
+        description="Vertex group whose weights scale the strength of details, such as of a face",
         options=_OPTIONS,
     )
     keep_apart: BoolProperty(

@@ -35,13 +35,19 @@ class Settings(FormSettings):
     """MESH, SHAPE_KEY or NEW_OBJECT"""
     with_modifiers: bool = False
     """whether the NEW_OBJECT is made with the modifiers applied"""
-    solidity: float = 0.1
+    crispness: float = 0.7
+    """how far sides are made flat and edges straight, from 0 to 1"""
+    solidity: float = 0.3
     """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
     keep_pose: bool = True
     """whether limbs become boxes along themselves"""
     detail: float = 0.05
     """size of the features that ride along instead of being flattened, as a share of the largest
     extent; 0 flattens all"""
+    detail_strength: float = 1.0
+    """how high these features stand out, relative to the original"""
+    detail_group: str = ""
+    """name of the vertex group that scales their strength, or empty"""
     keep_apart: bool = True
     """whether surfaces that do not cross are kept from crossing"""
     together: str = "SELECTION"

@@ -82,6 +82,7 @@ def _draw_cubify(context, layout, obj):
     edited.draw(context, column, obj)
     presets_panel.draw(column, live.shared_properties(obj))
     column.prop(live.shared_properties(obj), "cubeness", slider=True)
+    column.prop(live.shared_properties(obj), "crispness", slider=True)
     hint = seen.hint_to_draw(obj)
     row = layout.row()
     row.scale_y = 1.0 if hint and hint.is_needed else seen.MAIN
@@ -151,6 +152,7 @@ def _draw_map(layout, obj):
     row = layout.row()
     row.active = bool(properties.map_group)
     row.prop(properties, "map_invert")
+    layout.prop_search(properties, "detail_group", obj, "vertex_groups", text="Details")
     is_painted = obj.mode == "WEIGHT_PAINT"
     text = "Back to Object Mode" if is_painted else "Paint Map"
     icon = "OBJECT_DATAMODE" if is_painted else "BRUSH_DATA"
@@ -210,6 +212,8 @@ def _problem(context, obj):
             mesh_bridge.check_relative_keys(obj)
         if settings.map_group:
             mesh_bridge.vertex_group(obj, settings.map_group)
+        if settings.detail_group:
+            mesh_bridge.vertex_group(obj, settings.detail_group)
     except CubicCraftError as error:
         return str(error)
     return ""

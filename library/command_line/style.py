@@ -39,6 +39,8 @@ def stylized(surface: Surface, options: Namespace) -> Result:
                 keep_apart=options.keep_apart == "on",
             ),
             orientation=orientation_of(options.orientation),
+            crispness=options.crispness,
+            detail_strength=options.detail_strength,
             form=forms.named(options.form, options.form_sides, options.form_weights),
             device=options.device,
             keep_rotation=options.rotation == "keep",

@@ -11,9 +11,11 @@ Adder = Callable[..., None]
 """takes the name of an option, and what `ArgumentParser.add_argument` does besides its help"""
 
 DEFAULTS = {
-    "solidity": (0.1, 0.0),
+    "crispness": (0.7, 0.0),
+    "solidity": (0.3, 0.0),
     "keep_pose": ("on", "off"),
     "detail": (0.05, 0.0),
+    "detail_strength": (1.0, 1.0),
     "keep_apart": ("on", "off"),
     "refine": ("auto", "off"),
     "rotation": ("keep", "free"),
@@ -25,12 +27,16 @@ HELP = {
     "--form": "what a ball would become (default: cube)",
     "--form-sides": "of a prism or pyramid (default: 6)",
     "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
+    "--crispness": "how far sides are made flat and edges straight: from 0, soft, to 1 "
+    "(default: 0.7)",
     "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
-    "(default: 0.1)",
+    "(default: 0.3)",
     "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "
     "(default: on)",
     "--detail": "features smaller than this share of the largest extent ride along instead of "
     "being flattened; 0 flattens all (default: 0.05)",
+    "--detail-strength": "how high these features stand out: 0 removes them, 2 doubles them "
+    "(default: 1)",
     "--keep-apart": "whether surfaces that do not cross are kept from crossing (default: on)",
     "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
     "--rotation": "whether each part is held in its orientation, or may turn as a whole "
@@ -51,9 +57,11 @@ def add_form(add: Adder) -> None:
 
 def add_kept(add: Adder) -> None:
     """Add what is kept of the mesh; without a default, which is one of `DEFAULTS`."""
+    add("--crispness", type=number(0, 1), metavar="C")
     add("--solidity", type=number(0, 10), metavar="S")
     add("--keep-pose", choices=("on", "off"))
     add("--detail", type=number(0, 1), metavar="SIZE")
+    add("--detail-strength", type=number(0, 10), metavar="S")
     add("--keep-apart", choices=("on", "off"))
     add("--refine", choices=("auto", "off"))
     add("--rotation", choices=("keep", "free"))

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..aliases import FloatArray
+from ..aliases import FloatArray, IntArray
 from ..rest import RestMesh
 from ..result import Result
 from ..rotation_fit import fit_rotations, orthonormalize
@@ -76,6 +76,8 @@ class SequenceState(NamedTuple):
     """(n,3) the result in the unit box"""
     rotations: FloatArray
     """(n,3,3)"""
+    sides: IntArray = np.empty(0, np.int32)
+    """(m,) int, the sides that triangles had, see `hardening`; empty if none were made flat"""
 
     def __eq__(self, other: object) -> bool:
         return type(other) is SequenceState and all(map(is_same, self, other))
@@ -183,31 +185,42 @@ class FrameSequence:
         """
         self._turns = np.tile(np.eye(3), (len(stylization.rest.V), 1, 1))
         if self.state is None:
-            return Run(stylization, max_iterations, tolerance, keep_apart=False)
+            return Run(stylization, max_iterations, tolerance, keep_apart=False, harden=False)
         self._turns = self._start(stylization)
-        return Run(stylization, STEPS, tolerance, keep_apart=False)
+        return Run(stylization, STEPS, tolerance, keep_apart=False, harden=False)
 
     def settle(self, run: Run) -> Iterator[None]:
-        """Make the first frame, once it is solved, like all others; yield after each step."""
-        if self.state is not None or not self._forgotten:
-            return
+        """Make the first frame, once it is solved, like all others; yield after each step.
+
+        Then the sides of each frame become flat: those that triangles had in the frame before, as
+        far as that is still near.
+        """
         stylization = run.stylization
-        for _ in range(SETTLING):
-            R, positions = self._partly_forgotten(self._state_of(stylization))
-            stylization.start_from(R, positions)
-            for _ in range(STEPS):
-                stylization.step()
+        if self.state is None and self._forgotten:
+            for _ in range(SETTLING):
+                R, positions = self._partly_forgotten(self._state_of(run))
+                stylization.start_from(R, positions)
+                for _ in range(STEPS):
+                    stylization.step()
+                    yield
+        if stylization.style.is_hardened:
+            before = None if self.state is None else self.state.sides
+            run.harden(before if before is not None and len(before) else None)
+            while run.reason is None:
                 yield
+                run.advance()
 
     def end(self, run: Run) -> Result:
         """Return the Result of a frame, from which the next one begins."""
         result = run.result()
-        self.state = self._state_of(run.stylization)
+        self.state = self._state_of(run)
         return result
 
-    def _state_of(self, stylization):
-        positions, rotations = stylization.positions.copy(), stylization.rotations.copy()
-        return SequenceState(stylization.rest.V, self._turns, positions, rotations)
+    def _state_of(self, run):
+        soft, hardening = run.soft, run.stylization.hardening
+        sides = np.empty(0, np.int32) if hardening is None else hardening.side.astype(np.int32)
+        state = soft.positions.copy(), soft.rotations.copy(), sides
+        return SequenceState(soft.rest.V, self._turns, *state)
 
     def _start(self, stylization):
         """Start from the frame before; return the turns of this one."""

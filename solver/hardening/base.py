@@ -68,4 +68,3 @@ def _integrated(setup, corners, at_rest, normals):
         B = setup.global_step.positions(corners.sums(turned.swapaxes(1, 2)) + of_links, B)
         now = triangle_areas_and_normals(B, rest.F)[1]
     return B
-

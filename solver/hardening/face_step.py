@@ -127,7 +127,9 @@ class FaceStep:
         along = t[:, :, None] * c[:, None, :]
         across = R - along
         turned = np.cross(t[:, :, None], across, axisa=1, axisb=1, axisc=1)
-        self._stays, self._cos, self._sin = (x.swapaxes(1, 2).copy() for x in (along, across, turned))
+        self._stays, self._cos, self._sin = (
+            x.swapaxes(1, 2).copy() for x in (along, across, turned)
+        )
         self._T = R.swapaxes(1, 2).copy()
         self._T[self._free] = np.eye(3)
 
@@ -182,7 +184,9 @@ class FaceStep:
         heights = target.heights[F]
         pulls = weight[:, None] * self._corners.pulls(heights)
         self._lift = self._corners.sums(pulls[:, :, None] * t[:, None, :])
-        self._rest_terms = self._rest_terms + 1.5 * self._sums_over_faces((heights * pulls).sum(axis=1))
+        self._rest_terms = self._rest_terms + 1.5 * self._sums_over_faces(
+            (heights * pulls).sum(axis=1)
+        )
 
     def _right_hand_side(self, U):
         x, target = U.T.copy(), self._target

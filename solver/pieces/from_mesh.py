@@ -36,6 +36,7 @@ def piece_of(
     regions: Sequence[Style] = (),
     region_shares: ArrayLike | None = None,
     map_weights: ArrayLike | None = None,
+    detail_weights: ArrayLike | None = None,
 ) -> Piece:
     """Return an object as a piece that is solved in the coordinates of the world.
 
@@ -67,7 +68,9 @@ def piece_of(
     region_shares : (n,1+k) array, optional
         Shares of the object's own style and of each region; each row adds up to 1.
     map_weights : (n,) array, optional
-        Factors of the cubeness, and of the strength of the capture.
+        Factors of the cubeness, of the strength of the capture and of the crispness.
+    detail_weights : (n,) array, optional
+        Factors of the strength of details.
 
     Raises
     ------
@@ -104,6 +107,8 @@ def piece_of(
             f" {len(handles)}; -1 is for none"
         )
     _check(np.shape(weights) in ((), (count,)), "map_weights", (count,))
+    of_details = 1.0 if detail_weights is None else np.asarray(detail_weights, dtype=np.float64)
+    _check(np.shape(of_details) in ((), (count,)), "detail_weights", (count,))
     expected = (count, 1 + len(regions))
     _check((shares is None) == (not regions), "region_shares", expected)
     _check(shares is None or shares.shape == expected, "region_shares", expected)
@@ -119,6 +124,7 @@ def piece_of(
         handle_of=numbers,
         rest_weights=far,
         map_weights=weights,
+        detail_weights=of_details,
         region_shares=shares,
     )
 
@@ -126,7 +132,7 @@ def piece_of(
 def _uniform(style, name):
     """Return a Style that is the same for all vertices, with its only form and capture."""
     forms, captures = instance(style, name, Style).forms, style.captures
-    numbers = (style.cubeness, style.capture_strength)
+    numbers = style.cubeness, style.capture_strength, style.crispness, style.detail_strength
     is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)
     if not is_one or len(forms) > 1 or len(captures) > 1:
         raise CubicCraftError(f"{name} must be the same for all vertices of a piece")

@@ -25,6 +25,7 @@ def joined_style(pieces: Sequence[Piece]) -> Style:
     """Return what the vertices of all pieces are turned toward."""
     found, counts = [_of_piece(piece) for piece in pieces], [piece.solved for piece in pieces]
     style = _with_captures(Style(_joined_cubeness(found, counts), _joined(found, counts)), pieces)
+    style = _with_hardening(style, pieces)
     distinct, number = numbered([body for one in found for body in one.bodies])
     if not any(distinct):
         if style.is_plain_cube:
@@ -78,6 +79,25 @@ def _joined(found, counts):
     return np.concatenate(
         [np.broadcast_to(style.orientation, (count, 3, 3)) for style, count in pairs]
     )
+
+
+def _with_hardening(style, pieces):
+    """Return a style with the crispness and the strength of details of all pieces."""
+    styles = [piece.placement.style for piece in pieces]
+    if not any(one.crispness for one in styles) and _is_one(styles, pieces):
+        return style
+    crispness, strength = [], []
+    for piece, one in zip(pieces, styles, strict=True):
+        crispness.append(piece.everywhere(one.crispness * np.minimum(piece.map_weights, 1.0)))
+        strength.append(piece.everywhere(one.detail_strength * piece.detail_weights))
+    return replace(
+        style, crispness=np.concatenate(crispness), detail_strength=np.concatenate(strength)
+    )
+
+
+def _is_one(styles, pieces):
+    weights = [piece.detail_weights for piece in pieces]
+    return all(one.detail_strength == 1.0 for one in styles) and not any(map(np.ndim, weights))
 
 
 def _with_captures(style, pieces):

@@ -49,6 +49,8 @@ class Piece:
     """(n,) weights of the vertices far from moved handles; None if all may move"""
     map_weights: FloatArray | float = 1.0
     """(n,) factors of the cubeness, or one for all"""
+    detail_weights: FloatArray | float = 1.0
+    """(n,) factors of the strength of details, or one for all"""
     region_shares: FloatArray | None = None
     """(n,1+k) shares of the object's own style and of each of its k regions; None for k = 0"""
     bones: Bones | None = None

@@ -27,12 +27,12 @@ class ProxyOptions:
     --------
     >>> from solver import PAPER, ProxyOptions
     >>> ProxyOptions()  # doctest: +ELLIPSIS
-    ProxyOptions(solidity=0.1, together=True, refine=True, keep_pose=True, detail=0.05,...
+    ProxyOptions(solidity=0.3, together=True, refine=True, keep_pose=True, detail=0.05,...
     >>> PAPER.solidity, PAPER.refine, PAPER.detail
     (0.0, False, 0.0)
     """
 
-    solidity: float = 0.1
+    solidity: float = 0.3
     """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
     together: bool = True
     """whether to merge vertices at the same place and to link parts that are close together"""

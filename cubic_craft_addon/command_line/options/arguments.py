@@ -127,6 +127,7 @@ def _add_method(add: Adder) -> None:
     add("--pin", nargs="+", default=[], metavar="GROUP")
     add("--handles", dest="handles_file", type=Path, metavar="FILE.json")
     add("--map", default="", metavar="GROUP")
+    add("--detail-map", default="", metavar="GROUP")
     add_solver(add)
 
 

@@ -9,7 +9,16 @@ from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
 __all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
 
 COMMON = (
-    *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--detail", "--output"),
+    *(
+        "inputs",
+        "--cubeness",
+        "--form",
+        "--orientation",
+        "--pin",
+        "--crispness",
+        "--detail",
+        "--output",
+    ),
     *("--no-render", "--save-mesh", "--bake", "--output-folder", "--jobs", "--turn"),
 )
 """what --help shows; --help-all shows all"""
@@ -42,6 +51,7 @@ HELP = {
     "--pin": "vertex groups that stay in place",
     "--handles": "parts of the mesh that are held or moved, see below",
     "--map": "vertex group that scales the cubeness",
+    "--detail-map": "vertex group that scales the strength of details",
     "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
     "file do (default: selection)",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
@@ -51,7 +61,7 @@ HELP = {
     "surfaces and metaballs as meshes",
     "--hold-rest": "whether what is far from handles that are moved stays where it is "
     "(default: on)",
-    "--paper": "as in the paper: solidity 0, keep-pose off, detail 0, keep-apart off, together "
+    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, together "
     "off, refine off, rotation free, hold-rest off; each of them can be given beside it and counts "
     "then",
     "--output": "(default: cubic_craft.png)",

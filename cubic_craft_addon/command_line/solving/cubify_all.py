@@ -118,9 +118,12 @@ def settings_of_object(
         regions=_regions(obj, options),
         start=start_of(obj),
         map_group=options.map if options.map in obj.vertex_groups else "",
+        crispness=options.crispness,
         solidity=options.solidity,
         keep_pose=options.keep_pose == "on",
         detail=options.detail,
+        detail_strength=options.detail_strength,
+        detail_group=options.detail_map if options.detail_map in obj.vertex_groups else "",
         keep_apart=options.keep_apart == "on",
         together=options.together.upper(),
         refine=options.refine.upper(),
@@ -155,7 +158,8 @@ def check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
     there, has = groups_of(objects)
     wanted = [("--pin", group) for group in options.pin]
     wanted += [("--region", region_of(text).group) for text in options.region]
-    wanted += [("--map", options.map)] if options.map else []
+    named = (("--map", options.map), ("--detail-map", options.detail_map))
+    wanted += [pair for pair in named if pair[1]]
     for option, group in wanted:
         if group not in there:
             raise InputError(f"{option} {group}: no such vertex group; the input has {has}")

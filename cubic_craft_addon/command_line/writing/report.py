@@ -21,7 +21,18 @@ __all__ = ("write_animation_report", "write_report")
 
 SETTINGS = (
     *("form", "form_sides", "form_weights", "form_directions", "region"),
-    *("space", "solidity", "keep_pose", "detail", "keep_apart", "together", "refine", "rotation"),
+    *(
+        "space",
+        "crispness",
+        "solidity",
+        "keep_pose",
+        "detail",
+        "detail_strength",
+        "keep_apart",
+        "together",
+        "refine",
+        "rotation",
+    ),
     *("symmetry", "floor", "hold_rest", "with_modifiers"),
 )
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")

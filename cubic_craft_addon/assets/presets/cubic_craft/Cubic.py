@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # pyright: reportAttributeAccessIssue=false
-"""Flat sides and soft edges: the defaults."""
+"""Flat sides and clear edges, with all details: the defaults."""
 
 import bpy
 
 bpy.context.object.cubic_craft.cubeness = 0.4
-bpy.context.object.cubic_craft.solidity = 0.1
+bpy.context.object.cubic_craft.crispness = 0.7
+bpy.context.object.cubic_craft.solidity = 0.3
 bpy.context.object.cubic_craft.keep_pose = True
 bpy.context.object.cubic_craft.detail = 0.05
+bpy.context.object.cubic_craft.detail_strength = 1.0
 bpy.context.object.cubic_craft.keep_apart = True
 bpy.context.object.cubic_craft.together = "SELECTION"
 bpy.context.object.cubic_craft.refine = "AUTO"

@@ -5,9 +5,11 @@
 import bpy
 
 bpy.context.object.cubic_craft.cubeness = 1.0
+bpy.context.object.cubic_craft.crispness = 1.0
 bpy.context.object.cubic_craft.solidity = 0.0
 bpy.context.object.cubic_craft.keep_pose = False
 bpy.context.object.cubic_craft.detail = 0.0
+bpy.context.object.cubic_craft.detail_strength = 1.0
 bpy.context.object.cubic_craft.keep_apart = True
 bpy.context.object.cubic_craft.together = "SELECTION"
 bpy.context.object.cubic_craft.refine = "AUTO"

@@ -5,9 +5,11 @@
 import bpy
 
 bpy.context.object.cubic_craft.cubeness = 0.25
+bpy.context.object.cubic_craft.crispness = 0.0
 bpy.context.object.cubic_craft.solidity = 0.1
 bpy.context.object.cubic_craft.keep_pose = True
 bpy.context.object.cubic_craft.detail = 0.05
+bpy.context.object.cubic_craft.detail_strength = 1.0
 bpy.context.object.cubic_craft.keep_apart = True
 bpy.context.object.cubic_craft.together = "SELECTION"
 bpy.context.object.cubic_craft.refine = "AUTO"
