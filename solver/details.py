@@ -30,6 +30,9 @@ SMALL_PART = 2.0
 """times the size of the details: a smaller part that touches others is itself a detail"""
 EDGE = 0.35
 """radians over the radius; edges that turn by more survive"""
+AGREEING = 0.4, 0.7
+"""length of the mean of the normals around: with less than the first it is no edge, as where they
+cancel each other around an eye; across an edge of 90 degrees it is the second"""
 ROUNDS = 4
 """in which edges become sharp again"""
 
@@ -57,7 +60,7 @@ def radii(size, thickness, part_sizes, is_alone):
 
 
 def smoothed(graph, radius, coupling):
-    """Return the normals (m,3) of triangles without their details; zero without area.
+    """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     Parameters
     ----------
@@ -72,12 +75,15 @@ def smoothed(graph, radius, coupling):
     conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
     between = 0.5 * (radius[graph.one] + radius[graph.other])
     found = _diffused(graph, conductance, graph.normals)
+    length = np.linalg.norm(found, axis=1)
+    length = np.minimum(length[graph.one], length[graph.other])
+    is_edge = np.clip((length - AGREEING[0]) / (AGREEING[1] - AGREEING[0]), 0.0, 1.0)
     for _ in range(ROUNDS):
-        guide = _unit(found)
+        guide = unit(found)
         turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
-        x = turn * between / graph.distance / EDGE * graph.is_convex(guide)
+        x = turn * between / graph.distance / EDGE * graph.is_convex(guide) * is_edge
         found = _diffused(graph, conductance / (1.0 + x * x), found)
-    return _unit(np.where(graph.areas[:, None] > 0.0, found, 0.0))
+    return np.where(graph.areas[:, None] > 0.0, found, 0.0)
 
 
 def at_vertices(normals, areas, F, n):
@@ -92,18 +98,16 @@ def at_vertices(normals, areas, F, n):
     """
     corners = F.ravel()
     sums = [np.bincount(corners, np.repeat(areas * x, 3), n) for x in normals.T]
-    means = np.stack(sums, axis=1)
     total = np.bincount(corners, np.repeat(areas, 3), n)
-    means /= np.where(total > 0.0, total, 1.0)[:, None]
-    length = np.sqrt((means * means).sum(axis=1))
-    is_defined = length > 1e-6
-    unit = np.where(is_defined[:, None], means, 0.0) / np.where(is_defined, length, 1.0)[:, None]
-    return unit, np.where(is_defined, np.minimum(length, 1.0), 0.0)
+    means = np.stack(sums, axis=1) / np.where(total > 0.0, total, 1.0)[:, None]
+    return unit(means), np.minimum(np.linalg.norm(means, axis=1), 1.0)
 
 
-def _unit(vectors):
+def unit(vectors):
+    """Return vectors (n,3) with the length 1, or zero."""
     length = np.sqrt((vectors * vectors).sum(axis=1, keepdims=True))
-    return vectors / np.where(length > 1e-12, length, 1.0)
+    is_some = length > 1e-12
+    return np.where(is_some, vectors, 0.0) / np.where(is_some, length, 1.0)
 
 
 def _diffused(graph, conductance, near):

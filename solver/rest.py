@@ -184,7 +184,7 @@ class RestMesh(Value):
 
     @cached_property
     def face_normals(self) -> FloatArray:
-        """(m,3) unit normals of the triangles, without their details; zero without area."""
+        """(m,3) normals of the triangles, without their details; shorter where they disagree."""
         graph = FaceGraph(self.V, self.F)
         if not self.options.detail:
             return graph.normals

@@ -5,8 +5,11 @@ import logging
 import math
 import time
 from collections.abc import Callable
+from copy import copy
 from functools import partial
 from typing import TypeAlias
+
+from numpy.typing import ArrayLike
 
 from .aliases import FloatArray, IntArray
 from .coarse_to_fine.start import (
@@ -186,6 +189,7 @@ class Run:
         self._end: Reason = "converged"
         self._round = 0
         self._soft: Stylization | None = None
+        self._hard: tuple[Stylization, KeepApart | None] | None = None
         self._is_hardened_itself = switch(harden, "harden")
 
     @property
@@ -318,11 +322,32 @@ class Run:
         self._phase = self._hard_local_step
         if self.stylization.iteration < self.soft.iteration + ROUNDS:
             return
-        if self._apart is None:
+        self._hard = self.stylization, self._apart
+        self._begin_at_hard_end(*self._hard)
+
+    def _begin_at_hard_end(self, hard: Stylization, soft_apart: KeepApart | None) -> None:
+        self.stylization = hard
+        if soft_apart is None:
             self.reason = self._end
             return
-        self._apart.begin_again()
+        self._apart = soft_apart.for_hard_shape()
         self._phase = partial(self._check, self._apart)
+
+    def with_crispness(self, crispness: ArrayLike) -> "Run | None":
+        """Return a Run with another crispness, as of a `Style`, that has only its end to find.
+
+        It comes to the same end as a new one. None if this one has not come so far, or if sides
+        would be flat where they are not.
+        """
+        if self._hard is None:
+            return None
+        hard = self._hard[0].with_crispness(crispness)
+        if hard is None:
+            return None
+        other = copy(self)
+        other.reason, other._seconds = None, 0.0
+        other._begin_at_hard_end(hard, self._hard[1])
+        return other
 
     def complete(self, on_iteration: OnIteration | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
@@ -369,7 +394,6 @@ class Run:
 
     def _result(self, energy):
         begin = time.perf_counter()
-        state = self.stylization
         positions, rotations = self.placed()
         seconds = self._seconds + time.perf_counter() - begin
         apart = None if self.reason in (None, "cancelled") else self._apart

@@ -201,6 +201,20 @@ class Stylization(Stored):
         other._begin(held, other.hardening.soft.copy(), other.hardening.rotations)
         return other
 
+    def with_crispness(self, crispness: ArrayLike) -> "Stylization | None":
+        """Return a hardened one at the same point with another crispness, as of a `Style`.
+
+        None if other triangles would then belong to sides.
+        """
+        assert self.hardening is not None
+        style = self._style.with_crispness(crispness, self.setup)
+        if style is None:
+            return None
+        other = copy(self)
+        other._style, other._placed = style, None
+        other.hardening = self.hardening.with_crispness(style, self.rest)
+        return other
+
     def moved(self, setup: Setup, pose: Pose | None = None) -> "Stylization":
         """Return a Stylization that goes on from here with another rest shape.
 

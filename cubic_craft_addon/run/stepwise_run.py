@@ -12,6 +12,7 @@ import numpy as np
 
 from ... import solver
 from ..read.member import Member
+from ..settings.values import Settings
 from . import pipeline
 from .countdown import Countdown
 from .pipeline import MemberProblem
@@ -61,12 +62,17 @@ class StepwiseRun:
         self, tasks: Sequence[Task], known: Mapping[int, Member], earlier: Sequence[MemberProblem]
     ) -> None:
         """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
+        key = key_of(tasks)
+        is_ready = not self._is_held and self._posed is None
+        before = (
+            self._run if is_ready and _but_crispness(key) == _but_crispness(self._key) else None
+        )
         self.stop()
-        self._key = key_of(tasks)
+        self._key = key
         problem, self.problems = prepare_all(tasks, known, earlier)
         if problem is not None:
             self.problem = problem
-            self._start()
+            self._start(before)
 
     def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
         """Restart if weights of relevant vertex groups have changed; return whether they have."""
@@ -136,12 +142,14 @@ class StepwiseRun:
             self._start()
             self._is_behind = is_like
 
-    def _start(self):
+    def _start(self, before: solver.Run | None = None):
+        """Start a run, or find the end of one `before` with another crispness only."""
         assert self.problem is not None
         self._starts += 1
         settings = pipeline.settings_of_all(self.problem)
         try:
-            self._run = pipeline.start(self.problem)
+            self._run = before and before.with_crispness(self.problem.style.crispness)
+            self._run = self._run or pipeline.start(self.problem)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
             self._countdown = Countdown(keeps_apart=settings.keep_apart)
         except solver.CubicCraftError as error:
@@ -293,6 +301,13 @@ class StepwiseRun:
             self._intermediate = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._intermediate_moment = moment
         return self._intermediate.get(uid)
+
+
+def _but_crispness(key):
+    """Return a key without the crispness of the settings in it."""
+    if isinstance(key, Settings):
+        return replace(key, crispness=0.0)
+    return tuple(map(_but_crispness, key)) if isinstance(key, tuple) else key
 
 
 def _looks_at_weights(task):

@@ -25,8 +25,8 @@ HELP = {
     "--orientation": "Euler angles of the form in degrees: about X, then Y, then Z",
     "--together": "parts: parts that touch stay on each other, and seams stay closed "
     "(default: parts)",
-    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, together "
-    "off, refine off, rotation free; each of them can be given beside it and counts then",
+    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, "
+    "together off, refine off, rotation free; each of them can be given beside it and counts then",
 }
 
 EPILOG = """\

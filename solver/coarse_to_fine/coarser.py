@@ -6,9 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..aliases import FloatArray
+from ..details import unit
 from ..pose import Pose
 from ..setup import Setup
-from ..styles.solved_style import SolvedStyle, solved_style, unit
+from ..styles.solved_style import SolvedStyle, solved_style
 from ..styles.style import Style
 
 

@@ -63,10 +63,11 @@ class KeepApart:
         self._progress = 0, 0
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
-    def begin_again(self):
-        """Forget all but the links: the shape is another one now, near one that was kept apart."""
-        self._rounds, self._most = 0, 1
-        self._now, self._best, self._progress = None, None, (0, 0)
+    def for_hard_shape(self):
+        """Return a KeepApart with these links, for a shape near this one: one round is enough."""
+        other = KeepApart(self._rest)
+        other._links, other._gaps, other._most = self._links, self._gaps, 1
+        return other
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""

@@ -11,10 +11,10 @@ import numpy as np
 
 from ..algebra import columns, dot
 from ..aliases import FloatArray
+from ..details import unit
 from ..limbs.turns import smallest_turns
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import triangle_areas_and_normals
-from ..styles.solved_style import unit
 from .corners import Corners
 
 _STEPS = 3  # of the global step, to the base
@@ -49,7 +49,7 @@ def base_of(setup):
     rest = setup.rest
     graph = FaceGraph(rest.V, rest.F)
     corners = Corners(rest.F, rest.cotangents, graph.edges, len(rest.V))
-    normals, heights = rest.face_normals, np.zeros(len(rest.V))
+    normals, heights = unit(rest.face_normals), np.zeros(len(rest.V))
     weighted = graph.areas[:, None] * normals
     upward = unit(corners.sums(np.repeat(weighted[:, None], 3, axis=1)))
     if rest.options.detail:

@@ -16,7 +16,7 @@ volume. Links pull at the rotations of the triangles around their vertices, in e
 triangle without a side keeps its shape in the soft one as rigidly as it can.
 
 With R_f = R0 turned about t_f by an angle, tr(R_f S_f) is x cos + y sin + const, where x and y are
-linear in the positions: so the best angle has the cosine x / |(x, y)| and the sine y / |(x, y)|, and
+linear in the positions: the best angle has the cosine x / |(x, y)| and the sine y / |(x, y)|. So
 the energy falls in both steps (Sorkine and Alexa, "As-Rigid-As-Possible Surface Modeling", 2007).
 """
 

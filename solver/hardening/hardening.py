@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a soft cubic shape becomes as its sides are made flat and its details are put back."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,7 +17,7 @@ ROUNDS = 25
 HOLD = 0.1
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
 THIN = 0.4, 0.8
-"""of the size of details: parts thinner than the first stay soft, those from the second on do not"""
+"""of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 _ORTHONORMALIZATIONS = 4
 
 
@@ -43,6 +43,10 @@ class Hardening:
     crispness: FloatArray
     target: Target
     side: IntArray
+
+    def with_crispness(self, style, rest):
+        """Return the same with the crispness of another SolvedStyle."""
+        return replace(self, crispness=style.crispness * _share_of_thickness(rest))
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""

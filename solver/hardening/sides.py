@@ -19,9 +19,9 @@ leans, as on a horn or a chin, keeps its own direction from `LEANING` on.
 import numpy as np
 import scipy.sparse as sp
 
+from ..details import unit
 from ..mesh.components import components
 from ..styles.forms import cube
-from ..styles.solved_style import unit
 
 TEMPERATURE = 0.15
 WEIGHT = 1.35

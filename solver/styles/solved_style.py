@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_matrix
 
-from ..aliases import FloatArray, IntArray
+from ..aliases import BoolArray, FloatArray, IntArray
+from ..details import unit
 from ..errors import CubicCraftError
 from ..inputs import choices_per_vertex, real_numbers
 from ..limbs import KnownLimbs, Limbs, no_limbs, turns
@@ -46,6 +48,8 @@ class SolvedStyle(Value):
     """(n,) from 0 to 1; 0 where nothing draws the normals to the form"""
     detail_strength: FloatArray
     """(n,) relative to the details at rest; 1 at pins"""
+    is_drawn: BoolArray
+    """(n,) bool, where normals are drawn to the form, and to nothing else"""
 
     @property
     def is_hardened(self) -> bool:
@@ -58,6 +62,14 @@ class SolvedStyle(Value):
         if not self.captures:
             return None
         return targets_for(self.captures, self.capture_of, self.mu, self.orientation, self.normals)
+
+    def with_crispness(self, crispness: ArrayLike, setup: Setup) -> "SolvedStyle | None":
+        """Return the style with another crispness, None if that is 0 at other vertices."""
+        values = np.minimum(_at_free(crispness, "crispness", setup, at_pins=0.0), 1.0)
+        values = np.where(self.is_drawn, values, 0.0)
+        if ((values > 0.0) != (self.crispness > 0.0)).any():
+            return None
+        return replace(self, crispness=values)
 
     def posed(self, before: RestMesh, after: RestMesh) -> "SolvedStyle":
         """Return the style in another pose: only the normals have turned, as the surface has."""
@@ -111,18 +123,13 @@ def solved_style(
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
-    is_drawn = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0) > 0.0
+    is_drawn = (_at_free(style.cubeness, "cubeness", setup, at_pins=0.0) > 0.0) & (mu == 0.0)
     return SolvedStyle(
         *(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals),
-        np.where(is_drawn & (mu == 0.0), np.minimum(crispness, 1.0), 0.0),
+        np.where(is_drawn, np.minimum(crispness, 1.0), 0.0),
         _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
+        is_drawn,
     )
-
-
-def unit(vectors: FloatArray) -> FloatArray:
-    """Return vectors (n,3) with the length 1, or zero."""
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.where(length > 1e-12, vectors, 0.0) / np.where(length > 1e-12, length, 1.0)
 
 
 def _spread(weights, name, setup):

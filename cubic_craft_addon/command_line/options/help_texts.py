@@ -61,9 +61,9 @@ HELP = {
     "surfaces and metaballs as meshes",
     "--hold-rest": "whether what is far from handles that are moved stays where it is "
     "(default: on)",
-    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, together "
-    "off, refine off, rotation free, hold-rest off; each of them can be given beside it and counts "
-    "then",
+    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, "
+    "together off, refine off, rotation free, hold-rest off; each of them can be given beside it "
+    "and counts then",
     "--output": "(default: cubic_craft.png)",
     "--no-render": "no picture",
     "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
