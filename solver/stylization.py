@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local-global iteration on one mesh, step by step."""
 
+import math
 from copy import copy
 from dataclasses import replace
 from typing import Any
@@ -52,6 +53,8 @@ class Stylization(Stored):
         Whether the mesh is a coarser one that provides the start for another, see `coarser`.
     is_started : bool
         Whether it has begun elsewhere than at rest.
+    is_limited : bool
+        Whether it is solved with less than its cubeness for now, see `limit_cubeness`.
     iteration : int
         Number of steps done.
     energy : Energy or None
@@ -128,13 +131,20 @@ class Stylization(Stored):
         self.energy: Energy | None = None
         self.displacement = self.distance = 0.0
 
-    def _begin(self, setup: Setup, U: FloatArray, R: FloatArray | None = None) -> None:
+    def _begin(
+        self,
+        setup: Setup,
+        U: FloatArray,
+        R: FloatArray | None = None,
+        most_cubeness: float = math.inf,
+    ) -> None:
         """Make both steps for a setup, from positions U (n,3) and rotations R (n,3,3)."""
         self.setup, self.rest = setup, setup.rest
+        self.is_limited = most_cubeness < math.inf
         style, options = self._style, self.options
         self._local = local_step_class(options.device, options.precision)(
             setup.rest,
-            style.lam,
+            style.limited(most_cubeness) if self.is_limited else style.lam,
             style.Q,
             options.admm or AdmmOptions(),
             polytopes(style.forms, style.form_of),
@@ -220,6 +230,12 @@ class Stylization(Stored):
         other._begin_at_rest(setup, pose)
         return other
 
+    def limit_cubeness(self, most: float) -> None:
+        """Go on from here with a cubeness of at most so much, without momentum."""
+        spent = self.compile_seconds
+        self._begin(self.setup, self.positions.copy(), self.rotations.copy(), most)
+        self._local.compile_seconds += spent
+
     def impose(self, U: FloatArray) -> None:
         """Move positions (n,3) in the unit box so that mirrors and held groups are obeyed."""
         for constraint in self._constraints:
@@ -255,6 +271,11 @@ class Stylization(Stored):
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         return self._local.R
+
+    @property
+    def cubeness(self) -> FloatArray:
+        """(n,) cubeness as given, of the vertices of `rest`."""
+        return self._style.cubeness
 
     @property
     def orientations(self) -> FloatArray:

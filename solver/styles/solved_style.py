@@ -24,8 +24,10 @@ from .style import Style
 class SolvedStyle(Value):
     """A Style at the n vertices that are solved."""
 
+    cubeness: FloatArray
+    """(n,) as given; 0 at pins, whose rotations would otherwise shear the pinned part"""
     lam: FloatArray
-    """(n,) cubeness; 0 at pins, whose rotations would otherwise shear the pinned part"""
+    """(n,) what counts of it, see `RestMesh.cubic_shares`"""
     mu: FloatArray
     """(n,) strength of the capture"""
     orientation: FloatArray
@@ -49,6 +51,11 @@ class SolvedStyle(Value):
         if not self.captures:
             return None
         return targets_for(self.captures, self.capture_of, self.mu, self.orientation, self.normals)
+
+    def limited(self, most: float) -> FloatArray:
+        """Return `lam` (n,) for a cubeness of at most so much."""
+        is_more = self.cubeness > most
+        return np.where(is_more, most / np.where(is_more, self.cubeness, 1.0), 1.0) * self.lam
 
     def posed(self, before: RestMesh, after: RestMesh) -> "SolvedStyle":
         """Return the style in another pose: only the normals have turned, as the surface has."""
@@ -86,7 +93,7 @@ def solved_style(
         The style does not fit the mesh, or a value of it is invalid.
     """
     rest = setup.rest
-    lam = _spread(style.cubeness, "cubeness", setup)
+    cubeness, lam = _spread(style.cubeness, "cubeness", setup)
     orientation = _orientation(style, rest)
     forms, captures = style.forms, style.captures
     form_of = _numbers(style.form_of, "form_of", len(forms), rest)
@@ -97,11 +104,12 @@ def solved_style(
             normals = normals * rest.outward
     mu = np.zeros_like(lam)
     if captures:
-        mu = _spread(style.capture_strength, "capture_strength", setup)
+        mu = _spread(style.capture_strength, "capture_strength", setup)[1]
     Q = _along_limbs(orientation, limbs, forms, form_of, setup)
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
-    return SolvedStyle(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals)
+    drawn = Q, forms, form_of, captures, capture_of, normals
+    return SolvedStyle(cubeness, lam, mu, orientation, *drawn)
 
 
 def unit(vectors: FloatArray) -> FloatArray:
@@ -111,12 +119,12 @@ def unit(vectors: FloatArray) -> FloatArray:
 
 
 def _spread(weights, name, setup):
-    """Return a number or weights (N,) of the input at the solved vertices (n,)."""
+    """Return weights (N,) or one of the input at the solved vertices (n,), and what counts (n,)."""
     rest = setup.rest
     weights = per_vertex(weights, name, len(rest.input_positions))
-    weights = rest.input_map.spread(weights) * rest.cubic_shares
+    weights = rest.input_map.spread(weights)
     weights[setup.pinned] = 0.0
-    return weights
+    return weights, weights * rest.cubic_shares
 
 
 def _orientation(style, rest):
