@@ -56,6 +56,8 @@ class Progress:
             if 0.0 < self._tolerance < self._largest and relative > 0.0:
                 by_size = math.log(relative / self._largest)
                 by_size /= math.log(self._tolerance / self._largest)
+                if stylization.is_limited:  # the rest of the way is about as long
+                    by_size *= 0.5
                 fraction = max(fraction, min(by_size, 0.99))
         self._fraction = max(self._fraction, min(fraction, 1.0))
         return self._fraction

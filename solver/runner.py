@@ -22,6 +22,7 @@ from .coarse_to_fine.start import (
 from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
+from .from_below import FromBelow
 from .hardening.hardening import ROUNDS
 from .inputs import instance, real_number, switch
 from .progress_bar import progress_bar
@@ -182,6 +183,10 @@ class Run:
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
         self._coarse_energy: Energy | None = None
+        # a run on a coarser mesh rises itself
+        self._below = FromBelow(stylization, max_iterations if coarse is None else 0)
+        if not self._below.is_done:
+            self._phase = self._rise
         rest = stylization.rest
         is_kept = switch(keep_apart, "keep_apart") and not stylization.is_coarse
         is_kept = is_kept and rest.options.keep_apart
@@ -260,10 +265,22 @@ class Run:
         state.global_step()
         self._phase = self._local_step
         assert state.energy is not None  # the local step has set it
-        if self._rule.is_converged(state.energy.total, state.displacement, state.distance):
+        is_converged = self._rule.is_converged(
+            state.energy.total, state.displacement, state.distance
+        )
+        if not self._below.is_done:
+            if self._below.is_over(state.iteration, is_converged):
+                self._phase = self._rise
+        elif is_converged:
             self._ended("converged")
         elif state.iteration >= self._last:
             self._ended("max_iterations")
+
+    def _rise(self) -> None:
+        """Go on with a higher cubeness, see `from_below.py`."""
+        self._below.rise(self.stylization)
+        self._rule = StopRule(self._tolerance, self.stylization.resolution)
+        self._phase = self._local_step
 
     def _ended(self, reason: Reason) -> None:
         """Decide what follows when the iteration has come to its end."""
@@ -380,6 +397,8 @@ class Run:
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
+        if self.stylization.is_limited:  # cancelled
+            self.stylization.limit_cubeness(math.inf)
         energy = self.soft.energy if self.is_hardening else self.stylization.finish()
         self._seconds += time.perf_counter() - begin
         return self._result(energy)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The local-global iteration on one mesh, step by step."""
 
+import math
 from copy import copy
 from dataclasses import replace
 from typing import Any
@@ -56,6 +57,8 @@ class Stylization(Stored):
         Whether it has begun elsewhere than at rest.
     hardening : Hardening or None
         Of one that `hardened` has returned.
+    is_limited : bool
+        Whether it is solved with less than its cubeness for now, see `limit_cubeness`.
     iteration : int
         Number of steps done.
     energy : Energy or None
@@ -134,10 +137,17 @@ class Stylization(Stored):
         self.energy: Energy | None = None
         self.displacement = self.distance = 0.0
 
-    def _begin(self, setup: Setup, U: FloatArray, R: FloatArray | None = None) -> None:
+    def _begin(
+        self,
+        setup: Setup,
+        U: FloatArray,
+        R: FloatArray | None = None,
+        most_cubeness: float = math.inf,
+    ) -> None:
         """Make both steps for a setup, from positions U (n,3) and rotations R (n,3,3)."""
         self.setup, self.rest, self._placed = setup, setup.rest, None
-        self._local = self._local_step_of(setup.rest)
+        self.is_limited = most_cubeness < math.inf
+        self._local = self._local_step_of(setup.rest, most_cubeness)
         constraints: list[Mirror | Holds] = list(setup.mirrors)
         if setup.hold_fields is not None:
             constraints.insert(0, Holds(setup.hold_fields, self._hold_matrices))
@@ -147,13 +157,13 @@ class Stylization(Stored):
         if R is not None:
             self._local.start_from(R)
 
-    def _local_step_of(self, rest):
+    def _local_step_of(self, rest, most_cubeness):
         if self.hardening is not None:
             return FaceStep(rest, self.hardening.target)
         style, options = self._style, self.options
         return local_step_class(options.device, options.precision)(
             rest,
-            style.lam,
+            style.limited(most_cubeness) if self.is_limited else style.lam,
             style.Q,
             options.admm or AdmmOptions(),
             polytopes(style.forms, style.form_of),
@@ -261,6 +271,12 @@ class Stylization(Stored):
         pose = coarser_pose(self.setup, self.positions, self._hold_matrices)
         other._begin_at_rest(setup, pose)
         return other
+
+    def limit_cubeness(self, most: float) -> None:
+        """Go on from here with a cubeness of at most so much, without momentum."""
+        spent = self.compile_seconds
+        self._begin(self.setup, self.positions.copy(), self.rotations.copy(), most)
+        self._local.compile_seconds += spent
 
     def impose(self, U: FloatArray) -> None:
         """Move positions (n,3) in the unit box so that mirrors and held groups are obeyed."""

@@ -2,6 +2,7 @@
 """The style and the pose of a mesh on the coarser one, whose vertices are means of clusters."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -37,7 +38,8 @@ def coarser_style(style: SolvedStyle, setup: Setup) -> SolvedStyle:
         capture_strength=_means(cluster, style.mu, free),
         capture_of=style.capture_of[first],
     )
-    return solved_style(of_clusters, coarse, keep_rotation=True, normals=normals)
+    found = solved_style(of_clusters, coarse, keep_rotation=True, normals=normals)
+    return replace(found, cubeness=_means(cluster, style.cubeness, free))
 
 
 def coarser_pose(setup: Setup, U: FloatArray, hold_matrices: Sequence[FloatArray]) -> Pose:

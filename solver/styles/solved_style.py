@@ -26,8 +26,10 @@ from .style import Style
 class SolvedStyle(Value):
     """A Style at the n vertices that are solved."""
 
+    cubeness: FloatArray
+    """(n,) as given; 0 at pins, whose rotations would otherwise shear the pinned part"""
     lam: FloatArray
-    """(n,) cubeness; 0 at pins, whose rotations would otherwise shear the pinned part"""
+    """(n,) what counts of it, see `RestMesh.cubic_shares`"""
     mu: FloatArray
     """(n,) strength of the capture"""
     orientation: FloatArray
@@ -71,6 +73,11 @@ class SolvedStyle(Value):
             return None
         return replace(self, crispness=values)
 
+    def limited(self, most: float) -> FloatArray:
+        """Return `lam` (n,) for a cubeness of at most so much."""
+        is_more = self.cubeness > most
+        return np.where(is_more, most / np.where(is_more, self.cubeness, 1.0), 1.0) * self.lam
+
     def posed(self, before: RestMesh, after: RestMesh) -> "SolvedStyle":
         """Return the style in another pose: only the normals have turned, as the surface has."""
         turned = after.normals - before.normals
@@ -107,7 +114,8 @@ def solved_style(
         The style does not fit the mesh, or a value of it is invalid.
     """
     rest = setup.rest
-    lam = _spread(style.cubeness, "cubeness", setup)
+    cubeness = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0)
+    lam = cubeness * rest.cubic_shares
     orientation = _orientation(style, rest)
     forms, captures = style.forms, style.captures
     form_of = _numbers(style.form_of, "form_of", len(forms), rest)
@@ -118,24 +126,19 @@ def solved_style(
             normals = normals * rest.outward
     mu = np.zeros_like(lam)
     if captures:
-        mu = _spread(style.capture_strength, "capture_strength", setup)
+        mu = _at_free(style.capture_strength, "capture_strength", setup, at_pins=0.0)
+        mu = mu * rest.cubic_shares
     Q = _along_limbs(orientation, limbs, forms, form_of, setup)
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
-    is_drawn = (_at_free(style.cubeness, "cubeness", setup, at_pins=0.0) > 0.0) & (mu == 0.0)
+    is_drawn = (cubeness > 0.0) & (mu == 0.0)
     return SolvedStyle(
-        *(lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals),
+        *(cubeness, lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals),
         np.where(is_drawn, np.minimum(crispness, 1.0), 0.0),
         _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
         is_drawn,
     )
-
-
-def _spread(weights, name, setup):
-    """Return a number or weights (N,) of the input at the solved vertices (n,)."""
-    weights = _at_free(weights, name, setup, at_pins=0.0)
-    return weights * setup.rest.cubic_shares
 
 
 def _at_free(values, name, setup, *, at_pins):
