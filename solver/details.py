@@ -59,7 +59,7 @@ def radii(size, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
 
 
-def smoothed(graph, radius, coupling):
+def smoothed(graph, radius, coupling, rounds=ROUNDS):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     Parameters
@@ -70,6 +70,8 @@ def smoothed(graph, radius, coupling):
     coupling : (k,) array
         Of the pairs of triangles of the graph, from 0 across the sharp creases of flat sides, where
         nothing is averaged, to 1.
+    rounds : int
+        In which edges become sharp again.
     """
     conductance = coupling * graph.length / graph.distance
     conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
@@ -78,7 +80,7 @@ def smoothed(graph, radius, coupling):
     length = np.linalg.norm(found, axis=1)
     length = np.minimum(length[graph.one], length[graph.other])
     is_edge = np.clip((length - AGREEING[0]) / (AGREEING[1] - AGREEING[0]), 0.0, 1.0)
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         guide = unit(found)
         turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
         x = turn * between / graph.distance / EDGE * graph.is_convex(guide) * is_edge

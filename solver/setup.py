@@ -115,13 +115,14 @@ class Setup(Stored):
         self.hold_fields: HoldFields | None = None
 
     def __getstate__(self) -> dict[str, Any]:
-        state = super().__getstate__()
+        state = {**super().__getstate__(), "hold": self.global_step.hold}
         state["hold_fields"] = None if self.hold_fields is None else self.hold_fields.weights
         return state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
+        hold = state.pop("hold")
         self.__dict__.update(state, hold_fields=None)
-        self.global_step = GlobalStep(self.rest, self.pinned)
+        self.global_step = GlobalStep(self.rest, self.pinned, hold)
         if state["hold_fields"] is not None:
             self.__dict__.update(self.with_holds(state["hold_fields"]).__dict__)
 

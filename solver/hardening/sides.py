@@ -28,6 +28,9 @@ WEIGHT = 1.35
 ROUNDS = 25
 CURVED = np.cos(np.radians(20.0))
 """sides at a smaller angle than this are those of a round form, which stays as it is"""
+NARROWEST = 0.05
+"""of the size of a body; to a side that is narrower, next to nothing draws: walls of a pillar whose
+weights are 0 keep their outline"""
 LEANING = np.cos(np.radians(20.0)), np.cos(np.radians(10.0))
 """of the angles from which on a side keeps its direction, and up to which it is put straight"""
 STEADY = 0.3
@@ -83,8 +86,18 @@ def _flat_and_round(form):
     """Return the directions (k,3) of a form's sides, and those of its round part."""
     cosines = form.normals @ form.normals.T
     np.fill_diagonal(cosines, -1.0)
-    is_flat = cosines.max(axis=1) < CURVED
+    is_flat = (cosines.max(axis=1) < CURVED) & (_widths(form) > NARROWEST * form.radius)
     return form.normals[is_flat], form.normals[~is_flat]
+
+
+def _widths(form):
+    """Return the width (k,) of each side of a body: how much its normal is drawn to it."""
+    found = []
+    for is_on in form.incidence.T:
+        corners = form.vertices[is_on] - form.vertices[is_on].mean(axis=0)
+        axes = np.linalg.svd(corners, full_matrices=False)[2]
+        found.append(np.ptp(corners @ axes[1]))
+    return np.array(found)
 
 
 def _costs(local, forms, form_of):

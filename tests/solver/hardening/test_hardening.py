@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hardening: sides become flat, edges straight, and what is to stay stays."""
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+from named_forms import POLYTOPES
+
+from solver import (
+    PAPER,
+    FrameSequence,
+    Mirror,
+    Pose,
+    ProxyOptions,
+    Run,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    partners,
+    rest_mesh,
+    run,
+    stylize,
+    triangle_areas_and_normals,
+)
+from solver.hardening.sides import NO_SIDE
+
+KEPT = SolverOptions(keep_rotation=True, device="numpy")
+PLAIN = SolverOptions(keep_rotation=True, device="numpy", is_accelerated=False)
+ROUND = ("cylinder", "cone", "slab", "pillar")
+CUBE = np.concatenate([np.eye(3), -np.eye(3)])
+
+
+def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
+    """Return a Stylization of a blob, some steps on its way."""
+    state = Stylization(Setup(rest_mesh(*shapes.blob(3), proxy), pinned), style, None, options)
+    for _ in range(steps):
+        state.step()
+    state.finish()
+    return state
+
+
+def facing(U, F, directions, degrees):
+    """Return the share of the area that faces one of the directions."""
+    areas, normals = triangle_areas_and_normals(U, F)
+    is_facing = (normals @ directions.T).max(axis=1) > np.cos(np.radians(degrees))
+    return areas[is_facing].sum() / areas.sum()
+
+
+@pytest.mark.parametrize("proxy", [PAPER, ProxyOptions(refine=False)], ids=["paper", "links"])
+def test_the_energy_falls_in_every_step(proxy):
+    hard = soft_blob(Style(0.6, crispness=1.0), proxy, options=PLAIN).hardened()
+    energies = []
+    for _ in range(20):
+        hard.step()
+        energies.append(hard.energy.total)
+    assert (np.diff(energies) <= 1e-9).all()
+    assert energies[-1] < 0.9 * energies[0]
+    assert energies[-1] > 0.0
+
+
+def test_the_energy_is_that_of_its_formula():
+    hard = soft_blob(Style(0.6, crispness=1.0)).hardened()
+    rest, target = hard.rest, hard.hardening.target
+    hard.local_step()
+    U, F, b = hard._motion.point, rest.F, 0.9
+    R = hard._local._T.swapaxes(1, 2)
+    c, t, h = target.base.normals, target.directions, target.heights
+    corners = rest.V[F]
+    flat = corners + (h[F] - np.einsum("mkj,mj->mk", corners, c))[..., None] * c[:, None]
+    arap = above = 0.0
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        w = rest.cotangents[:, k]
+        rigid = np.einsum("mij,mj->mi", R, flat[:, j] - flat[:, i]) - (U[F[:, j]] - U[F[:, i]])
+        arap += (w * (rigid**2).sum(axis=1)).sum() / 2
+        off = ((U[F[:, j]] - U[F[:, i]]) * t).sum(axis=1) - (h[F[:, j]] - h[F[:, i]])
+        above += (w * off**2).sum() / 2
+    held = (target.hold * ((U - target.soft) ** 2).sum(axis=1)).sum()
+    expected = 3 * (1 - b) * arap + 3 * b * above + 1.5 * held
+    assert hard.energy.total == pytest.approx(expected, rel=1e-9)
+    np.testing.assert_allclose(np.einsum("mij,mj->mi", R, c), t, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", [name for name in POLYTOPES if name not in ROUND])
+def test_a_ball_gets_the_sides_of_its_form(name):
+    V, F = shapes.sphere(4)
+    form = POLYTOPES[name]()
+    directions = form.normals
+    shares = [
+        facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
+        for crispness in (0.0, 1.0)
+    ]
+    least = {"tetrahedron": 0.7, "pyramid": 0.8}.get(name, 0.92)
+    assert shares[1] > least
+    assert shares[1] > shares[0] - 0.03, "no side is less flat than it was"
+
+
+def state(form, crispness, V, F):
+    """Return a Stylization of a mesh."""
+    style = Style(1.0, form=form, crispness=crispness)
+    return Stylization(Setup(rest_mesh(V, F)), style, options=KEPT)
+
+
+@pytest.mark.parametrize("name", ROUND)
+def test_the_round_part_of_a_form_stays_round(name):
+    """So do walls that nothing draws to one side more than to others."""
+    V, F = shapes.sphere(4)
+    hard = soft_of(state(POLYTOPES[name](), 1.0, V, F)).hardened()
+    side = hard.hardening.side
+    _, normals = triangle_areas_and_normals(V, F)
+    assert (side[np.abs(normals[:, 2]) < 0.3] == NO_SIDE).all() or name == "slab"
+    assert (side[normals[:, 2] < -0.95] != NO_SIDE).all() or name == "pillar"
+
+
+def soft_of(state, steps=30):
+    """Return a Stylization after some steps."""
+    for _ in range(steps):
+        state.step()
+    state.finish()
+    return state
+
+
+def test_a_box_that_is_turned_away_stays_flat():
+    """What is flat already is never bent: sides that lie between those of the form, too."""
+    V, F = proxy_shapes.box((2, 1.5, 1))
+    turn = np.array([[np.cos(0.6), -np.sin(0.6), 0], [np.sin(0.6), np.cos(0.6), 0], [0, 0, 1.0]])
+    for proxy in (ProxyOptions(), ProxyOptions(keep_pose=False)):
+        U = stylize(V @ turn.T, F, 0.4, proxy=proxy, keep_rotation=True, crispness=1.0).positions
+        np.testing.assert_allclose(U, V @ turn.T, atol=1e-6)
+
+
+@pytest.mark.parametrize("crispness", [0.3, 1.0])
+def test_no_flat_side_of_a_rounded_box_becomes_less_flat(crispness):
+    """The cushion of the complaint: sides that are flat at rest, with round edges."""
+    V, F = shapes.sphere(4)
+    V = np.clip(4.0 * V, -1.0, 1.0) * [1.0, 0.7, 0.4] + 0.2 * V
+    before = facing(V, F, CUBE, 6)
+    U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=crispness).positions
+    assert facing(U, F, CUBE, 6) > before
+
+
+def test_crispness_0_changes_nothing():
+    V, F = shapes.blob(3)
+    one, other = (
+        stylize(V, F, 0.5, proxy=ProxyOptions(), device="numpy", **more)
+        for more in ({}, {"crispness": 0.0, "detail_strength": 1.0})
+    )
+    assert one == other
+
+
+def test_without_cubeness_the_shape_stays():
+    V, F = shapes.blob(3)
+    U = stylize(V, F, 0.0, proxy=ProxyOptions(), crispness=1.0, keep_rotation=True).positions
+    np.testing.assert_allclose(U, V, atol=1e-9)
+
+
+def test_what_is_held_stays_and_what_is_moved_goes_there():
+    V, F = shapes.blob(3)
+    pinned = np.flatnonzero(V[:, 2] < V[:, 2].min() + 0.5)
+    targets = V + [0.1, 0, 0.2]
+    setup = Setup(rest_mesh(V, F, ProxyOptions()), pinned)
+    style = Style(0.6, crispness=1.0)
+    result = run(Stylization(setup, style, Pose(targets=targets), KEPT))
+    np.testing.assert_array_equal(result.positions[pinned], targets[pinned])
+
+
+def test_held_groups_keep_their_place():
+    V, F = shapes.blob(3)
+    weights = np.where(V[:, 2] < V[:, 2].min() + 0.6, 1.0, 0.0)
+    setup = Setup(rest_mesh(V, F)).with_holds([weights])
+    style = Style(0.8, crispness=1.0)
+    result = run(Stylization(setup, style, Pose(hold_matrices=[np.eye(4)]), KEPT))
+    w = weights * np.sqrt(np.sqrt(setup.rest.areas)) if setup.rest.options.refine else None
+    w = weights * setup.rest.areas if w is None else w
+    moved = (w[:, None] * (result.positions - V)).sum(axis=0) / w.sum()
+    np.testing.assert_allclose(moved, 0.0, atol=1e-9)
+
+
+def test_halves_stay_mirror_images():
+    V, F = shapes.sphere(3)
+    V = V * [1.0, 0.8, 1.3]
+    flip = np.diag([-1.0, 1.0, 1.0])
+    mirror = Mirror(partners(V, V @ flip, 1e-6), flip, np.zeros(3))
+    setup = Setup(rest_mesh(V, F, ProxyOptions()), mirrors=[mirror])
+    U = run(Stylization(setup, Style(0.6, crispness=0.6), options=KEPT)).positions
+    np.testing.assert_allclose(U[mirror.partner], U @ flip, atol=1e-12)
+
+
+def test_a_share_is_between_the_soft_and_the_hard_shape():
+    V, F = shapes.blob(3)
+    soft, half, hard = (
+        run(Stylization(Setup(rest_mesh(V, F)), Style(0.6, crispness=c), options=KEPT)).positions
+        for c in (0.0, 0.5, 1.0)
+    )
+    np.testing.assert_allclose(half, 0.5 * (soft + hard), atol=1e-5)
+    assert np.abs(hard - soft).max() > 0.02
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_another_crispness_has_the_end_of_a_new_run(together):
+    setup = Setup(rest_mesh(*shapes.blob(3), ProxyOptions(together=together)))
+    first = Run(Stylization(setup, Style(0.5, crispness=0.2), options=KEPT))
+    assert first.with_crispness(0.9) is None, "it has not begun"
+    first.complete()
+    later = first.with_crispness(0.9)
+    later.complete()
+    new = Run(Stylization(setup, Style(0.5, crispness=0.9), options=KEPT))
+    new.complete()
+    assert later.result() == new.result()
+    assert first.with_crispness(0.0) is None, "other triangles have no side then"
+
+
+def test_a_stored_run_goes_on_as_hard_as_it_was():
+    hard = soft_blob(Style(0.6, crispness=1.0)).hardened()
+    hard.step()
+    other = pickle.loads(pickle.dumps(hard))
+    np.testing.assert_array_equal(other.positions, hard.positions)
+    for _ in range(30):
+        hard.step(), other.step()
+    np.testing.assert_allclose(other.positions, hard.positions, atol=1e-3)
+
+
+# -- details ---------------------------------------------------------------------------------------
+
+
+def knobs():
+    """Return a ball with low bumps, and which vertices are on top of one."""
+    V, F = shapes.sphere(5)
+    ways = np.array([[1.0, 0.1, 0.2], [0.1, 1.0, -0.2], [-0.2, 0.1, 1.0]])
+    ways = np.concatenate([ways, -ways]) / np.linalg.norm(ways[0])
+    near = np.linalg.norm(V[:, None] - ways[None], axis=2).min(axis=1)
+    return V * (1.0 + 0.012 * np.exp(-((near / 0.05) ** 2)))[:, None], F, near
+
+
+@pytest.mark.parametrize("crispness", [0.0, 1.0])
+def test_details_are_as_high_as_they_are_asked_to_be(crispness):
+    V, F, near = knobs()
+    proxy = replace(PAPER, detail=0.05)
+    shown = []
+    for strength in (0.0, 1.0, 2.0):
+        U = stylize(
+            V,
+            F,
+            0.4,
+            proxy=proxy,
+            keep_rotation=True,
+            crispness=crispness,
+            detail_strength=strength,
+        ).positions
+        top, around = near < 0.02, (near > 0.13) & (near < 0.17)
+        tops, rings = (np.linalg.norm(U[part], axis=1).mean() for part in (top, around))
+        shown.append(tops - rings)
+    assert shown[2] - shown[1] == pytest.approx(shown[1] - shown[0], rel=0.35)
+    assert 0.004 < shown[1] - shown[0] < 0.02
+
+
+def test_the_strength_of_details_can_be_painted():
+    V, F, _ = knobs()
+    proxy = replace(PAPER, detail=0.05)
+    kept = np.where(V[:, 0] > 0, 1.0, 0.0)
+    U, all_kept, none = (
+        stylize(V, F, 0.4, proxy=proxy, keep_rotation=True, crispness=1.0, detail_strength=s)
+        for s in (kept, 1.0, 0.0)
+    )
+    for like, part in ((all_kept, V[:, 0] > 0.4), (none, V[:, 0] < -0.4)):
+        np.testing.assert_allclose(U.positions[part], like.positions[part], atol=2e-3)
+
+
+def test_what_is_thinner_than_details_stays_soft():
+    V, F = shapes.sphere(4)
+    finger = V * [0.02, 0.02, 0.3] + [0, 0, 1.2]
+    both, faces = proxy_shapes.joined((V, F), (finger, F))
+    soft, hard = (
+        stylize(both, faces, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=c).positions
+        for c in (0.0, 1.0)
+    )
+    moved = np.linalg.norm(hard - soft, axis=1)
+    assert moved[len(V) :].max() < 0.2 * moved[: len(V)].max()
+
+
+# -- frames ----------------------------------------------------------------------------------------
+
+
+def test_frames_keep_their_sides():
+    """A ball that turns by 40 degrees, in steps: each triangle changes its side once at most."""
+    V, F = shapes.sphere(3)
+    setup = Setup(rest_mesh(V, F))
+    sequence, sides = FrameSequence(setup.rest), []
+    for angle in np.radians(np.arange(0, 41, 4)):
+        turn = np.array(
+            [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
+        )
+        frame = Stylization(setup.posed(V @ turn.T), Style(0.6, crispness=1.0), options=KEPT)
+        result = sequence.solve(frame)
+        sides.append(sequence.state.sides)
+        assert facing(result.positions, F, CUBE, 8) > 0.8
+    changes = (np.diff(np.array(sides), axis=0) != 0).sum(axis=0)
+    assert np.mean(changes > 1) < 0.02
+
+
+def test_a_sequence_that_was_stopped_goes_on_alike():
+    V, F = shapes.blob(2)
+    setup = Setup(rest_mesh(V, F))
+    style = Style(0.6, crispness=0.7)
+
+    def frames(sequence, heights):
+        for height in heights:
+            frame = Stylization(setup.posed(V * [1, 1, height]), style, options=KEPT)
+            result = sequence.solve(frame)
+        return result.positions
+
+    whole = frames(FrameSequence(setup.rest), (1.0, 1.05, 1.1))
+    stopped = FrameSequence(setup.rest)
+    frames(stopped, (1.0, 1.05))
+    np.testing.assert_array_equal(frames(FrameSequence(setup.rest, stopped.state), (1.1,)), whole)
