@@ -59,7 +59,7 @@ def radii(size, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
 
 
-def smoothed(graph, radius, coupling, rounds=ROUNDS):
+def smoothed(graph, radius, coupling, outward=1.0, rounds=ROUNDS):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     Parameters
@@ -70,6 +70,8 @@ def smoothed(graph, radius, coupling, rounds=ROUNDS):
     coupling : (k,) array
         Of the pairs of triangles of the graph, from 0 across the sharp creases of flat sides, where
         nothing is averaged, to 1.
+    outward : (m,) array, optional
+        -1 for triangles of parts that are inside out.
     rounds : int
         In which edges become sharp again.
     """
@@ -83,7 +85,8 @@ def smoothed(graph, radius, coupling, rounds=ROUNDS):
     for _ in range(rounds):
         guide = unit(found)
         turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
-        x = turn * between / graph.distance / EDGE * graph.is_convex(guide) * is_edge
+        x = turn * between / graph.distance / EDGE * is_edge
+        x *= graph.is_convex(np.multiply(guide.T, outward).T)
         found = _diffused(graph, conductance / (1.0 + x * x), found)
     return np.where(graph.areas[:, None] > 0.0, found, 0.0)
 

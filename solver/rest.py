@@ -191,7 +191,8 @@ class RestMesh(Value):
         crease = np.where(self.is_flat, self.smoothness, 1.0)
         lower, upper = (ends[graph.edge] for ends in (graph.edges.lower, graph.edges.upper))
         radius = self.detail_radii[self.F].mean(axis=1)
-        return details.smoothed(graph, radius, np.maximum(crease[lower], crease[upper]))
+        coupling = np.maximum(crease[lower], crease[upper])
+        return details.smoothed(graph, radius, coupling, self.outward[self.F[:, 0], 0])
 
     @cached_property
     def _drawn(self) -> tuple[FloatArray, FloatArray]:

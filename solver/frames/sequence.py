@@ -204,8 +204,9 @@ class FrameSequence:
                     stylization.step()
                     yield
         if stylization.style.is_hardened:
-            before = None if self.state is None else self.state.sides
-            run.harden(before if before is not None and len(before) else None)
+            # a mesh that does not move ends as it does alone
+            is_steady = self.state is not None and self._forgotten and len(self.state.sides)
+            run.harden(self.state.sides if is_steady else None)
             while run.reason is None:
                 yield
                 run.advance()

@@ -18,6 +18,9 @@ HOLD = 0.1
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
 THIN = 0.4, 0.8
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
+DRAWN = 0.2
+"""cubeness from which on the crispness counts fully"""
+_POINT = 1e-6  # extent in the unit box; what has none is held all the same
 _ORTHONORMALIZATIONS = 4
 
 
@@ -46,7 +49,7 @@ class Hardening:
 
     def with_crispness(self, style, rest):
         """Return the same with the crispness of another SolvedStyle."""
-        return replace(self, crispness=style.crispness * _share_of_thickness(rest))
+        return replace(self, crispness=_crispness_of(style, rest))
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
@@ -62,8 +65,8 @@ class Hardening:
 def hold_of(rest):
     """Return how firmly vertices (n,) are held near the soft shape, in the units of L."""
     component = rest.topology.component
-    reach = HOLD * np.maximum(extents(rest.V, component), 1e-12)[component]
-    return rest.areas / (reach * reach)
+    reach = HOLD * np.maximum(extents(rest.V, component), _POINT)[component]
+    return np.maximum(rest.areas, _POINT * _POINT) / (reach * reach)
 
 
 def hardening_of(stylization, before=None):
@@ -78,7 +81,7 @@ def hardening_of(stylization, before=None):
     style, rest = stylization.style, stylization.rest
     F, base = rest.F, base_of(stylization.setup)
     R = stylization.rotations.copy()
-    crispness = style.crispness * _share_of_thickness(rest)
+    crispness = _crispness_of(style, rest)
     is_free = ~(crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
@@ -103,14 +106,19 @@ def hardening_of(stylization, before=None):
     return Hardening(soft, R, crispness, target, side)
 
 
-def _share_of_thickness(rest):
-    """Return how far vertices (n,) take part: what is thinner than details is one itself."""
+def _crispness_of(style, rest):
+    """Return how far vertices (n,) go to the hard shape.
+
+    What is thinner than details is one itself, and what is hardly drawn to the form does not snap to
+    it: a cubeness that is keyed from 0 on has a crisp shape bit by bit.
+    """
+    crispness = style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
     if not rest.options.detail:
-        return np.ones(len(rest.V))
+        return crispness
     component = rest.topology.component
     size = rest.options.detail * np.maximum(extents(rest.V, component), 1e-12)[component]
     t = np.clip((rest.thickness / size - THIN[0]) / (THIN[1] - THIN[0]), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    return crispness * t * t * (3.0 - 2.0 * t)
 
 
 def _at_faces(R, F):

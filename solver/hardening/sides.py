@@ -36,6 +36,9 @@ LEANING = np.cos(np.radians(20.0)), np.cos(np.radians(10.0))
 STEADY = 0.3
 """by how much the side that a triangle had in the frame before costs less"""
 
+TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
+"""by axis: of sides that cost the same, mirror images take mirror images, whatever the rounding"""
+
 NO_SIDE = -1
 NEVER = 9.0
 """more than any direction costs"""
@@ -106,7 +109,7 @@ def _costs(local, forms, form_of):
     costs = np.full((len(local), width + 1), NEVER, np.float32)
     for number, (flat, curved) in enumerate(forms):
         rows = np.flatnonzero(form_of == number)
-        costs[rows, : len(flat)] = 1.0 - local[rows] @ flat.T
+        costs[rows, : len(flat)] = 1.0 - local[rows] @ flat.T + np.abs(flat) @ TIES
         if len(curved):
             costs[rows, -1] = 1.0 - (local[rows] @ curved.T).max(axis=1)
     return costs

@@ -25,7 +25,7 @@ class FaceGraph:
     areas, normals, edges
         As of `Triangles`.
     one, other, edge : (k,) int arrays
-        Pairs of triangles that share an edge, and its number.
+        Pairs of triangles that share an edge, and its number; of several, one of them.
     length : (k,) array
         Of that edge.
     distance : (k,) array
@@ -36,7 +36,7 @@ class FaceGraph:
         triangles = Triangles(V, F)
         self.edges = triangles.edges
         self.areas, self.normals = triangles.areas, triangles.normals
-        self.one, self.other, self.edge = triangles.edges.pairs()
+        self.one, self.other, self.edge = _distinct(*triangles.edges.pairs(), len(F))
         self._centroids = V[F].mean(axis=1)
         ends = V[triangles.edges.lower[self.edge]], V[triangles.edges.upper[self.edge]]
         middle = 0.5 * (ends[0] + ends[1])
@@ -73,3 +73,11 @@ class FaceGraph:
         apart = self._centroids[self.other] - self._centroids[self.one]
         bend = normals[self.other] - normals[self.one]
         return np.einsum("kj,kj->k", apart, bend) > 0.0
+
+
+def _distinct(one, other, edge, m):
+    """Return pairs of triangles once each, and none of a triangle with itself."""
+    key = np.minimum(one, other).astype(np.int64) * m + np.maximum(one, other)
+    _, first = np.unique(key, return_index=True)
+    first = first[one[first] != other[first]]
+    return one[first], other[first], edge[first]

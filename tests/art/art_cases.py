@@ -18,12 +18,13 @@ import bpy
 import measures
 import numpy as np
 from art_objects import Surface, select, surface_of
+from scipy.sparse import diags
+from scipy.sparse.linalg import splu
 
 from solver import rest_mesh
-from solver.details import smoothed
 
 PAPER = {
-    **{"solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
+    **{"crispness": 0.0, "solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
     **{"together": "OFF", "refine": "OFF", "rotation": "FREE"},
 }
 """the settings of the paper, as far as the operator knows them"""
@@ -172,7 +173,12 @@ def angle_of_the_whole(V, U, F, size=0.06):
         np.add.at(sums, corner, normal)
     sums = sums[rest.used]
     sums /= np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
-    smooth, _ = smoothed(rest.skin, rest.areas, sums, np.full(len(rest.V), size))
+    area = diags(rest.areas + 1e-12)
+    L = rest.skin.matrix(np.minimum(rest.skin.laplacian, 0.0))
+    L = L - diags(L.diagonal())
+    L = L - diags(np.asarray(L.sum(axis=1)).ravel())
+    smooth = splu((area + size**2 / 4 * L).tocsc()).solve(area @ sums)
+    smooth /= np.maximum(np.linalg.norm(smooth, axis=1), 1e-300)[:, None]
     cosine = np.minimum(np.abs(smooth).max(axis=1), 1.0)
     return float(np.degrees(np.average(np.arccos(cosine), weights=rest.areas)))
 

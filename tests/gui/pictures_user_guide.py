@@ -204,7 +204,7 @@ def picture_of_presets():
     assert shown_preset() == "Cubic"
     scene.settings().cubeness = 0.6
     yield from keep_and_remove("My_Look", seen_with_all_of_the_view("My_Look"))
-    yield from choose_in_live("Hard-Edged", SCALE)
+    yield from choose_in_live("Crisp", SCALE)
 
 
 def seen_with_all_of_the_view(name):

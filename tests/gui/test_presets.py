@@ -18,7 +18,7 @@ def test():
     assert shown_preset() == "Cubic"
     scene.settings().cubeness = 0.6
     yield from keep_and_remove("My_Look", choose_preset("My_Look"))
-    yield from choose_in_live("Hard-Edged")
+    yield from choose_in_live("Crisp")
 
 
 gui.run(test)

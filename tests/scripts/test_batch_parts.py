@@ -30,7 +30,8 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --region top:prism5:0.3
     --capture other/b.ply --capture-strength 0.7
     --form-directions 0,0,1
-    --space object --solidity 0 --keep-pose off --detail 0.2 --keep-apart off
+    --space object --crispness 0.2 --solidity 0 --keep-pose off --detail 0.2 --detail-strength 2
+    --detail-map g --keep-apart off
     --together parts --refine off --rotation free --symmetry zx --floor --hold-rest off
     --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
@@ -78,11 +79,11 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
 
 
 IN_FULL = (
-    "--solidity 0 --keep-pose off --detail 0 --keep-apart off"
+    "--crispness 0 --solidity 0 --keep-pose off --detail 0 --keep-apart off"
     " --together off --refine off --rotation free --hold-rest off"
 )
 BY_DEFAULT = (
-    "--solidity 0.1 --keep-pose on --detail 0.05 --keep-apart on"
+    "--crispness 0.7 --solidity 0.3 --keep-pose on --detail 0.05 --keep-apart on"
     " --together selection --refine auto --rotation keep --hold-rest on"
 )
 
@@ -101,7 +102,7 @@ def test_the_paper_is_its_options_in_full(folder, monkeypatch):
     beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
     assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
     keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, len(in_full), 2)}
-    assert len(keys | {key("--paper")}) == 9, "each of them decides about the result"
+    assert len(keys | {key("--paper")}) == 10, "each of them decides about the result"
 
 
 def names(*inputs, is_recursive=False):

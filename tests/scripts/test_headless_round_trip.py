@@ -159,7 +159,14 @@ def test_report(results):
     runs = entry.pop("runs")
     what = {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
     assert entry == what | {"solved_with": []}
-    by_default = {"solidity": 0.1, "keep_pose": "on", "detail": 0.05, "keep_apart": "on"}
+    by_default = {
+        "crispness": 0.7,
+        "solidity": 0.3,
+        "detail_strength": 1.0,
+        "keep_pose": "on",
+        "detail": 0.05,
+        "keep_apart": "on",
+    }
     by_default |= {"together": "selection", "refine": "auto", "rotation": "keep"}
     off = {"symmetry": "", "floor": False, "hold_rest": "on", "with_modifiers": False}
     form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}

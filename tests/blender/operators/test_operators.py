@@ -265,12 +265,12 @@ def test_the_map_scales_cubeness_and_inverts():
     np.testing.assert_array_equal(shapes["None", False], before)
 
 
-def test_half_the_weight_is_half_the_cubeness():
+def test_half_the_weight_is_half_the_cubeness_and_half_the_crispness():
     obj = add_monkey()
     obj.vertex_groups.new(name="Half").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
-    cubify(cubeness=0.8, map_group="Half")
+    cubify(cubeness=0.8, crispness=1.0, map_group="Half")
     mapped = position_of(obj.data)
-    cubify(cubeness=0.4, map_group="")
+    cubify(cubeness=0.4, crispness=0.5, map_group="")
     np.testing.assert_allclose(mapped, position_of(obj.data), atol=1e-5)
 
 

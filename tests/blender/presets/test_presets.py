@@ -10,7 +10,7 @@ import bpy
 import pytest
 from scene import add_monkey, cubify
 
-OURS = ["Soft", "Rounded", "Cubic", "Hard-Edged", "Chunky", "Monolith", "As_in_the_Paper"]
+OURS = ["Soft", "Rounded", "Cubic", "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper"]
 
 
 @pytest.fixture
@@ -42,7 +42,8 @@ def save(name, **settings):
 
 def shape_of(obj):
     p = obj.cubic_craft
-    sizes = (round(value, 6) for value in (p.cubeness, p.solidity, p.detail))
+    looks = p.cubeness, p.crispness, p.solidity, p.detail, p.detail_strength
+    sizes = (round(value, 6) for value in looks)
     return *sizes, p.keep_pose, p.keep_apart, p.together, p.refine, p.rotation, p.hold_rest
 
 
@@ -92,7 +93,7 @@ def test_a_preset_brings_the_look_to_another_object_and_nothing_else(files, monk
 
 
 def test_a_file_that_is_opened_in_a_new_session_knows_its_preset(files, monkey, rooms):
-    assert save("Mine", cubeness=0.4, solidity=0.1) == {"FINISHED"}
+    assert save("Mine", cubeness=0.4, solidity=0.3) == {"FINISHED"}
     assert monkey.cubic_craft.preset == "Mine", "what was just saved is shown, of two alike"
     rooms("cubic_craft_addon.presets.selector").forget()
     assert monkey.cubic_craft.preset == "Cubic"
@@ -173,7 +174,10 @@ bpy.context.object.location = (1, 2, 3)
     (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
-    assert shape_of(monkey) == (0.7, 0.1, 0.05, True, True, "SELECTION", "AUTO", "KEEP", True)
+    assert shape_of(monkey) == (
+        *(0.7, 0.7, 0.3, 0.05, 1.0),
+        *(True, True, "SELECTION", "AUTO", "KEEP", True),
+    )
     assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
     for name in ("broken.py", "empty.py"):
         (path.parent / name).unlink()
@@ -217,9 +221,9 @@ def test_reset_gives_the_defaults_but_for_what_belongs_to_the_mesh(monkey):
 
 
 def test_a_preset_is_no_setting_of_cubify(files, monkey):
-    monkey.cubic_craft.preset = "Hard-Edged"
+    monkey.cubic_craft.preset = "Crisp"
     assert cubify(refine="AUTO") == {"FINISHED"}
-    assert monkey.cubic_craft.preset == "Hard-Edged"
+    assert monkey.cubic_craft.preset == "Crisp"
 
 
 def test_live_takes_presets_and_reset(files, live, begin, monkey):
