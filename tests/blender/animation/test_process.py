@@ -67,12 +67,17 @@ def model(bending):
 
 
 WAYS = {
-    "cubeness": ({"cubeness": 0.1}, {"cubeness": 1.0}),
+    # soft, as a triangle between two sides may belong to either
+    "cubeness": ({"cubeness": 0.1, "crispness": 0.0}, {"cubeness": 1.0, "crispness": 0.0}),
+    "crispness": ({"crispness": 0.0}, {"crispness": 1.0}),
     "less": ({"cubeness": 1.0}, {"cubeness": 0.0}),
     "form": ({"form": "OCTAHEDRON", "cubeness": 0.8}, {"cubeness": 0.8}),
     "orientation": ({}, {"orientation": (0.0, 0.0, math.radians(40))}),
     # The ball has nothing to keep its thickness by, but on a finer copy.
-    "solidity": ({"solidity": 0.02, "refine": "AUTO"}, {"solidity": 1.0}),
+    "solidity": (
+        {"solidity": 0.02, "refine": "AUTO", "crispness": 0.0},
+        {"solidity": 1.0, "crispness": 0.0},
+    ),
 }
 
 

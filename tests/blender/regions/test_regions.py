@@ -155,8 +155,9 @@ def test_a_mirrored_object_with_a_region_has_the_mirrored_shape_of_its_twin():
         add_group(obj, "Top", blended)
         add_region(obj, "Top", form="TETRAHEDRON", orientation=(0.3, 0.1, 0.2))
         cubify(**OPTIONS)
+    # a triangle between two sides may belong to either
     np.testing.assert_allclose(
-        position_of(other.data) * [-1, 1, 1], position_of(one.data), atol=1e-3
+        position_of(other.data) * [-1, 1, 1], position_of(one.data), atol=0.01
     )
 
 
