@@ -125,8 +125,8 @@ def hardening_of(stylization, before=None):
 def _crispness_of(style, rest):
     """Return how far vertices (n,) go to the hard shape.
 
-    What is thinner than details is one itself. What is hardly drawn to the form does not snap to it:
-    a shape whose cubeness is keyed from 0 on becomes crisp bit by bit.
+    What is thinner than details is one itself. What is hardly drawn to the form does not snap to
+    it: a shape whose cubeness is keyed from 0 on becomes crisp bit by bit.
     """
     crispness = style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
     if not rest.options.detail:

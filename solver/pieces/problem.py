@@ -210,7 +210,7 @@ def join_pieces(
     ...     _, (positions, _) = problem.split(result.positions, result.rotations)
     ...     print(f"{np.linalg.norm((positions - 0.2 * V).mean(axis=0)):.2f}")
     0.00
-    0.20
+    0.16
     """
     from ..setup import Setup
 
