@@ -1,35 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One mesh at growing cubeness: figure 5, and the README's first picture."""
-
-from typing import Any
+"""One mesh that becomes cubic: figure 5 at growing cubeness, and the README's first picture."""
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 
-from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model
+from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
 __all__ = ("compose", "compose_character")
 
 CUBENESS = (0.03, 0.1, 0.4, 1.5)
-OF_CHARACTER = (0.2, 0.4, 1.0)
+LOOKS = {"soft": {"crispness": 0.0, "solidity": 0.1}, "cubic": {}, "crisp": {"crispness": 1.0}}
+"""of the character, by the settings that are not the defaults"""
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
     """Return the original and its cubic versions, as in the paper."""
     (model,) = meshes.there(["bunny"], instead=["monkey"])
-    return _growing(meshes, model, CUBENESS, **AS_IN_THE_PAPER)
+    groups = [meshes.group(model, model.original, "original", "grey")]
+    for value in CUBENESS:
+        shape = meshes.cubified(model, value, **AS_IN_THE_PAPER)
+        groups.append(meshes.group(model, shape, f"cubeness {value:g}", "green"))
+    return groups
 
 
 def compose_character(meshes: FigureMeshes) -> list[Group]:
-    """Return a character and its cubic versions, at the default settings."""
+    """Return a character as it was, and from soft to crisp; the one between has the defaults."""
     (model,) = meshes.there([], instead=["fox"])
-    return _growing(meshes, model, OF_CHARACTER)
-
-
-def _growing(
-    meshes: FigureMeshes, model: Model, cubeness: tuple[float, ...], **settings: Any
-) -> list[Group]:
     groups = [meshes.group(model, model.original, "original", "grey")]
-    for value in cubeness:
-        shape = meshes.cubified(model, value, **settings)
-        groups.append(meshes.group(model, shape, f"cubeness {value:g}", "green"))
+    for name, settings in LOOKS.items():
+        groups.append(meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green"))
     return groups

@@ -35,8 +35,8 @@ from . import shapes
 __all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "colored_by", "moved")
 
 AS_IN_THE_PAPER = {
-    **{"solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
-    **{"together": "OFF", "refine": "OFF", "rotation": "FREE"},
+    **{"crispness": 0.0, "solidity": 0.0, "keep_pose": False, "detail": 0.0},
+    **{"keep_apart": False, "together": "OFF", "refine": "OFF", "rotation": "FREE"},
 }
 """settings for figures that show what the energy of the paper does"""
 
