@@ -167,7 +167,7 @@ class Outlines:
         anchors = self._anchors()
         at = {v: (n, i) for n, chain in enumerate(self._chains) for i, v in enumerate(chain)}
         for _, loop in dense:
-            while len({v for v in loop if v in anchors}) < min(_FEWEST, len(loop)):
+            while len({v for v in loop if v in anchors}) < min(_FEWEST, len(set(loop))):
                 n, i = at[next(v for v in loop if v not in anchors)]
                 self._kept[n] = sorted({*self._kept[n], i})
                 anchors.add(self._chains[n][i])

@@ -87,9 +87,7 @@ def _bridged(at, outer, hole, others):
     """Return the loop that goes from the outer one to the hole, around it, and back."""
     gaps = _gaps(at, outer, hole)
     order = np.argsort(gaps, axis=None, kind="stable")[:_TRIED]
-    segments = [
-        (loop[k - 1], loop[k]) for loop in (outer, hole, *others) for k in range(len(loop))
-    ]
+    segments = [(loop[k - 1], loop[k]) for loop in (outer, hole, *others) for k in range(len(loop))]
     A, B = (np.array([at[s[k]] for s in segments]) for k in (0, 1))
     ends = np.array(segments)
     i, j = divmod(int(order[0]), len(hole))
@@ -132,7 +130,11 @@ def _merged(P, polygons, flatness, normal):
     while is_changed:
         is_changed = False
         owner = {edge: k for k, loop in polygons.items() for edge in _edges(loop)}
-        pairs = {(min(k, o), max(k, o)) for (a, b), k in owner.items() if (o := owner.get((b, a), k)) != k}
+        pairs = {
+            (min(k, o), max(k, o))
+            for (a, b), k in owner.items()
+            if (o := owner.get((b, a), k)) != k
+        }
         for one, other in sorted(pairs):
             if one not in polygons or other not in polygons:
                 continue

@@ -121,7 +121,9 @@ def _merged(graph, region):
         rank[np.lexsort((np.arange(count), -area))] = np.arange(count)  # the largest first
         one, other = region[graph.one], region[graph.other]
         is_border = one != other
-        one, other = (np.concatenate(p)[np.tile(is_border, 2)] for p in ((one, other), (other, one)))
+        one, other = (
+            np.concatenate(p)[np.tile(is_border, 2)] for p in ((one, other), (other, one))
+        )
         length = np.tile(graph.length[is_border], 2)
         is_up = is_small[one] & (rank[other] < rank[one])
         one, other, length = one[is_up], other[is_up], length[is_up]
