@@ -8,6 +8,7 @@ gap opens.
 """
 
 from collections import Counter
+from itertools import pairwise
 
 import numpy as np
 
@@ -103,8 +104,8 @@ class Outlines:
                 while len(near[chain[-1]]) == 2 and chain[-1] != start:
                     a, b = near[chain[-1]]
                     chain.append(b if a == chain[-2] else a)
-                done.update(zip(chain, chain[1:], strict=False))
-                done.update(zip(chain[1:], chain, strict=False))
+                done.update(pairwise(chain))
+                done.update(pairwise(chain[::-1]))
                 chains.append(chain)
         return chains
 
@@ -138,9 +139,7 @@ class Outlines:
         """Keep more vertices where two chains would be the same segment, or one a point."""
         while True:
             spans = [
-                (number, a, b)
-                for number, kept in enumerate(self._kept)
-                for a, b in zip(kept, kept[1:], strict=False)
+                (number, a, b) for number, kept in enumerate(self._kept) for a, b in pairwise(kept)
             ]
             ends = [tuple(sorted((self._chains[n][a], self._chains[n][b]))) for n, a, b in spans]
             times = Counter(ends)
