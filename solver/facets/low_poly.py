@@ -18,11 +18,11 @@ from .outlines import Outlines
 from .polygons import filled
 from .regions import regions_of
 
-COURSE = 0.005
+COURSE = 0.007
 """of the size: how far the border of two sides may leave its course"""
 FLATNESS = 2e-4
 """of the size: how far the corners of a polygon may be from its plane"""
-STRAY = 0.5
+STRAY = 0.6
 """of the tolerance: how far a side may stray from its plane"""
 
 
@@ -77,11 +77,14 @@ def low_poly(
     outlines = Outlines(P, G, parts, COURSE)
     region_of_part = np.zeros(parts.max() + 1, np.int64)
     region_of_part[parts] = region
-    polygons, part_of = [], []
+    found = {}
     for part, loops in outlines.loops.items():
         made = filled(P, loops, regions.normals[region_of_part[part]], FLATNESS)
-        polygons += [first[loop].tolist() for loop in made]
-        part_of += [part] * len(made)
+        for loop in made:
+            back = found.pop(frozenset(loop), None)  # of a wall without thickness: both go
+            if back is None:
+                found[frozenset(loop)] = first[loop].tolist(), part
+    polygons, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
     result = V.copy()
     used = np.unique(group[np.concatenate(polygons)]) if polygons else []
     result[first[used]] = box.from_unit(P[used])

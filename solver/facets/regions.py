@@ -16,10 +16,12 @@ from ..details import unit
 from ..hardening.sides import CURVED, NEVER, border_shares, smooth_labels, straightened
 from ..mesh.components import components
 
-FEWEST = 6
-"""triangles of a region; fewer go to a neighbor"""
-SMALLEST = 4e-4
-"""share of the surface of a region, likewise"""
+FEWEST = 12
+"""triangles of a region; fewer go to a neighbor if they are no larger than `CLEAR`"""
+CLEAR = 5e-3
+"""share of the surface of a region that is a side, however few its triangles are"""
+SMALLEST = 8e-4
+"""the same of one that is none, however many they are"""
 _ROUNDS = 4  # of parting
 _TURNED = np.cos(np.radians(50.0))  # from its plane: a triangle beyond is of another region
 _MERGES = 30
@@ -115,8 +117,8 @@ def _merged(graph, region):
     for _ in range(_MERGES):
         count = region.max() + 1
         area = np.bincount(region, graph.areas, count)
-        is_small = np.bincount(region, minlength=count) < FEWEST
-        is_small |= area < SMALLEST * total
+        is_few = np.bincount(region, minlength=count) < FEWEST
+        is_small = area < np.where(is_few, CLEAR, SMALLEST) * total
         rank = np.empty(count, np.int64)
         rank[np.lexsort((np.arange(count), -area))] = np.arange(count)  # the largest first
         one, other = region[graph.one], region[graph.other]
