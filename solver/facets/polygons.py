@@ -27,7 +27,11 @@ def filled(P, loops, normal, flatness):
     """
     if len(loops) == 1 and _is_polygon(P, loops[0], flatness, normal):
         return loops
-    return _merged(P, _triangles(_plane_coordinates(P, loops, normal), loops), flatness, normal)
+    vertices = np.unique(np.concatenate(loops))
+    heights = P[vertices] @ normal
+    is_off = np.abs(heights - np.median(heights)) > flatness
+    at = _plane_coordinates(P, loops, normal)
+    return _merged(P, _triangles(at, loops, vertices[is_off]), flatness, normal)
 
 
 def _normal(P, loop):
@@ -61,8 +65,11 @@ def _area(X):
     return float((X[:, 0] * following[:, 1] - X[:, 1] * following[:, 0]).sum())
 
 
-def _triangles(at, loops):
-    """Cut a loop, bridged to its holes, into triangles by its ears."""
+def _triangles(at, loops, off=()):
+    """Cut a loop, bridged to its holes, into triangles by its ears.
+
+    Corners off the plane are cut off first, so that the rest can be one polygon.
+    """
     loops = sorted(loops, key=lambda loop: -_area(np.array([at[v] for v in loop])))
     outer, holes = list(loops[0]), loops[1:]
     while holes:
@@ -71,7 +78,7 @@ def _triangles(at, loops):
         outer = _bridged(at, outer, hole, holes)
     found = []
     while len(outer) > 3:
-        k = _best_ear(np.array([at[v] for v in outer]), np.array(outer))
+        k = _best_ear(np.array([at[v] for v in outer]), np.array(outer), off)
         found.append([outer[k - 1], outer[k], outer[(k + 1) % len(outer)]])
         del outer[k]
     found.append(outer)
@@ -108,7 +115,7 @@ def _side(a, b, c):
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
-def _best_ear(X, vertex):
+def _best_ear(X, vertex, off):
     """Return the corner of a loop that is best cut off: the least narrow without others inside."""
     A, C = np.roll(X, 1, axis=0), np.roll(X, -1, axis=0)
     area = _side(A, X, C)
@@ -120,7 +127,8 @@ def _best_ear(X, vertex):
     for own in (np.roll(vertex, 1), vertex, np.roll(vertex, -1)):
         inside &= own[:, None] != vertex
     is_ear = ~inside.any(axis=1) & (quality > 0.0)
-    return int(np.where(is_ear, quality, quality - 10.0).argmax())
+    quality = quality + 10.0 * np.isin(vertex, off)
+    return int(np.where(is_ear, quality, quality - 20.0).argmax())
 
 
 def _merged(P, polygons, flatness, normal):
