@@ -16,7 +16,7 @@ from ..details import unit
 from ..hardening.sides import CURVED, NEVER, border_shares, smooth_labels, straightened
 from ..mesh.components import components
 
-FEWEST = 12
+FEWEST = 6
 """triangles of a region; fewer go to a neighbor if they are no larger than `CLEAR`"""
 CLEAR = 5e-3
 """share of the surface of a region that is a side, however few its triangles are"""
