@@ -4,7 +4,7 @@
 import math
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from ..cubic_craft_addon import hidden_source, mesh_bridge
 from ..cubic_craft_addon.measure.facets import flat_facets
@@ -46,9 +46,19 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
     )
     dissolve: BoolProperty(
         name="N-Gons to New Object",
-        description="Also make a new object in which each planar facet is a single face. Edges stay"
-        " at seams, at sharp edges, and where UVs or materials change",
+        description="Also make a new object of few planar faces, with flat shading. Edges stay"
+        " around parts that seams, sharp edges, UVs or materials set apart",
         default=False,
+    )
+    edges: EnumProperty(
+        name="Edges",
+        description="What the edges between the sides of the new object get",
+        items=(
+            ("NONE", "As They Are", "No weights"),
+            ("CREASES", "Creases", "Full creases, which a Subdivision Surface modifier keeps"),
+            ("BEVEL", "Bevel Weights", "Full bevel weights, for a Bevel modifier limited by them"),
+        ),
+        default="NONE",
     )
 
     @classmethod
@@ -64,7 +74,7 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
     def _flatten(self, obj):
         mesh = mesh_bridge.mesh_of(obj)
         mesh_bridge.end_preview(mesh)
-        facets = flat_facets(obj, self.angle, self.tolerance)
+        facets = flat_facets(obj, self.angle, self.tolerance, with_polygons=self.dissolve)
         was_edited = mesh_bridge.is_edited(mesh)
         facts = [
             f"{facets.count} planar facets, no vertex farther than {facets.deviation:.1e} from its"
@@ -75,19 +85,20 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
             facts.append("edits made since Cubify are now part of the result")
 
         if self.dissolve:
-            _write_ngons(obj, facets)
+            _write_ngons(obj, facets, self.edges)
+            facts.append(f"{len(facets.polygons.loops):,} polygons in the new object")
         else:
             mesh_bridge.write_reshaped(obj, facets.positions)
         return "; ".join(facts)
 
 
-def _write_ngons(obj, facets):
+def _write_ngons(obj, facets, edges):
     def finish(new):
         hidden_source.hide(obj, new)
         mesh_bridge.write_reshaped(obj, facets.positions)
 
     with hidden_source.source_kept(obj):
-        mesh_bridge.write_ngons(obj, facets.positions, facets.facet_of, finish)
+        mesh_bridge.write_ngons(obj, facets.polygons, edges, finish)
 
 
 def _poll_results(operator_class, context):

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from .backends import set_cache_folder as set_cache_folder
     from .energy import Energy as Energy
     from .errors import CubicCraftError as CubicCraftError
+    from .facets.low_poly import LowPoly as LowPoly
+    from .facets.low_poly import low_poly as low_poly
     from .flatten import Flattened as Flattened
     from .flatten import flatten_facets as flatten_facets
     from .frames.sequence import FrameSequence as FrameSequence

@@ -13,10 +13,12 @@ from numpy.typing import ArrayLike
 
 from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .errors import CubicCraftError
+from .facets.regions import nearest_labels
 from .inputs import real_numbers
 from .mesh.components import components
 from .mesh.edge_vectors import double_area_vectors, edge_vectors
 from .mesh.edges import Edges
+from .mesh.face_graph import FaceGraph
 from .mesh.mesh_checks import check_mesh
 from .mesh.nearest_on_planes import MOST, nearest_on_planes
 from .mesh.unit_box import unit_box
@@ -89,10 +91,11 @@ def flatten_facets(
     """Make the almost flat sides of a shape exactly planar.
 
     Connected triangles whose normals are nearest to the same direction, and within the angle of it,
-    form a patch. The plane of a patch is orthogonal to the direction and goes through the centroid
-    of its area. Its triangles with all corners within the tolerance of that plane become a facet.
-    Each corner moves to the nearest point in the planes of its facets, of which there may be three:
-    the vertices between two facets end up on a straight edge.
+    form a patch; between two directions they go with their neighbors, so that borders are short.
+    The plane of a patch is orthogonal to the direction and goes through the centroid of its area.
+    Its triangles with all corners within the tolerance of that plane become a facet. Each corner
+    moves to the nearest point in the planes of its facets, of which there may be three: the
+    vertices between two facets end up on a straight edge.
 
     Parameters
     ----------
@@ -236,11 +239,11 @@ def _facing(V, F, directions, least_cosine, counts):
     vectors = _vectors(V, F)
     lengths = np.linalg.norm(vectors, axis=1)
     cosines = vectors @ directions.T
+    nearest = nearest_labels(FaceGraph(V, F), directions, counts)
+    rows = np.arange(len(F))
+    is_facing = (cosines[rows, nearest] >= least_cosine * lengths) & (lengths > 0.0)
     if counts is not None:
-        cosines[~counts] = -np.inf
-    nearest = cosines.argmax(axis=1)
-    is_facing = cosines[np.arange(len(F)), nearest] >= least_cosine * lengths
-    is_facing &= lengths > 0.0
+        is_facing &= counts[rows, nearest]
     return lengths / 2.0, V[F].mean(axis=1), np.where(is_facing, nearest, -1)
 
 

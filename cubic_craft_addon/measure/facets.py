@@ -14,7 +14,7 @@ from ...solver import CubicCraftError
 from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
 from ..environment.requirements import check_requirements
-from ..mesh_bridge import LastRun
+from ..mesh_bridge import LastRun, Polygons
 from ..read.object_frame import placement_alone
 from ..read.reflections import modifier_reflections
 from ..regions.shares import region_shares
@@ -43,9 +43,13 @@ class Facets:
     """largest distance that one moves, as it is seen: with the object's scale"""
     deviation: float
     """largest distance of a vertex from the plane of its facet, in the same unit"""
+    polygons: Polygons | None
+    """the whole shape as few polygons, if asked for"""
 
 
-def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets:
+def flat_facets(
+    obj: bpy.types.Object, angle: float, tolerance: float, *, with_polygons: bool = False
+) -> Facets:
     """Flatten the sides of a result.
 
     Parameters
@@ -55,6 +59,8 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
         Largest angle between a side and the direction that it should face, in radians.
     tolerance : float
         Largest distance that a vertex may be moved by, relative to the largest extent.
+    with_polygons : bool
+        Also find the polygons of a low-poly shape.
 
     Raises
     ------
@@ -72,15 +78,9 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
     V = placement.place(present)
     triangles = mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present)
     directions, counts = directions_at(placement, triangles, region_shares(obj, settings.regions))
-    flat = solver.flatten_facets(
-        V,
-        triangles,
-        directions,
-        angle,
-        tolerance * float(np.ptp(V, axis=0).max()),
-        list(_walls(obj, placement, present)),
-        counts,
-    )
+    distance = tolerance * float(np.ptp(V, axis=0).max())
+    walls = list(_walls(obj, placement, present))
+    flat = solver.flatten_facets(V, triangles, directions, angle, distance, walls, counts)
     if not flat.count:
         raise CubicCraftError(
             f'"{obj.name}" has no sides that can be flattened: raise Angle or Tolerance, or cubify'
@@ -90,7 +90,17 @@ def flat_facets(obj: bpy.types.Object, angle: float, tolerance: float) -> Facets
     back = placement.read_back(flat.positions).astype(np.float32)
     positions = np.where(is_moved[:, None], back, present)
     deviation = flat.deviation_of(placement.place(positions))
-    return Facets(positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, deviation)
+    polygons = None
+    if with_polygons:
+        charts = mesh_bridge.charts(mesh_bridge.mesh_of(obj), present)
+        made = solver.low_poly(V, triangles, directions, distance, walls, counts, charts)
+        is_moved = (made.positions != V).any(axis=1)
+        back = placement.read_back(made.positions).astype(np.float32)
+        back = np.where(is_moved[:, None], back, present)
+        polygons = Polygons(back, made.polygons, made.part_of, made.parts, triangles, made.places)
+    return Facets(
+        positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, deviation, polygons
+    )
 
 
 def _settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:

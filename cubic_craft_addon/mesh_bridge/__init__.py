@@ -31,10 +31,11 @@ from .memory.original import (
 )
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
+from .result.charts import charts
 from .result.cover import Look, cover_problem, covers, distance, is_still
 from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
-from .result.ngons import write_ngons
+from .result.ngons import Polygons, write_ngons
 from .result.plain_copy import plain_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
@@ -46,10 +47,12 @@ __all__ = (
     "KINDS",
     "LastRun",
     "Look",
+    "Polygons",
     "Preview",
     "Start",
     "as_seen",
     "carried_attributes",
+    "charts",
     "check_editable",
     "check_relative_keys",
     "check_usable",

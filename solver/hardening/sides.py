@@ -75,7 +75,8 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, before=None):
     if before is not None:
         had = np.flatnonzero((before >= 0) & (before < costs.shape[1] - 1))
         costs[had, before[had]] -= STEADY
-    side = _smooth(costs, _followed(graph, form_of, is_free))
+    is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
+    side = smooth_labels(costs, border_shares(graph, is_followed & ~is_free[graph.other]))
     side[is_free | (side == costs.shape[1] - 1)] = NO_SIDE
     faced = np.zeros_like(local)
     for number, (flat, _) in enumerate(parted):
@@ -115,17 +116,19 @@ def _costs(local, forms, form_of):
     return costs
 
 
-def _followed(graph, form_of, is_free):
-    """Return the shares (m,m) of the neighbors that a triangle follows: those of the same form."""
-    is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
-    weights = graph.length * (is_followed & ~is_free[graph.other])
+def border_shares(graph, is_followed):
+    """Return the shares (m,m) of the neighbors that a triangle follows, by pairs (k,) that do."""
+    weights = graph.length * is_followed
     total = graph.sums(weights)
-    shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ graph.matrix(weights, 0.0 * total)
+    ends = np.stack([graph.one, graph.other])
+    entries = (np.tile(weights, 2), (ends.ravel(), ends[::-1].ravel()))  # two may share two edges
+    lengths = sp.csr_matrix(entries, shape=(len(total), len(total)))
+    shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ lengths
     return shares.tocsr().astype(np.float32)
 
 
-def _smooth(costs, shares):
-    """Return the likeliest label (m,) of each triangle."""
+def smooth_labels(costs, shares):
+    """Return the likeliest label (m,) of each triangle, by costs (m,k) and `border_shares`."""
     p = _likely(-costs)
     for _ in range(ROUNDS):
         p = _likely(WEIGHT * (shares @ p) - costs)
@@ -149,7 +152,12 @@ def _leaning(graph, local, side, faced, form_of):
     count, region = components(np.empty((0, 3), np.int64), len(side), pairs)
     weighted = graph.areas[:, None] * local
     mean = unit(np.stack([np.bincount(region, x, count) for x in weighted.T], axis=1))[region]
+    return np.where(side[:, None] >= 0, straightened(mean, faced), 0.0)
+
+
+def straightened(mean, faced):
+    """Return unit normals between means (m,3) and what they face (m,3), which is kept if near."""
     t = (np.einsum("mj,mj->m", mean, faced) - LEANING[1]) / (LEANING[0] - LEANING[1])
     t = np.clip(t, 0.0, 1.0)
     t = (t * t * (3.0 - 2.0 * t))[:, None]
-    return unit(np.where(side[:, None] >= 0, t * mean + (1.0 - t) * faced, 0.0))
+    return np.where(t > 0.0, unit(t * mean + (1.0 - t) * faced), faced)

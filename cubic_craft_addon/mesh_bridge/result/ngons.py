@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A copy of an object whose planar facets are single faces."""
+"""A copy of an object as few planar polygons."""
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import bmesh
 import bpy
@@ -12,27 +14,46 @@ from ..access.copies import remove_copy
 from .new_object import link_beside, select_instead
 from .plain_copy import plain_copy
 
-_ANGLE = 1e-3  # radians; small triangles of a facet are off by the rounding of their corners
+_BENT = math.radians(10.0)
+"""edges between faces at a larger angle are those between sides"""
+_LAYERS = {"CREASES": "crease_edge", "BEVEL": "bevel_weight_edge"}
+
+
+@dataclass(frozen=True)
+class Polygons:
+    """Few polygons that take the place of the faces of a mesh."""
+
+    positions: np.ndarray
+    """(n,3) float32, object space"""
+    loops: list[list[int]]
+    """the vertices of each"""
+    part_of: list[int]
+    """the part of the surface that each is of"""
+    parts: np.ndarray
+    """(m,) the same of each triangle of the mesh"""
+    triangles: np.ndarray
+    """(m,3) these"""
+    places: np.ndarray
+    """(n,) of vertices at the same place, the first, which stands for all"""
 
 
 def write_ngons(
     obj: bpy.types.Object,
-    positions: np.ndarray,
-    facet_of: np.ndarray,
+    polygons: Polygons,
+    edges: str = "NONE",
     finish: Callable[[bpy.types.Object], None] = lambda new: None,
 ) -> bpy.types.Object:
-    """Copy an object in another shape, and dissolve the faces of each facet.
+    """Copy an object as few polygons, with flat shading.
 
     The copy is named "<name> Facets", lies in the collections of the source, and takes its place
     in the selection, as with `write_new_object`. It keeps UVs, materials, vertex groups and
-    modifiers, but no shape keys and no original. Edges stay where UVs or materials change, or that
-    are seams or sharp.
+    modifiers, but no shape keys and no original.
 
     Parameters
     ----------
     obj : an object with a mesh, not in Edit Mode
-    positions : (n,3) numpy float32 array, object space, in which the facets are planar
-    facet_of : (m,) numpy int array, the facet of each of its `triangles`, or -1
+    polygons
+    edges : "NONE", "CREASES" or "BEVEL": the weights of edges between sides
     finish : called last, with the new object
 
     Returns
@@ -47,10 +68,10 @@ def write_ngons(
     """
     mesh = mesh_of(obj)
     active, is_selected = bpy.context.view_layer.objects.active, obj.select_get()
-    new = plain_copy(obj, positions)
+    new = plain_copy(obj, polygons.positions)
     try:
         new_mesh = mesh_of(new)
-        _dissolve(new_mesh, _facet_of_faces(new_mesh, facet_of))
+        _rebuild(new_mesh, polygons, edges)
         new_mesh.name, new.name = f"{mesh.name} Facets", f"{obj.name} Facets"
         link_beside(obj, new)
         select_instead(obj, new)
@@ -64,43 +85,76 @@ def write_ngons(
     return new
 
 
-def _facet_of_faces(mesh: bpy.types.Mesh, facet_of: np.ndarray) -> np.ndarray:
-    """Return the facet of each face whose triangles all lie in the same one, or -1."""
-    starts = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    first = starts - 2 * np.arange(len(starts))  # a face of k corners has k - 2 triangles
-    lowest = np.minimum.reduceat(facet_of, first)
-    return np.where(lowest == np.maximum.reduceat(facet_of, first), lowest, -1)
-
-
-def _dissolve(mesh: bpy.types.Mesh, facet_of: np.ndarray) -> None:
-    """Dissolve the edges inside facets, and the vertices on straight edges between them."""
+def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
+    """Put the polygons in place of all faces; corners keep the data of those they come from."""
+    if "custom_normal" in mesh.attributes:  # of the smooth shape
+        mesh.attributes.remove(mesh.attributes["custom_normal"])
+    face_of = _faces_of_triangles(mesh)
+    source = {
+        (part, polygons.places[vertex]): (face, vertex)
+        for part, face, corners in zip(
+            polygons.parts.tolist(), face_of, polygons.triangles.tolist(), strict=True
+        )
+        for vertex in corners
+    }
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)
         edited.faces.ensure_lookup_table()
-        facets = facet_of.tolist()
-        edges = [edge for edge in edited.edges if _is_inside(edge, facets)]
-        verts = [
-            vert
-            for vert in edited.verts
-            if any(facets[face.index] >= 0 for face in vert.link_faces)
-        ]
-        bmesh.ops.dissolve_limit(
-            edited,
-            angle_limit=_ANGLE,
-            use_dissolve_boundaries=False,
-            verts=verts,
-            edges=edges,
-            delimit={"UV", "MATERIAL", "SEAM", "SHARP"},
-        )
+        edited.verts.ensure_lookup_table()
+        old = list(edited.faces)
+        marks = _marks(edited, dict(zip(face_of, polygons.parts.tolist(), strict=True)))
+        made = {}
+        for loop, part in zip(polygons.loops, polygons.part_of, strict=True):
+            verts = [edited.verts[v] for v in loop]
+            face = edited.faces.get(verts)
+            if face is None:
+                face = edited.faces.new(verts, old[source[part, loop[0]][0]])
+            for corner in face.loops:
+                number, vertex = source[part, corner.vert.index]
+                corner.copy_from(_corner(old[number], vertex))
+            face.smooth = False
+            made[face] = part
+        bmesh.ops.delete(edited, geom=[f for f in old if f not in made], context="FACES")
+        _mark(edited, made, marks, edges)
         edited.to_mesh(mesh)
     finally:
         edited.free()
     mesh.update()
 
 
-def _is_inside(edge: bmesh.types.BMEdge, facets: list[int]) -> bool:
-    """Return whether all faces at an edge lie in the same facet."""
-    found = {facets[face.index] for face in edge.link_faces}
-    return len(found) == 1 and -1 not in found
+def _faces_of_triangles(mesh: bpy.types.Mesh) -> list[int]:
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    return np.repeat(np.arange(len(sizes)), sizes - 2).tolist()
+
+
+def _corner(face: bmesh.types.BMFace, vertex: int) -> bmesh.types.BMLoop:
+    return next(corner for corner in face.loops if corner.vert.index == vertex)
+
+
+def _marks(edited: bmesh.types.BMesh, part_of: dict[int, int]) -> dict[tuple[int, int], np.ndarray]:
+    """Return, by pairs of parts, the number of edges between them, of seams and of sharp ones."""
+    found: dict[tuple[int, int], np.ndarray] = {}
+    for edge in edited.edges:
+        pair = tuple(sorted(part_of[face.index] for face in edge.link_faces))
+        if len(pair) == 2 and pair[0] != pair[1]:
+            count = found.setdefault(pair, np.zeros(3, int))
+            count += (1, edge.seam, not edge.smooth)
+    return found
+
+
+def _mark(edited, made, marks, edges) -> None:
+    """Mark edges as most of those were that they come from, and weigh those between sides."""
+    layer = None
+    if edges in _LAYERS:
+        layers = edited.edges.layers.float
+        layer = layers.get(_LAYERS[edges]) or layers.new(_LAYERS[edges])
+    for edge in edited.edges:
+        pair = tuple(sorted(made[face] for face in edge.link_faces if face in made))
+        if pair in marks:
+            count, seams, sharp = marks[pair]
+            edge.seam, edge.smooth = bool(2 * seams > count), not 2 * sharp > count
+        if layer is not None:
+            is_bent = len(edge.link_faces) == 2 and edge.calc_face_angle(0.0) > _BENT
+            edge[layer] = 1.0 if is_bent else 0.0

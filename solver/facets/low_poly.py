@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A shape as few planar polygons, one for each of its sides where that can be."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..aliases import BoolArray, Faces, FloatArray, IntArray
+from ..mesh.components import components
+from ..mesh.face_graph import FaceGraph
+from ..mesh.mesh_checks import check_mesh
+from ..mesh.nearest_on_planes import MOST, nearest_on_planes
+from ..mesh.unit_box import unit_box
+from ..proxy.weld import weld
+from .outlines import Outlines
+from .polygons import filled
+from .regions import regions_of
+
+COURSE = 0.007
+"""of the size: how far the border of two sides may leave its course"""
+FLATNESS = 2e-4
+"""of the size: how far the corners of a polygon may be from its plane"""
+STRAY = 0.6
+"""of the tolerance: how far a side may stray from its plane"""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LowPoly:
+    """Few polygons in place of many triangles."""
+
+    positions: FloatArray
+    """(n,3) of all vertices, in the unit of the input; those in no polygon stay where they were"""
+    polygons: list[list[int]]
+    """the vertices of each polygon, counterclockwise; of vertices at the same place, the first"""
+    part_of: list[int]
+    """the part of the surface that each polygon is of"""
+    region_of: list[int]
+    """its side; several parts may be of one"""
+    parts: IntArray
+    """(m,) the part of each triangle"""
+    places: IntArray
+    """(n,) of vertices at the same place, the first"""
+
+
+def low_poly(
+    positions: ArrayLike,
+    triangles: Faces,
+    directions: FloatArray,
+    tolerance: float,
+    walls: Iterable[tuple[BoolArray, FloatArray]] = (),
+    counts: BoolArray | None = None,
+    charts: IntArray | None = None,
+) -> LowPoly:
+    """Replace the sides of a shape by polygons.
+
+    Parameters
+    ----------
+    positions, triangles, tolerance, walls, counts
+        As of `flatten_facets`.
+    directions : (k,3) array
+        Unit vectors.
+    charts : (m,) int array, optional
+        Polygons end between triangles of different ones, such as those of two materials.
+    """
+    V, F = check_mesh(positions, triangles)
+    box = unit_box(V)
+    group, first, _ = weld(box.to_unit(V), F)
+    W, G = box.to_unit(V[first]), group[F]
+    graph = FaceGraph(W, G)
+    tolerance /= box.size
+    regions = regions_of(W, G, graph, directions, STRAY * tolerance, counts)
+    walls = [(is_inside[first], normal / np.linalg.norm(normal)) for is_inside, normal in walls]
+    P = _corners(W, G, regions, tolerance, walls)
+    region, parts = regions.of_triangle, _parts(graph, regions.of_triangle, charts)
+    outlines = Outlines(P, G, parts, COURSE)
+    region_of_part = np.zeros(parts.max() + 1, np.int64)
+    region_of_part[parts] = region
+    found = {}
+    for part, loops in outlines.loops.items():
+        made = filled(P, loops, regions.normals[region_of_part[part]], FLATNESS)
+        for loop in made:
+            back = found.pop(frozenset(loop), None)  # of a wall without thickness: both go
+            if back is None:
+                found[frozenset(loop)] = first[loop].tolist(), part
+    polygons, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
+    result = V.copy()
+    used = np.unique(group[np.concatenate(polygons)]) if polygons else []
+    result[first[used]] = box.from_unit(P[used])
+    region_of = region_of_part[part_of].tolist()
+    return LowPoly(result, polygons, part_of, region_of, parts, first[group])
+
+
+def _corners(W, G, regions, tolerance, walls):
+    """Move the vertices into the planes of their regions, those of the larger ones first."""
+    count = len(regions.areas)
+    keys = np.unique(G.astype(np.int64) * count + regions.of_triangle[:, None])
+    vertex, plane = np.divmod(keys, count)
+    most = np.full(len(W), MOST)
+    return nearest_on_planes(
+        W, vertex, plane, regions.normals, regions.offsets, most, tolerance, walls
+    )[0]
+
+
+def _parts(graph, region, charts):
+    """Return the connected parts (m,) of one region and one chart."""
+    is_same = region[graph.one] == region[graph.other]
+    if charts is not None:
+        is_same &= charts[graph.one] == charts[graph.other]
+    pairs = np.stack([graph.one[is_same], graph.other[is_same]], axis=1)
+    return components(np.empty((0, 3), np.int64), len(region), pairs)[1]

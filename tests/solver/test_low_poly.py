@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Few planar polygons in place of the sides of a shape: closed, planar, straight, and near it."""
+
+from collections import Counter
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from shapes import blob, extent, rotation, sheet
+
+from solver import low_poly, stylize
+
+SIDES = np.concatenate([np.eye(3), -np.eye(3)])
+
+
+def edges_of(polygons):
+    return [edge for loop in polygons for edge in pairwise([*loop, loop[0]])]
+
+
+def off_plane(V, loop):
+    X = V[loop] - V[loop].mean(axis=0)
+    return np.abs(X @ np.linalg.svd(X, full_matrices=False)[2][-1]).max()
+
+
+def rounded_box(n=16, seed=0):
+    """Return a box of side 1 with rounded edges and noise."""
+    V, F = sheet(n + 1)
+    flat = V * [1.0, 1.0, 0.0] - [0.5, 0.5, -0.5]
+    turns = [rotation(), *(rotation(x=x) for x in (90, 180, -90)), rotation(y=90), rotation(y=-90)]
+    points = np.round(np.concatenate([flat @ R.T for R in turns]), 9) + 0.0
+    V, group = np.unique(points, axis=0, return_inverse=True)
+    F = np.concatenate([group.ravel()[F + number * len(flat)] for number in range(6)])
+    inner = np.clip(V, -0.45, 0.45)
+    away = V - inner
+    V = inner + 0.05 * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
+    return V + np.random.default_rng(seed).uniform(-0.002, 0.002, V.shape), F
+
+
+def test_a_rounded_box_becomes_six_squares():
+    V, F = rounded_box()
+    made = low_poly(V, F, SIDES, 0.06)
+    assert len(made.polygons) == 6 and {len(loop) for loop in made.polygons} == {4}
+    assert len({v for loop in made.polygons for v in loop}) == 8
+    edges = Counter(edges_of(made.polygons))
+    assert set(edges.values()) == {1} and all((b, a) in edges for a, b in edges)  # closed
+    assert max(off_plane(made.positions, loop) for loop in made.polygons) < 1e-12
+    corners = made.positions[sorted({v for loop in made.polygons for v in loop})]
+    np.testing.assert_allclose(np.abs(corners), 0.5, atol=0.005)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_crisp_blob_becomes_few_planar_polygons(seed):
+    V, F = blob(4)
+    V = V @ rotation(10 * seed, 20 * seed, 5).T
+    U = stylize(V, F, cubeness=0.6, crispness=1.0, detail_strength=0.0).positions
+    size = extent(U)
+    made = low_poly(U, F, SIDES, 0.02 * size)
+    assert len(made.polygons) < 0.06 * len(F)
+    assert max(map(len, made.polygons)) <= 64
+    assert all(len(set(loop)) == len(loop) >= 3 for loop in made.polygons)
+    edges = Counter(edges_of(made.polygons))
+    assert set(edges.values()) == {1} and all((b, a) in edges for a, b in edges)
+    assert max(off_plane(made.positions, loop) for loop in made.polygons) < 5e-4 * size
+    moves = np.linalg.norm(made.positions - U, axis=1)
+    assert 0.0 < moves.max() <= 0.02 * size * (1 + 1e-9)
+
+
+def test_charts_and_holes_part_sides():
+    V, F = sheet(9)
+    V = V * [1.0, 1.0, 0.0]
+    x, y = V[F].mean(axis=1)[:, :2].T / V[:, :2].max()
+    is_hole = (np.abs(x - 0.5) < 0.13) & (np.abs(y - 0.5) < 0.13)
+    made = low_poly(V, F, SIDES, 0.1, charts=is_hole.astype(int))
+    assert sorted(Counter(made.part_of).values()) == [1, 2]  # a ring is two polygons
+    frame = low_poly(V, F[~is_hole], SIDES, 0.1)
+    assert len(frame.polygons) == 2
+    used = {v for loop in frame.polygons for v in loop}
+    assert len(used) == 8
+
+
+def test_vertices_at_one_place_are_one():
+    V, F = rounded_box(8)
+    apart = low_poly(V[F.ravel()], np.arange(F.size).reshape(-1, 3), SIDES, 0.1)
+    together = low_poly(V, F, SIDES, 0.1)
+    assert len(apart.polygons) == len(together.polygons) == 6
+    assert all((b, a) in edges_of(apart.polygons) for a, b in edges_of(apart.polygons))
