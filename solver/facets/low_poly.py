@@ -14,6 +14,7 @@ from ..mesh.mesh_checks import check_mesh
 from ..mesh.nearest_on_planes import MOST, nearest_on_planes
 from ..mesh.unit_box import unit_box
 from ..proxy.weld import weld
+from ..values import Value
 from .outlines import Outlines
 from .polygons import filled
 from .regions import regions_of
@@ -27,8 +28,20 @@ STRAY = 0.6
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LowPoly:
-    """Few polygons in place of many triangles."""
+class LowPoly(Value):
+    """Few polygons in place of many triangles, as `low_poly` returns them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import low_poly
+    >>> V = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
+    >>> sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    >>> F = np.array([[a, b, c] for a, b, c, d in sides] + [[a, c, d] for a, b, c, d in sides])
+    >>> low = low_poly(V, F, np.concatenate([np.eye(3), -np.eye(3)]), 0.02)
+    >>> len(F), sorted(map(len, low.polygons))
+    (12, [4, 4, 4, 4, 4, 4])
+    """
 
     positions: FloatArray
     """(n,3) of all vertices, in the unit of the input; those in no polygon stay where they were"""
@@ -63,6 +76,30 @@ def low_poly(
         Unit vectors.
     charts : (m,) int array, optional
         Polygons end between triangles of different ones, such as those of two materials.
+
+    Returns
+    -------
+    LowPoly
+
+    Raises
+    ------
+    CubicCraftError
+        As `flatten_facets`.
+
+    See Also
+    --------
+    flatten_facets : Makes the sides of the triangles themselves planar.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import low_poly
+    >>> V = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
+    >>> sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    >>> F = np.array([[a, b, c] for a, b, c, d in sides] + [[a, c, d] for a, b, c, d in sides])
+    >>> low = low_poly(V, F, np.concatenate([np.eye(3), -np.eye(3)]), 0.02)
+    >>> len(F), sorted(map(len, low.polygons))
+    (12, [4, 4, 4, 4, 4, 4])
     """
     V, F = check_mesh(positions, triangles)
     box = unit_box(V)
