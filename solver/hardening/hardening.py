@@ -113,11 +113,12 @@ def hardening_of(stylization, before=None):
     if style.forms:  # what is inside out faces the other way
         directions = directions * rest.outward[F[:, 0]]
     soft = stylization.positions.copy()
-    if (style.detail_strength != 1.0).any():
-        added = (style.detail_strength - 1.0) * base.heights
+    strength = 1.0 + (style.detail_strength - 1.0) * _share_of_thickness(rest)
+    if (strength != 1.0).any():
+        added = (strength - 1.0) * base.heights
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
-    heights = style.detail_strength * base.heights
+    heights = strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
     return Hardening(soft, R, crispness, target, side)
 
@@ -128,13 +129,18 @@ def _crispness_of(style, rest):
     What is thinner than details is one itself. What is hardly drawn to the form does not snap to
     it: a shape whose cubeness is keyed from 0 on becomes crisp bit by bit.
     """
-    crispness = style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
+    drawn = np.minimum(style.cubeness / DRAWN, 1.0)
+    return style.crispness * drawn * _share_of_thickness(rest)
+
+
+def _share_of_thickness(rest):
+    """Return how far vertices (n,) are thicker than details, from 0 to 1."""
     if not rest.options.detail:
-        return crispness
+        return np.ones(len(rest.V))
     component = rest.topology.component
     size = rest.options.detail * np.maximum(extents(rest.V, component), 1e-12)[component]
     t = np.clip((rest.thickness / size - THIN[0]) / (THIN[1] - THIN[0]), 0.0, 1.0)
-    return crispness * t * t * (3.0 - 2.0 * t)
+    return t * t * (3.0 - 2.0 * t)
 
 
 def _at_faces(R, F):
