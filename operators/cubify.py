@@ -122,7 +122,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         if groups is not None:
             layout.prop_search(self, "map_group", groups, "vertex_groups", text="Cubeness Map")
             layout.prop(self, "map_invert")
-            layout.prop_search(self, "detail_group", groups, "vertex_groups", text="Details")
+            layout.prop_search(self, "detail_group", groups, "vertex_groups")
         layout.prop(self, "result")
         if self.result == "NEW_OBJECT":
             layout.prop(self, "with_modifiers")

@@ -143,6 +143,7 @@ def _draw_shape(layout, obj):
     title_row.label(text="Advanced")
     if body is not None:
         form_panel.draw_capture(body, properties)
+        body.prop_search(live.own_properties(obj), "detail_group", obj, "vertex_groups")
         draw_advanced(body, properties)
 
 
@@ -152,7 +153,6 @@ def _draw_map(layout, obj):
     row = layout.row()
     row.active = bool(properties.map_group)
     row.prop(properties, "map_invert")
-    layout.prop_search(properties, "detail_group", obj, "vertex_groups", text="Details")
     is_painted = obj.mode == "WEIGHT_PAINT"
     text = "Back to Object Mode" if is_painted else "Paint Map"
     icon = "OBJECT_DATAMODE" if is_painted else "BRUSH_DATA"

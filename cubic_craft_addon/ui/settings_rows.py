@@ -10,11 +10,9 @@ from typing import Any
 def draw_volume(layout: Any, properties: Any) -> None:
     """Draw what is kept of pose, details, thickness and parts."""
     layout.prop(properties, "keep_pose")
-    column = layout.column(align=True)
-    column.prop(properties, "detail", slider=True)
-    row = column.row(align=True)
-    row.active = properties.detail > 0.0
-    row.prop(properties, "detail_strength", text="Strength", slider=True)
+    row = layout.row(align=True, heading="Detail")
+    row.prop(properties, "detail", text="", slider=True)
+    row.prop(properties, "detail_strength", text="", slider=True)
     layout.prop(properties, "solidity", slider=True)
     layout.prop(properties, "keep_apart")
     layout.prop(properties, "together")

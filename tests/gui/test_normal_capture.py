@@ -33,6 +33,8 @@ def shape(ball, power):
 
 def open_advanced():
     """Click on the header below the last setting of Form and Volume."""
+    yield from gui.find_button("cubic_craft.floor")
+    yield from gui.turn_wheel("WHEELDOWNMOUSE", 3)
     above = yield from gui.find_button("cubic_craft.floor")
     yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
     yield from gui.wait_redraw("UI")
