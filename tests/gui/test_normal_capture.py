@@ -33,8 +33,10 @@ def shape(ball, power):
 
 def open_advanced():
     """Click on the header below the last setting of Form and Volume."""
-    yield from gui.find_button("cubic_craft.floor")
-    yield from gui.turn_wheel("WHEELDOWNMOUSE", 3)
+    above = yield from gui.find_button("cubic_craft.together")
+    yield from gui.move_mouse(above.at(0.5))
+    yield from gui.turn_wheel("WHEELDOWNMOUSE", 2)
+    yield 1.0  # Blender scrolls smoothly
     above = yield from gui.find_button("cubic_craft.floor")
     yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
     yield from gui.wait_redraw("UI")
