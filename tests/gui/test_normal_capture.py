@@ -6,7 +6,7 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 
-HEADER = 16  # pixels from the button above to the middle of the header
+HEADER = 60  # pixels from the button below to the middle of the header
 
 
 def add_ball():
@@ -32,13 +32,10 @@ def shape(ball, power):
 
 
 def open_advanced():
-    """Click on the header below the last setting of Form and Volume."""
-    above = yield from gui.find_button("cubic_craft.together")
-    yield from gui.move_mouse(above.at(0.5))
-    yield from gui.turn_wheel("WHEELDOWNMOUSE", 2)
-    yield 1.0  # Blender scrolls smoothly
-    above = yield from gui.find_button("cubic_craft.floor")
-    yield from gui.click((above.at(0.5)[0], round(above.bottom - HEADER)))
+    """Click on the header above that of the next section, which begins with Show Form."""
+    below = yield from gui.find_button("cubic_craft_overlay")
+    x, y = below.at(0.5)
+    yield from gui.click((x, round(y + HEADER)))
     yield from gui.wait_redraw("UI")
 
 
