@@ -53,7 +53,7 @@ def test_progress_rises_to_one():
     progress = Progress(100, 1e-3)
     values = []
     for k in range(1, 101):
-        state = SimpleNamespace(iteration=k, displacement=0.5**k, distance=1.0)
+        state = SimpleNamespace(iteration=k, displacement=0.5**k, distance=1.0, is_limited=False)
         values.append(progress.update(state))
     assert values == sorted(values)
     assert 0.0 < values[0] < 0.2

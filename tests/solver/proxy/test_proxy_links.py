@@ -170,7 +170,7 @@ def test_solidity_can_be_changed_without_another_search(monkeypatch):
     rest = rest_mesh(V, F, ProxyOptions())
     monkeypatch.setattr("solver.rest.thickness_links", None)
     other = rest.with_options(replace(rest.options, solidity=0.5))
-    assert other.links.weights.sum() == pytest.approx(5 * rest.links.weights.sum())
+    assert other.links.weights.sum() == pytest.approx(0.5 / 0.3 * rest.links.weights.sum())
     hollow = rest.with_options(replace(rest.options, solidity=0.0))
     fresh = hollow.with_options(rest.options)
     np.testing.assert_array_equal(fresh.matrices.laplacian, rest.matrices.laplacian)

@@ -43,8 +43,8 @@ def test_a_seam_is_closed(make):
 def test_a_seam_changes_nothing(make):
     V, F = shapes.blob(2)
     W, G = make(V, F)
-    whole = stylize(V, F, 0.4, proxy=ProxyOptions(), **RUN)
-    parts = stylize(W, G, 0.4, proxy=ProxyOptions(), **RUN)
+    whole = stylize(V, F, 0.4, proxy=ProxyOptions(solidity=0.1), **RUN)
+    parts = stylize(W, G, 0.4, proxy=ProxyOptions(solidity=0.1), **RUN)
     place = np.array([np.flatnonzero((w == V).all(axis=1))[0] for w in W[G.ravel()]])
     assert np.abs(parts.positions[G.ravel()] - whole.positions[place]).max() < 2e-3
 
