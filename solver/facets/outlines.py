@@ -115,7 +115,7 @@ class Outlines:
         while open_spans:
             a, b = open_spans.pop()
             at, off = self._farthest(chain, a, b)
-            if off > course:
+            if at is not None and off > course:
                 kept.append(at)
                 open_spans += [(a, at), (at, b)]
         return sorted(kept)

@@ -162,4 +162,4 @@ def _planes(V, F, graph, region, label, directions):
     normals = straightened(mean, faced)
     heights = np.einsum("mj,mj->m", V[F].mean(axis=1), normals[region])
     offsets = np.bincount(region, graph.areas * heights, count) / np.where(area > 0.0, area, 1.0)
-    return region, Regions(region, normals, offsets, area)
+    return region, Regions(region, normals, offsets, np.asarray(area, dtype=np.float64))

@@ -205,8 +205,8 @@ class FrameSequence:
                     yield
         if stylization.style.is_hardened:
             # a mesh that does not move ends as it does alone
-            is_steady = self.state is not None and self._forgotten and len(self.state.sides)
-            run.harden(self.state.sides if is_steady else None)
+            before = self.state.sides if self.state is not None and self._forgotten else ()
+            run.harden(before if len(before) else None)
             while run.reason is None:
                 yield
                 run.advance()

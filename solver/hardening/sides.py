@@ -124,7 +124,7 @@ def border_shares(graph, is_followed):
     entries = (np.tile(weights, 2), (ends.ravel(), ends[::-1].ravel()))  # two may share two edges
     lengths = sp.csr_matrix(entries, shape=(len(total), len(total)))
     shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ lengths
-    return shares.tocsr().astype(np.float32)
+    return sp.csr_matrix(shares, dtype=np.float32)
 
 
 def smooth_labels(costs, shares):
