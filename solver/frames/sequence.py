@@ -205,8 +205,8 @@ class FrameSequence:
                     yield
         if stylization.style.is_hardened:
             # a mesh that does not move ends as it does alone
-            before = self.state.sides if self.state is not None and self._forgotten else ()
-            run.harden(before if len(before) else None)
+            before = self.state.sides if self.state is not None and self._forgotten else None
+            run.harden(before if before is not None and len(before) else None)
             while run.reason is None:
                 yield
                 run.advance()

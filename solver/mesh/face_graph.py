@@ -60,7 +60,9 @@ class FaceGraph:
     def matrix(self, values, diagonal):
         """Return the symmetric csr_matrix (m,m) of values (k,) of pairs, and the diagonal (m,)."""
         pattern = self._pattern
-        data = np.concatenate([values, values, diagonal])[np.asarray(pattern.data, dtype=np.intp) - 1]
+        data = np.concatenate([values, values, diagonal])[
+            np.asarray(pattern.data, dtype=np.intp) - 1
+        ]
         return sp.csr_matrix((data, pattern.indices, pattern.indptr), shape=pattern.shape)
 
     def sums(self, values):

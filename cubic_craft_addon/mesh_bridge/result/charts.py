@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of a mesh that are set apart by UVs, materials, seams or sharp edges."""
 
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -51,7 +53,7 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
 _SAME = 1e-5  # between UVs
 
 
-def _read(items, name, width, kind):
+def _read(items: Any, name: str, width: int, kind: Any) -> Any:
     """Return a property of items as an array, (i,) or (i,width)."""
     values = np.empty(len(items) * width, kind)
     items.foreach_get(name, values)

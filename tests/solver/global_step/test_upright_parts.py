@@ -100,7 +100,9 @@ def asymmetry(rest, U):
 def test_several_do_as_each_would_alone():
     V, F = lamp()
     far = V + [4.0, 0.0, 0.0]
-    options = ProxyOptions(solidity=0.1, keep_pose=False, detail=0.0)  # their sample of thickness is another
+    options = ProxyOptions(
+        solidity=0.1, keep_pose=False, detail=0.0
+    )  # their sample of thickness is another
     both = rest_mesh(*proxy_shapes.joined((V, F), (far, F)), options)
     one = rest_mesh(V, F, options)
     together, alone = (
