@@ -191,10 +191,9 @@ class Setup(Stored):
         other = copy(self)
         other.__dict__.pop("coarse", None)
         other.rest = rest.linked(links)
-        hold = self.global_step.hold
-        other.has_pin = np.full(other.rest.topology.component_count, hold is not None)
+        other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
         other.has_pin[other.rest.topology.component[self.pinned]] = True
-        other.global_step = GlobalStep(other.rest, self.pinned, hold)
+        other.global_step = GlobalStep(other.rest, self.pinned)
         if self.hold_fields is None:
             return other
         weights, other.hold_fields = self.hold_fields.weights, None

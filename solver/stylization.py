@@ -118,7 +118,6 @@ class Stylization(Stored):
         self.options = instance(options, "options", SolverOptions)
         self.is_coarse = False
         self.hardening: Hardening | None = None
-        self._placed: tuple[FloatArray, FloatArray] | None = None
         keep_rotation = options.keep_rotation
         self._style = solved_style(style, setup, pose.limbs, keep_rotation=keep_rotation)
         self._begin_at_rest(setup, pose)
@@ -145,7 +144,7 @@ class Stylization(Stored):
         most_cubeness: float = math.inf,
     ) -> None:
         """Make both steps for a setup, from positions U (n,3) and rotations R (n,3,3)."""
-        self.setup, self.rest, self._placed = setup, setup.rest, None
+        self.setup, self.rest = setup, setup.rest
         self.is_limited = most_cubeness < math.inf
         self._local = self._local_step_of(setup.rest, most_cubeness)
         constraints: list[Mirror | Holds] = list(setup.mirrors)
@@ -187,7 +186,7 @@ class Stylization(Stored):
     def continued(self, setup: Setup) -> "Stylization":
         """Return a Stylization that goes on from here, with another setup of the same vertices."""
         other = copy(self)
-        other._begin(setup, self._motion.positions.copy(), self._local.R.copy())
+        other._begin(setup, self.positions.copy(), self.rotations.copy())
         other.is_started = True
         still = np.zeros(other.rest.topology.component_count)
         for _ in range(_FIRST_SOLVES):
@@ -221,7 +220,7 @@ class Stylization(Stored):
         if style is None:
             return None
         other = copy(self)
-        other._style, other._placed = style, None
+        other._style = style
         other.hardening = self.hardening.with_crispness(style, self.rest)
         return other
 
@@ -292,9 +291,6 @@ class Stylization(Stored):
 
     def go_to(self, R: FloatArray, U: FloatArray) -> None:
         """Go to rotations (n,3,3) and positions (n,3) in the unit box, as they are."""
-        if self.hardening is not None:
-            self._placed = R, U
-            return
         self._local.start_from(R)
         self._motion.put(U)
         self._acceleration = self._momentum()
@@ -317,16 +313,14 @@ class Stylization(Stored):
     @property
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
-        if self.hardening is None:
-            return self._motion.positions
-        return self._placed[1] if self._placed else self.hardening.positions(self._motion.positions)
+        U = self._motion.positions
+        return U if self.hardening is None else self.hardening.positions(U)
 
     @property
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
-        if self.hardening is None:
-            return self._local.R
-        return self._placed[0] if self._placed else self.hardening.between(self._local.R)
+        R = self._local.R
+        return R if self.hardening is None else self.hardening.between(R)
 
     @property
     def style(self) -> SolvedStyle:

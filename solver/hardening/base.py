@@ -11,7 +11,7 @@ import numpy as np
 
 from ..algebra import columns, dot
 from ..aliases import FloatArray
-from ..details import unit
+from ..details import at_vertices, unit
 from ..limbs.turns import smallest_turns
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import triangle_areas_and_normals
@@ -50,8 +50,7 @@ def base_of(setup):
     graph = FaceGraph(rest.V, rest.F)
     corners = Corners(rest.F, rest.cotangents, graph.edges, len(rest.V))
     normals, heights = unit(rest.face_normals), np.zeros(len(rest.V))
-    weighted = graph.areas[:, None] * normals
-    upward = unit(corners.sums(np.repeat(weighted[:, None], 3, axis=1)))
+    upward, _ = at_vertices(normals, graph.areas, rest.F, len(rest.V))
     if rest.options.detail:
         away = rest.V - _integrated(setup, corners, graph.normals, normals)
         heights = dot(*columns(away), *columns(upward))

@@ -120,9 +120,7 @@ def border_shares(graph, is_followed):
     """Return the shares (m,m) of the neighbors that a triangle follows, by pairs (k,) that do."""
     weights = graph.length * is_followed
     total = graph.sums(weights)
-    ends = np.stack([graph.one, graph.other])
-    entries = (np.tile(weights, 2), (ends.ravel(), ends[::-1].ravel()))  # two may share two edges
-    lengths = sp.csr_matrix(entries, shape=(len(total), len(total)))
+    lengths = graph.matrix(weights, np.zeros_like(total))
     shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ lengths
     return sp.csr_matrix(shares, dtype=np.float32)
 
