@@ -2,7 +2,6 @@
 """The edges of triangles, and which triangles share them."""
 
 import numpy as np
-import scipy.sparse as sp
 
 
 class Edges:
@@ -97,6 +96,8 @@ def _numbered(lower, upper, n):
 
 def stable_order(keys, count):
     """Return the stable order of integer keys below count, by counting instead of comparing."""
+    import scipy.sparse as sp  # Blender reads charts when the add-on is enabled, perhaps without it
+
     rows = np.arange(len(keys) + 1, dtype=np.int32)
     one_per_row = sp.csr_matrix((keys, keys, rows), shape=(len(keys), count))
     return one_per_row.tocsc().indices
