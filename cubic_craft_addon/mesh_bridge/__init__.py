@@ -42,6 +42,7 @@ from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
+from .result.transferred_keys import key_offsets, transfer_keys
 
 __all__ = (
     "KINDS",
@@ -77,6 +78,7 @@ __all__ = (
     "is_lost",
     "is_still",
     "keep_preview",
+    "key_offsets",
     "last_run",
     "link_beside",
     "make_seen",
@@ -101,6 +103,7 @@ __all__ = (
     "set_groups_aside",
     "show_seen",
     "starts_here",
+    "transfer_keys",
     "triangles",
     "vertex_group",
     "weights_of_groups",

@@ -32,7 +32,7 @@ class MapOptions:
 
     triangles: int = 1000
     resolution: int = 1024
-    flatten: bool = True
+    flatten: bool = False
     uv: str = "AUTO"
 
 
@@ -108,11 +108,17 @@ def _make(
         baked = passing.enter_context(_stand_in(stage, obj, baked_mesh))
         apart = bake_normals(stage, high, baked, image)
         plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
+        seen = mesh_bridge.read_positions(high_mesh)
+        triangles = mesh_bridge.triangles(high_mesh, seen)
+        keys = _keys_as_seen(stage, obj, present, seen)
         problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
+        missing = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj)).keys() - keys
+        problems += [f'shape key "{name}" gives its modifiers other vertices' for name in missing]
     new = obj.copy()
     assert new is not None
     undo.callback(bpy.data.objects.remove, new)
     _pose(new, low_mesh, f"{obj.name} Low")
+    mesh_bridge.transfer_keys(mesh_bridge.mesh_of(obj), new, seen, triangles, keys)
     setattr(new, IMAGE, image)
     problems += _keep(image)
     return NormalMap(new, image, apart, problems)
@@ -126,6 +132,23 @@ def _mesh_of_result(stage: Studio, obj: bpy.types.Object, positions: np.ndarray)
         return stage.evaluated_mesh(copy)
     finally:
         mesh_bridge.remove_copy(copy)
+
+
+def _keys_as_seen(
+    stage: Studio, obj: bpy.types.Object, present: np.ndarray, seen: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Return the offsets of shape keys from the result with its modifiers, seen (n,3).
+
+    One with which they make another number of vertices, as a weld may, is left out.
+    """
+    found = {}
+    for name, offsets in mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj)).items():
+        mesh = _mesh_of_result(stage, obj, present + offsets)
+        positions = mesh_bridge.read_positions(mesh)
+        bpy.data.meshes.remove(mesh)
+        if len(positions) == len(seen):
+            found[name] = positions - seen
+    return found
 
 
 def _low_mesh(

@@ -44,7 +44,7 @@ class NormalMapProperties:
     flatten: BoolProperty(
         name="Flatten Facets",
         description="Make the sides of the low-poly mesh exactly planar before it is decimated",
-        default=True,
+        default=False,
         options=set(),
     )
     uv: EnumProperty(

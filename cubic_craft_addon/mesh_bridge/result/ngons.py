@@ -13,6 +13,8 @@ from ..access.checks import mesh_of
 from ..access.copies import remove_copy
 from .new_object import link_beside, select_instead
 from .plain_copy import plain_copy
+from .reshaped import result_positions
+from .transferred_keys import key_offsets, transfer_keys
 
 _BENT = math.radians(10.0)
 """edges between faces at a larger angle are those between sides"""
@@ -46,12 +48,12 @@ def write_ngons(
     """Copy an object as few polygons, with flat shading.
 
     The copy is named "<name> Facets", lies in the collections of the source, and takes its place
-    in the selection, as with `write_new_object`. It keeps UVs, materials, vertex groups and
-    modifiers, but no shape keys and no original.
+    in the selection, as with `write_new_object`. It keeps UVs, materials, vertex groups, modifiers
+    and shape keys, but no original.
 
     Parameters
     ----------
-    obj : an object with a mesh, not in Edit Mode
+    obj : an object with a result, not in Edit Mode
     polygons
     edges : "NONE", "CREASES" or "BEVEL": the weights of edges between sides
     finish : called last, with the new object
@@ -72,6 +74,8 @@ def write_ngons(
     try:
         new_mesh = mesh_of(new)
         _rebuild(new_mesh, polygons, edges)
+        surface = result_positions(obj), polygons.triangles
+        transfer_keys(mesh, new, *surface, key_offsets(mesh))
         new_mesh.name, new.name = f"{mesh.name} Facets", f"{obj.name} Facets"
         link_beside(obj, new)
         select_instead(obj, new)

@@ -82,7 +82,7 @@ def test_ngons_end_at_the_borders_of_the_artist(border):
         assert x.min() > -0.01 or x.max() < 0.01
 
 
-def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
+def test_ngons_of_a_shape_key():
     obj = add_ball()
     cubify(result="SHAPE_KEY", refine="AUTO")
     flatten(dissolve=True)
@@ -91,13 +91,39 @@ def test_ngons_of_a_shape_key_and_of_a_mesh_with_keys():
     assert len(largest(made.data)) == 6
     assert planar_share(made) > PLANAR
     bpy.ops.cubic_craft.show_source()
-    select(obj)
-    obj.shape_key_add(name="Smile", from_mix=False)
-    cubify(result="MESH", refine="AUTO")
+    assert len(bpy.data.shape_keys) == 1  # none is left over
+
+
+def test_ngons_keep_shape_keys_with_their_settings_and_drivers():
+    obj = add_ball()
+    obj.shape_key_add(name="Basis", from_mix=False)
+    V = position_of(obj.data)
+    smile, wide = (obj.shape_key_add(name=name, from_mix=False) for name in ("Smile", "Wide"))
+    wide.relative_key, wide.slider_max, smile.value = smile, 2.0, 0.5
+    up = np.where(V[:, 2:] > 0.3, [0.0, 0.0, 0.5], 0.0)
+    smile.points.foreach_set("co", (V + up).astype(np.float32).ravel())
+    wide.points.foreach_set("co", (V + up + [0.25, 0.0, 0.0]).astype(np.float32).ravel())
+    wide.driver_add("value").driver.expression = "1.5"
+    cubify(result="MESH", refine="OFF")
     flatten(dissolve=True)
-    assert bpy.context.object.data.shape_keys is None
-    assert len(bpy.data.shape_keys) == 1  # nor are any left over
-    assert [key.name for key in obj.data.shape_keys.key_blocks] == ["Basis", "Smile"]
+    made = bpy.context.object
+    keys = made.data.shape_keys.key_blocks
+    assert keys.keys() == ["Basis", "Smile", "Wide"] and keys["Wide"].relative_key == keys["Smile"]
+    assert keys["Wide"].slider_max == 2.0 and keys["Smile"].value == 0.5
+    assert [d.data_path for d in made.data.shape_keys.animation_data.drivers] == [
+        'key_blocks["Wide"].value'
+    ]
+    z = position_of(made.data)[:, 2]
+    lifted = np.linalg.norm(offsets_of(keys["Smile"])[z > 0.6], axis=1)
+    np.testing.assert_allclose(lifted, 0.5, atol=0.03)
+    assert (offsets_of(keys["Smile"])[z < -0.2] == 0.0).all()
+    lengths = np.linalg.norm(offsets_of(keys["Wide"]), axis=1)
+    np.testing.assert_allclose(lengths, 0.25, atol=0.01)
+
+
+def offsets_of(key):
+    ends = [np.array([point.co for point in of.points]) for of in (key, key.relative_key)]
+    return ends[0] - ends[1]
 
 
 @pytest.mark.parametrize(

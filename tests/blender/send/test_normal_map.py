@@ -227,6 +227,62 @@ def test_a_shape_key(tmp_path):
     np.testing.assert_allclose(points.max(0), keyed.max(0), atol=0.05 * size.max())
 
 
+def key_points(key):
+    return corner_values(key.data, "co", 3)
+
+
+@pytest.mark.parametrize("triangles", [300, 1000, 3000])
+def test_faces_keep_their_expressions_at_each_level_of_detail(triangles):
+    add_detailed()
+    obj = bpy.context.object
+    bpy.ops.cubic_craft.restore()
+    V = corner_values(obj.data.vertices, "co", 3)
+    obj.shape_key_add(name="Basis", from_mix=False)
+    for number in range(20):
+        near = np.exp(-((V - V[97 * number]) ** 2).sum(1) / 0.08)[:, None]
+        key = obj.shape_key_add(name=f"Key {number}", from_mix=False)
+        key.points.foreach_set("co", (V + near * [0.0, 0.2, 0.1]).astype(np.float32).ravel())
+    cubify(result="MESH")
+    blocks = obj.data.shape_keys.key_blocks
+    base, F = key_points(blocks[0]), triangles_of(obj.data)[0]
+    bake(triangles=triangles, resolution=64)
+    low = bpy.context.object
+    assert 0.8 * triangles < len(low.data.polygons) <= triangles
+    keys = low.data.shape_keys.key_blocks
+    assert keys.keys() == blocks.keys()
+    rest = key_points(keys[0])
+    tree = BVHTree.FromPolygons(base.tolist(), F.tolist())
+    around = F[[tree.find_nearest(point)[2] for point in rest.tolist()]]
+    margin = 0.01 * np.ptp(base, axis=0).max()
+    for old, new in zip(blocks[1:], keys[1:], strict=True):
+        offsets, moved = (key_points(old) - base)[around], key_points(new) - rest
+        is_near = (moved > offsets.min(axis=1) - margin) & (moved < offsets.max(axis=1) + margin)
+        assert is_near.mean() > 0.99
+
+
+def test_lips_that_touch_still_part():
+    for z in (-0.5, 0.5):
+        bpy.ops.mesh.primitive_cube_add(size=1.0, location=(0.0, 0.0, z))
+    select(*bpy.context.scene.objects[-2:])
+    bpy.ops.object.join()
+    obj = bpy.context.object
+    bpy.ops.object.transform_apply(location=True)
+    obj.shape_key_add(name="Basis", from_mix=False)
+    key = obj.shape_key_add(name="Open", from_mix=False)
+    V = key_points(key)
+    is_upper = np.arange(len(V)) >= len(V) // 2
+    if V[is_upper, 2].mean() < V[~is_upper, 2].mean():
+        is_upper = ~is_upper
+    key.points.foreach_set("co", (V + np.where(is_upper, 1.0, 0.0)[:, None] * [0, 0, 1]).ravel())
+    cubify(result="MESH", refine="OFF")
+    bake(resolution=64)
+    keys = bpy.context.object.data.shape_keys.key_blocks
+    rest, opened = (key_points(keys[name]) for name in ("Basis", "Open"))
+    lifted = (opened - rest)[:, 2]
+    assert sorted(np.round(lifted).tolist()) == [0.0] * 8 + [1.0] * 8
+    assert rest[lifted > 0.5, 2].mean() == pytest.approx(0.5 + rest[:, 2].mean(), abs=0.05)
+
+
 def test_the_file_lies_beside_the_blend_file(tmp_path, reopen):
     add_detailed()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
