@@ -33,6 +33,9 @@ from .proxy.samples import extents
 from .proxy.thickness import outward_sign, thickness_links
 from .values import Value
 
+_OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness")
+"""cached properties that links change nothing in"""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RestMesh(Value):
@@ -82,6 +85,8 @@ class RestMesh(Value):
     """including the links"""
     triangles: NDArray[np.int32] | None = None
     """(k,3) int32 triangles of the input, as given"""
+    whole: IntArray | None = None
+    """(m,) int the triangle before refinement that each is a piece of; None if it is whole"""
     unposed: "RestMesh | None" = None
     """the mesh that this is a pose of"""
 
@@ -183,9 +188,14 @@ class RestMesh(Value):
         )
 
     @cached_property
+    def face_graph(self) -> FaceGraph:
+        """The FaceGraph of the surface."""
+        return FaceGraph(self.V, self.F)
+
+    @cached_property
     def face_normals(self) -> FloatArray:
         """(m,3) normals of the triangles, without their details; shorter where they disagree."""
-        graph = FaceGraph(self.V, self.F)
+        graph = self.face_graph
         if not self.options.detail:
             return graph.normals
         crease = np.where(self.is_flat, self.smoothness, 1.0)
@@ -258,6 +268,8 @@ class RestMesh(Value):
             matrices=self.matrices.with_links(self.V, links),
         )
         linked.__dict__["linked_share"] = self.linked_share
+        known = {name: self.__dict__[name] for name in _OF_THE_SURFACE if name in self.__dict__}
+        linked.__dict__.update(known)
         return linked
 
     def posed(self, input_positions: ArrayLike) -> "RestMesh":
@@ -428,7 +440,8 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
         skin,
         skin,
     )
-    return replace(rest, matrices=skin.with_links(V, rest.links), triangles=given)
+    matrices = skin.with_links(V, rest.links)
+    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
 
 
 def _needs_other_side(options):

@@ -23,7 +23,7 @@ from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
-from .hardening.hardening import MOST_RINGS, RINGS, ROUNDS
+from .hardening.hardening import ROUNDS
 from .inputs import instance, real_number, switch
 from .progress_bar import progress_bar
 from .result import Reason, Result
@@ -343,20 +343,25 @@ class Run:
         self._begin_at_hard_end(*self._hard)
 
     def _begin_at_hard_end(self, hard: Stylization, soft_apart: KeepApart | None) -> None:
-        self.stylization, self._apart = hard, copy(soft_apart)
-        if self._apart is None:
+        self.stylization, self._apart = hard, soft_apart
+        if soft_apart is None:
             self.reason = self._end
-            return
-        self._phase = partial(self._soften, self._apart, RINGS)
+        else:
+            self._phase = partial(self._soften, soft_apart)
 
-    def _soften(self, apart: KeepApart, rings: int) -> None:
-        """Leave soft what has come to cross; around it the farther, the more often it was tried."""
-        crossing = apart.look(self.stylization)
-        if not len(crossing) or rings > MOST_RINGS:
+    def _soften(self, apart: KeepApart, fewest: int | None = None) -> None:
+        """Leave soft what has come to cross, again and again while that helps."""
+        looked = copy(apart)
+        crossing = looked.look(self.stylization)
+        if fewest is not None and len(crossing) >= fewest:
+            self.stylization, self.reason = self._before, self._end
+            return
+        self._apart, self._before = looked, self.stylization
+        if not len(crossing):
             self.reason = self._end
             return
-        self.stylization = self.stylization.softened(crossing, rings)
-        self._phase = partial(self._soften, apart, 2 * rings)
+        self.stylization = self.stylization.softened(crossing)
+        self._phase = partial(self._soften, apart, len(crossing))
 
     def with_crispness(self, crispness: ArrayLike) -> "Run | None":
         """Return a Run with another crispness, as of a `Style`, that has only its end to find.

@@ -224,11 +224,11 @@ class Stylization(Stored):
         other.hardening = self.hardening.with_crispness(style, self.rest)
         return other
 
-    def softened(self, vertices: IntArray, rings: int) -> "Stylization":
+    def softened(self, vertices: IntArray) -> "Stylization":
         """Return a hardened one at the same point that is soft at vertices (k,) and around them."""
         assert self.hardening is not None
         other = copy(self)
-        other.hardening = self.hardening.softened(self.rest, vertices, rings)
+        other.hardening = self.hardening.softened(self.rest, vertices)
         return other
 
     def moved(self, setup: Setup, pose: Pose | None = None) -> "Stylization":

@@ -35,7 +35,7 @@ class Settings(FormSettings):
     """MESH, SHAPE_KEY or NEW_OBJECT"""
     with_modifiers: bool = False
     """whether the NEW_OBJECT is made with the modifiers applied"""
-    crispness: float = 0.6
+    crispness: float = 0.9
     """how far sides are made flat and edges straight, from 0 to 1"""
     solidity: float = 0.3
     """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""

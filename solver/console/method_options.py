@@ -11,7 +11,7 @@ Adder = Callable[..., None]
 """takes the name of an option, and what `ArgumentParser.add_argument` does besides its help"""
 
 DEFAULTS = {
-    "crispness": (0.6, 0.0),
+    "crispness": (0.9, 0.0),
     "solidity": (0.3, 0.0),
     "keep_pose": ("on", "off"),
     "detail": (0.05, 0.0),
@@ -28,7 +28,7 @@ HELP = {
     "--form-sides": "of a prism or pyramid (default: 6)",
     "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     "--crispness": "how far sides are made flat and edges straight: from 0, soft, to 1 "
-    "(default: 0.6)",
+    "(default: 0.9)",
     "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
     "(default: 0.3)",
     "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "

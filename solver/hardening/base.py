@@ -47,7 +47,7 @@ class Base:
 def base_of(setup):
     """Return the Base of the rest shape of a Setup."""
     rest = setup.rest
-    graph = FaceGraph(rest.V, rest.F)
+    graph = rest.face_graph
     corners = Corners(rest.F, rest.cotangents, graph.edges, len(rest.V))
     normals, heights = unit(rest.face_normals), np.zeros(len(rest.V))
     upward, _ = at_vertices(normals, graph.areas, rest.F, len(rest.V))

@@ -83,15 +83,13 @@ class FaceStep:
         self._free = np.flatnonzero(target.is_free)
         self._flatness = np.where(target.is_free, 0.0, FLATNESS)
         edges = self._flat_edges()
-        self._pulls = self._pull_matrix(edges)
-        self._pulls_back = self._pulls.T.tocsr()
+        self._begin_turning(edges)
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
         self._rigid = whole - self._corners.stiffness(self._flatness)
         self._rest_terms = 1.5 * self._sums_over_faces(
             (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
         ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
         self._begin_flatness()
-        self._begin()
 
     def _flat_edges(self):
         """Return the corners (m,3,3) that triangles have at rest: flat but for their details."""
@@ -102,47 +100,83 @@ class FaceStep:
         corners[self._free] = target.soft[F[self._free]]
         return corners
 
-    def _pull_matrix(self, edges):
-        """Return the csr_matrix (3m,n) from positions to the matrices S_f (m,3,3) to fit."""
+    def _begin_turning(self, edges):
+        """Take what the angles do: tr(R_f S_f) = x cos + y sin + const.
+
+        ``_angles`` (2m,3n) takes positions to x and y, and its transpose a cosine and a sine to
+        pulls at the vertices. What the fixed part of R_f pulls with is ``_steady`` (n,3).
+        """
+        rest, F, c = self._rest, self._rest.F, self._target.base.normals
+        m, n = len(F), len(rest.V)
+        pulls = (3.0 * (1.0 - self._flatness))[:, None, None] * self._corners.pulls(edges)
+        t = self._target.directions[:, :, None]
+        along = t * c[:, None, :]
+        across = smallest_turns(c, self._target.directions) - along
+        self._parts = along, across, np.cross(t, across, axisa=1, axisb=1, axisc=1)
+        for part in self._parts:
+            part[self._free] = 0.0  # these are fitted one by one
+        self._turn = np.repeat([[1.0], [0.0]], m, axis=1)
+        self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
+        of_corners = [pulls @ part.swapaxes(1, 2) for part in self._parts]
+        self._steady = self._corners.sums(of_corners[0])
+        entries = np.stack(of_corners[1:]).ravel()
+        columns = 3 * F[:, :, None] + np.arange(3)
+        ends = np.arange(0, 18 * m + 1, 9)
+        self._angles = sp.csr_matrix(
+            (entries, np.tile(columns.ravel(), 2), ends), shape=(2 * m, 3 * n)
+        )
+        rows = np.repeat(np.arange(3 * len(self._free)), 3)
+        at = rows, np.repeat(F[self._free], 3, axis=0).ravel()
+        free = pulls[self._free].swapaxes(1, 2).ravel()
+        self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
+        if len(rest.links):
+            self._add_links()
+
+    def _add_links(self):
+        """Let links pull at the triangles around their vertices, in equal shares."""
         rest, F = self._rest, self._rest.F
         m, n = len(F), len(rest.V)
-        weight = 3.0 * (1.0 - self._flatness)
-        pulls = (weight[:, None, None] * self._corners.pulls(edges)).swapaxes(1, 2)
-        rows, columns = np.repeat(np.arange(3 * m), 3), np.repeat(F, 3, axis=0).ravel()
-        of_skin = sp.csr_matrix((pulls.ravel(), (rows, columns)), shape=(3 * m, n))
-        if not len(rest.links):
-            return of_skin
         count = np.bincount(F.ravel(), minlength=n)
         row, column, _, gather = rest.links.entries(rest.V)
         at = (3 * row[:, None] + np.arange(3)).ravel(), np.repeat(column, 3)
         of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
         shares = (1.0 / count[F.ravel()], F.ravel(), np.arange(0, 3 * m + 1, 3))
         around = sp.kron(sp.csr_matrix(shares, shape=(m, n)), sp.identity(3), format="csr")
-        return of_skin + around @ of_links
-
-    def _begin(self):
-        """Take the parts of the rotations, transposed (m,3,3): x cos + y sin + what stays."""
-        c, t = self._target.base.normals, self._target.directions
-        R = smallest_turns(c, t)
-        along = t[:, :, None] * c[:, None, :]
-        across = R - along
-        turned = np.cross(t[:, :, None], across, axisa=1, axisb=1, axisc=1)
-        self._stays, self._cos, self._sin = (
-            x.swapaxes(1, 2).copy() for x in (along, across, turned)
+        of_faces = around @ of_links
+        free = (3 * self._free[:, None] + np.arange(3)).ravel()
+        self._free_pulls = self._free_pulls + of_faces[free]
+        entries = of_faces.tocoo()
+        f, i = np.divmod(entries.row, 3)
+        pulled = [entries.data[:, None] * part[f, :, i] for part in self._parts]
+        for axis in range(3):
+            of_axis = np.bincount(entries.col, pulled[0][:, axis], n)
+            self._steady[:, axis] += of_axis
+        columns = np.tile((3 * entries.col[:, None] + np.arange(3)).ravel(), 2)
+        rows = np.repeat(np.concatenate([f, f + m]), 3)
+        values = np.stack(pulled[1:]).ravel()
+        self._angles = self._angles + sp.csr_matrix(
+            (values, (rows, columns)), shape=self._angles.shape
         )
-        self._T = R.swapaxes(1, 2).copy()
-        self._T[self._free] = np.eye(3)
+
+    @property
+    def of_faces(self):
+        """(m,3,3) rotations R_f of the triangles."""
+        along, across, turned = self._parts
+        cosine, sine = self._turn[:, :, None, None]
+        R = along + cosine * across + sine * turned
+        R[self._free] = self._free_R
+        return R
 
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
         """(n,3,3) rotations of the vertices: between those of the triangles around them."""
-        sums = self._corners.sums(np.repeat(self._T.reshape(-1, 1, 9), 3, axis=1))
-        return svd_rotations(sums.reshape(-1, 3, 3))
+        transposed = self.of_faces.swapaxes(1, 2).reshape(-1, 1, 9)
+        return svd_rotations(self._corners.sums(np.repeat(transposed, 3, axis=1)).reshape(-1, 3, 3))
 
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
         means = R[self._rest.F[self._free]].sum(axis=1)
-        self._T[self._free] = svd_rotations(means.swapaxes(1, 2)).swapaxes(1, 2)
+        self._free_R = svd_rotations(means.swapaxes(1, 2))
 
     def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
@@ -151,20 +185,18 @@ class FaceStep:
 
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
-        S = (self._pulls @ U).reshape(-1, 3, 3)
-        x, y = (np.einsum("mij,mij->m", S, part) for part in (self._cos, self._sin))
-        size = np.sqrt(x * x + y * y)
-        is_clear = size > 0.0
-        x, y = np.where(is_clear, x, 1.0), np.where(is_clear, y, 0.0)
-        size = np.where(is_clear, size, 1.0)
-        last = self._T[self._free]
-        self._T = self._stays + (x / size)[:, None, None] * self._cos
-        self._T += (y / size)[:, None, None] * self._sin
+        xy = (self._angles @ U.ravel()).reshape(2, -1)
+        gains = np.hypot(*xy)
+        is_clear = gains > 0.0
+        self._turn = np.where(is_clear, xy, [[1.0], [0.0]]) / np.where(is_clear, gains, 1.0)
+        turned = self._steady + (self._angles.T @ self._turn.ravel()).reshape(-1, 3)
         if len(self._free):
-            R = fit_rotations(S[self._free], last.swapaxes(1, 2))
-            self._T[self._free] = R.swapaxes(1, 2)
-        self._rhs = self._right_hand_side(U)
-        return self._energies(U, S), np.zeros(self._rest.topology.component_count)
+            S = (self._free_pulls @ U).reshape(-1, 3, 3)
+            self._free_R = fit_rotations(S, self._free_R)
+            gains[self._free] = np.einsum("mij,mji->m", self._free_R, S)
+            turned += self._free_pulls.T @ self._free_R.swapaxes(1, 2).reshape(-1, 3)
+        self._rhs = self._right_hand_side(U, turned)
+        return self._energies(U, gains), np.zeros(self._rest.topology.component_count)
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of the global step for the present rotations."""
@@ -188,21 +220,20 @@ class FaceStep:
             (heights * pulls).sum(axis=1)
         )
 
-    def _right_hand_side(self, U):
+    def _right_hand_side(self, U, turned):
         x, target = U.T.copy(), self._target
         off = np.stack([sum(K @ x[q] for q, K in enumerate(row)) for row in self._across], axis=1)
-        turned = self._pulls_back @ self._T.reshape(-1, 3)
         self._off = off
         flat = self._sided @ U - off + self._lift
         return turned / 3.0 + flat + target.hold[:, None] * target.soft
 
-    def _energies(self, U, S):
+    def _energies(self, U, gains):
         target, sum_parts = self._target, self._rest.topology.sum_parts
-        of_faces = -(self._T * S).sum(axis=(1, 2))
         moved = U - target.soft
         of_vertices = (U * (self._rigid @ U + self._off - 2.0 * self._lift)).sum(axis=1)
         of_vertices += target.hold * (moved * moved).sum(axis=1)
-        return self._rest_terms + self._sums_over_faces(of_faces) + 1.5 * sum_parts(of_vertices)
+        of_faces = self._sums_over_faces(gains) + sum_parts((U * self._steady).sum(axis=1))
+        return self._rest_terms - of_faces + 1.5 * sum_parts(of_vertices)
 
     def _sums_over_faces(self, values):
         topology = self._rest.topology

@@ -12,15 +12,14 @@ from .base import base_of
 from .face_step import Target
 from .sides import NO_SIDE, sides_of
 
-ROUNDS = 25
+ROUNDS = 12
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
 HOLD = 0.085
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
 THIN = 0.4, 0.8
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
-MOST_RINGS = 16
-"""of vertices around what has come to cross that stay soft: so many at first, and at last"""
+"""of vertices around what has come to cross that stay soft, and as many that are between"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
@@ -33,8 +32,10 @@ class Hardening:
 
     Attributes
     ----------
+    solved : (n,3) array
+        Positions of the soft shape in the unit box.
     soft : (n,3) array
-        Positions of the soft shape in the unit box, with the strength of details asked for.
+        The same with the strength of details asked for.
     rotations : (n,3,3) array
         Of the soft shape.
     crispness : (n,) array
@@ -44,6 +45,7 @@ class Hardening:
         As `sides_of` returns them.
     """
 
+    solved: FloatArray
     soft: FloatArray
     rotations: FloatArray
     crispness: FloatArray
@@ -54,18 +56,22 @@ class Hardening:
         """Return the same with the crispness of another SolvedStyle."""
         return replace(self, crispness=_crispness_of(style, rest))
 
-    def softened(self, rest, vertices, rings):
-        """Return the same with vertices (k,) soft, and those around them up to twice some rings."""
+    def softened(self, rest, vertices):
+        """Return the same with vertices (k,), and some around them, as they are in the soft shape.
+
+        Their details are, too: without them, folds may cross.
+        """
         near = rest.skin.matrix(np.ones(len(rest.skin.indices)))
         share = np.zeros(len(rest.V))
         share[vertices] = 1.0
-        for _ in range(rings):
+        for _ in range(RINGS):
             share = (near @ share > 0.0).astype(np.float64)
         count = np.diff(rest.skin.indptr)
-        for _ in range(rings):
+        for _ in range(RINGS):
             share = (near @ share) / count
         share[vertices] = 1.0
-        return replace(self, crispness=self.crispness * (1.0 - share))
+        soft = self.soft + share[:, None] * (self.solved - self.soft)
+        return replace(self, soft=soft, crispness=self.crispness * (1.0 - share))
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
@@ -108,11 +114,13 @@ def hardening_of(stylization, before=None):
         style.forms,
         np.sort(style.form_of[F], axis=1)[:, 1],  # of two corners, or of one
         is_free=is_free,
+        whole=rest.whole,
         before=before,
     )
     if style.forms:  # what is inside out faces the other way
         directions = directions * rest.outward[F[:, 0]]
-    soft = stylization.positions.copy()
+    solved = stylization.positions.copy()
+    soft = solved.copy()
     strength = 1.0 + (style.detail_strength - 1.0) * _share_of_thickness(rest)
     if (strength != 1.0).any():
         added = (strength - 1.0) * base.heights
@@ -120,7 +128,7 @@ def hardening_of(stylization, before=None):
         stylization.impose(soft)
     heights = strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
-    return Hardening(soft, R, crispness, target, side)
+    return Hardening(solved, soft, R, crispness, target, side)
 
 
 def _crispness_of(style, rest):

@@ -40,11 +40,12 @@ TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
 """by axis: of sides that cost the same, mirror images take mirror images, whatever the rounding"""
 
 NO_SIDE = -1
+_LEAST_AREA = 1e-30
 NEVER = 9.0
 """more than any direction costs"""
 
 
-def sides_of(graph, normals, frames, forms, form_of, *, is_free, before=None):
+def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, before=None):
     """Return the side of each triangle, and which way it faces.
 
     Parameters
@@ -59,6 +60,9 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, before=None):
     form_of : (m,) int array
     is_free : (m,) bool array
         Triangles that belong to no side.
+    whole : (m,) int array, optional
+        The triangle of the artist's mesh that each one is a piece of. Pieces have one side, so that
+        no edge of the mesh cuts across the border of two.
     before : (m,) int array, optional
         The sides in the frame of an animation before.
 
@@ -76,7 +80,11 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, before=None):
         had = np.flatnonzero((before >= 0) & (before < costs.shape[1] - 1))
         costs[had, before[had]] -= STEADY
     is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
-    side = smooth_labels(costs, border_shares(graph, is_followed & ~is_free[graph.other]))
+    is_followed &= ~is_free[graph.other]
+    if whole is None:
+        side = smooth_labels(costs, border_shares(graph, is_followed))
+    else:
+        side = _of_whole(graph, costs, is_followed, whole, form_of)
     side[is_free | (side == costs.shape[1] - 1)] = NO_SIDE
     faced = np.zeros_like(local)
     for number, (flat, _) in enumerate(parted):
@@ -84,6 +92,19 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, before=None):
         faced[rows] = flat[side[rows]]
     faced = _leaning(graph, local, side, faced, form_of)
     return side, np.einsum("mji,mj->mi", frames, faced)
+
+
+def _of_whole(graph, costs, is_followed, whole, form_of):
+    """Return the likeliest label (m,) of each triangle, the same for the pieces of one."""
+    _, group = np.unique(whole * (form_of.max() + 1) + form_of, return_inverse=True)
+    count = group.max() + 1
+    gather = sp.csr_matrix(
+        (graph.areas + _LEAST_AREA, (group, np.arange(len(group)))), shape=(count, len(group))
+    )
+    area = np.asarray(gather.sum(axis=1))
+    one, other = group[graph.one], group[graph.other]
+    shares = _shares(one, other, graph.length * (is_followed & (one != other)), count)
+    return smooth_labels(np.float32((gather @ costs) / area), shares)[group]
 
 
 def _flat_and_round(form):
@@ -118,9 +139,13 @@ def _costs(local, forms, form_of):
 
 def border_shares(graph, is_followed):
     """Return the shares (m,m) of the neighbors that a triangle follows, by pairs (k,) that do."""
-    weights = graph.length * is_followed
-    total = graph.sums(weights)
-    lengths = graph.matrix(weights, np.zeros_like(total))
+    return _shares(graph.one, graph.other, graph.length * is_followed, len(graph.areas))
+
+
+def _shares(one, other, length, count):
+    ends = np.concatenate([one, other]), np.concatenate([other, one])
+    lengths = sp.csr_matrix((np.tile(length, 2), ends), shape=(count, count))
+    total = np.bincount(ends[0], np.tile(length, 2), count)
     shares = sp.diags(1.0 / np.where(total > 0.0, total, 1.0)) @ lengths
     return sp.csr_matrix(shares, dtype=np.float32)
 

@@ -67,10 +67,13 @@ def refine(V, F, bound, parts=1):
         Ends of the edge that each midpoint halves.
     rounds : (r+1,) int array
         Where in `parents` each round begins, and the end.
+    whole : (l,) int array
+        The given triangle that each one is a piece of.
     """
     budget = max(min(BUDGET + FOR_EACH_PART * (parts - 1), MOST), int(GROWTH * len(V)))
     parents, rounds = [np.empty((0, 2), np.int64)], [0]
     F, bound = F.astype(np.int64), bound.astype(np.float64)
+    whole = np.arange(len(F))
     ratio = _ratios(V, F, bound)
     is_fine = False
     while not is_fine:
@@ -83,12 +86,13 @@ def refine(V, F, bound, parts=1):
                 break
         V = np.concatenate([V, 0.5 * (V[new[:, 0]] + V[new[:, 1]])])
         bound = np.concatenate([bound, bound[new[:, 0]]])
-        pieces = _split(F[rows], middle, ratio[rows])
+        pieces, of_row = _split(F[rows], middle, ratio[rows])
         F = np.concatenate([F[~rows], pieces])
+        whole = np.concatenate([whole[~rows], whole[rows][of_row]])
         ratio = np.concatenate([ratio[~rows], _ratios(V, pieces, bound)])
         parents.append(new)
         rounds.append(rounds[-1] + len(new))
-    return V, F.astype(np.int32), np.concatenate(parents), np.array(rounds)
+    return V, F.astype(np.int32), np.concatenate(parents), np.array(rounds), whole
 
 
 def _ratios(V, F, bound):
@@ -132,15 +136,22 @@ def _split(F, middle, length):
         Midpoint of the edge opposite each corner, or -1.
     length : (m,3) array
         Of those edges.
+
+    Returns
+    -------
+    (l,3) int array
+    (l,) int array
+        The row of F that each is a piece of.
     """
     # the corner opposite the longest edge that is split comes first
     turn = (np.where(middle >= 0, length, -1.0).argmax(axis=1)[:, None] + np.arange(3)) % 3
     rows = np.arange(len(F))[:, None]
     (a, b, c), (p, q, r) = F[rows, turn].T, middle[rows, turn].T
-    parts = []
+    parts, of_row = [], []
 
     def add(where, *corners):
         parts.append(np.stack([corner[where] for corner in corners], axis=1))
+        of_row.append(np.flatnonzero(where))
 
     has_q, has_r = q >= 0, r >= 0
     add(~has_r, a, b, p)
@@ -149,4 +160,4 @@ def _split(F, middle, length):
     add(has_r, r, b, p)
     add(has_q, a, p, q)
     add(has_q, q, p, c)
-    return np.concatenate(parts)
+    return np.concatenate(parts), np.concatenate(of_row)

@@ -24,6 +24,8 @@ class Surface:
     """(n,3) float64 rest positions in the unit box"""
     F: IntArray
     """(m,3) int32 triangles"""
+    whole: IntArray | None
+    """(m,) int numbers of the triangles before refinement; None if each is still whole"""
 
 
 def surface_of(V, F, options):
@@ -42,8 +44,9 @@ def surface_of(V, F, options):
             at = at[first]
             count, part = components(F, len(at))
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
+    whole = None
     if options.refine:
-        at, F, parents, rounds = refine(at, F, longest_edges(at, F, part)[part], count)
+        at, F, parents, rounds, whole = refine(at, F, longest_edges(at, F, part)[part], count)
     of_input = np.full(len(V), -1)
     of_input[used] = group
     input_map = InputMap(of_input, used[first], parents, rounds)
@@ -52,7 +55,7 @@ def surface_of(V, F, options):
         number = np.empty(len(order), dtype=np.int32)
         number[order] = np.arange(len(order), dtype=np.int32)
         input_map, at, F = input_map.ordered(order), at[order], number[F]
-    return Surface(input_map, box, at, F)
+    return Surface(input_map, box, at, F, whole if len(parents) else None)
 
 
 def _welded(V, F, part):

@@ -21,7 +21,7 @@ def quick(V, F, cubeness=0.4, **options):
     of_proxy = [field.name for field in dataclasses.fields(ProxyOptions) if field.name in options]
     given = {name: options.pop(name) for name in of_proxy}
     proxy = ProxyOptions(**{"refine": False, **given})
-    options = {"crispness": 0.6, "keep_rotation": True, "tolerance": 0.01, **options}
+    options = {"crispness": 0.9, "keep_rotation": True, "tolerance": 0.01, **options}
     return stylize(V, F, cubeness, device="numpy", proxy=proxy, **options)
 
 

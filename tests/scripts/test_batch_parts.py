@@ -83,7 +83,7 @@ IN_FULL = (
     " --together off --refine off --rotation free --hold-rest off"
 )
 BY_DEFAULT = (
-    "--crispness 0.6 --solidity 0.3 --keep-pose on --detail 0.05 --keep-apart on"
+    "--crispness 0.9 --solidity 0.3 --keep-pose on --detail 0.05 --keep-apart on"
     " --together selection --refine auto --rotation keep --hold-rest on"
 )
 

@@ -160,7 +160,7 @@ def test_report(results):
     what = {"name": "awkward", "vertices": 12, "triangles": 14, "components": 1}
     assert entry == what | {"solved_with": []}
     by_default = {
-        "crispness": 0.6,
+        "crispness": 0.9,
         "solidity": 0.3,
         "detail_strength": 1.0,
         "keep_pose": "on",

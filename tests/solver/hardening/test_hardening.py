@@ -68,7 +68,7 @@ def test_the_energy_is_that_of_its_formula():
     rest, target = hard.rest, hard.hardening.target
     hard.local_step()
     U, F, b = hard._motion.point, rest.F, 0.9
-    R = hard._local._T.swapaxes(1, 2)
+    R = hard._local.of_faces
     c, t, h = target.base.normals, target.directions, target.heights
     corners = rest.V[F]
     flat = corners + (h[F] - np.einsum("mkj,mj->mk", corners, c))[..., None] * c[:, None]

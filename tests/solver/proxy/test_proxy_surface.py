@@ -66,9 +66,11 @@ def test_coincident_sheets_become_one():
 @pytest.mark.parametrize("turn", [0, 21, 63])
 def test_a_box_is_split_into_short_edges_and_keeps_its_shape(turn):
     V, F = proxy_shapes.box((1, 0.5, 0.2), turn)
-    W, G, parents, rounds = refine(V, F, np.full(8, 0.05))
+    W, G, parents, rounds, whole = refine(V, F, np.full(8, 0.05))
     assert edges_of(W, G).max() <= 0.05
     assert area(W, G) == pytest.approx(area(V, F))
+    for k, face in enumerate(F):
+        assert area(W, G[whole == k]) == pytest.approx(area(V, face[None]))
     assert is_closed(G)
     np.testing.assert_array_equal(W[:8], V)
     np.testing.assert_allclose(W[8:], W[parents].mean(axis=1))

@@ -5,7 +5,7 @@
 import bpy
 
 bpy.context.object.cubic_craft.cubeness = 1.0
-bpy.context.object.cubic_craft.crispness = 0.6
+bpy.context.object.cubic_craft.crispness = 0.9
 bpy.context.object.cubic_craft.solidity = 1.0
 bpy.context.object.cubic_craft.keep_pose = True
 bpy.context.object.cubic_craft.detail = 0.05
