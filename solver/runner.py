@@ -337,7 +337,10 @@ class Run:
     def _hard_global_step(self) -> None:
         self.stylization.global_step()
         self._phase = self._hard_local_step
-        if self.stylization.iteration < self.soft.iteration + ROUNDS:
+        done = self.stylization.iteration - self.soft.iteration
+        if done == ROUNDS // 2:
+            self.stylization.give_back_volume()
+        if done < ROUNDS:
             return
         self._hard = self.stylization, self._apart
         self._begin_at_hard_end(*self._hard)

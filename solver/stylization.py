@@ -210,6 +210,11 @@ class Stylization(Stored):
         other._begin(held, other.hardening.soft.copy(), other.hardening.rotations)
         return other
 
+    def give_back_volume(self) -> None:
+        """Let a hardened one go on with the volume of the soft shape, see `FaceStep`."""
+        assert isinstance(self._local, FaceStep)
+        self._local.give_back_volume(self._motion.positions)
+
     def with_crispness(self, crispness: ArrayLike) -> "Stylization | None":
         """Return a hardened one at the same point with another crispness, as of a `Style`.
 

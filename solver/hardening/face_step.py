@@ -26,6 +26,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..aliases import BoolArray, FloatArray
+from ..details import at_vertices
 from ..global_step.motion import Motion
 from ..limbs.turns import smallest_turns
 from ..rotation_fit import fit_rotations, svd_rotations
@@ -33,6 +34,8 @@ from .base import Base
 
 FLATNESS = 0.9
 """b"""
+GAIN = 1.0
+"""how much farther out sides are held, relative to how far they have sunk"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +83,7 @@ class FaceStep:
     def __init__(self, rest, target):
         self._rest, self._target = rest, target
         self._corners = target.base.corners
+        self._held = target.soft
         self._free = np.flatnonzero(target.is_free)
         self._flatness = np.where(target.is_free, 0.0, FLATNESS)
         edges = self._flat_edges()
@@ -202,6 +206,21 @@ class FaceStep:
         """Return the right-hand side (n,3) of the global step for the present rotations."""
         return self._rhs
 
+    def give_back_volume(self, U):
+        """Hold the sides farther out by as much as they have sunk at positions U (n,3), on average.
+
+        What is cut off a rounded side is not all put on at its edges, which resist.
+        """
+        rest, target = self._rest, self._target
+        corners = target.soft[rest.F], U[rest.F]
+        soft, hard = (np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]) for x in corners)
+        moved = (corners[1] - corners[0]).mean(axis=1)
+        lost = self._sums_over_faces(-0.25 * ((soft + hard) * moved).sum(axis=1))
+        area = self._sums_over_faces(0.5 * np.linalg.norm(soft, axis=1))
+        outward = GAIN * lost / np.where(area > 0.0, area, 1.0)
+        out, _ = at_vertices(target.directions, target.base.graph.areas, rest.F, len(rest.V))
+        self._held = self._held + outward[rest.topology.component][:, None] * out
+
     def _begin_flatness(self):
         """Take sum_f b t_f t_f' L_f, of which six parts differ, and its image of the heights."""
         target, F = self._target, self._rest.F
@@ -225,11 +244,11 @@ class FaceStep:
         off = np.stack([sum(K @ x[q] for q, K in enumerate(row)) for row in self._across], axis=1)
         self._off = off
         flat = self._sided @ U - off + self._lift
-        return turned / 3.0 + flat + target.hold[:, None] * target.soft
+        return turned / 3.0 + flat + target.hold[:, None] * self._held
 
     def _energies(self, U, gains):
         target, sum_parts = self._target, self._rest.topology.sum_parts
-        moved = U - target.soft
+        moved = U - self._held
         of_vertices = (U * (self._rigid @ U + self._off - 2.0 * self._lift)).sum(axis=1)
         of_vertices += target.hold * (moved * moved).sum(axis=1)
         of_faces = self._sums_over_faces(gains) + sum_parts((U * self._steady).sum(axis=1))

@@ -35,12 +35,12 @@ def test_parts_that_touch_stay_together(name):
     outcome = outcome_of(name)
     assert outcome.drift() <= 0.01
     # a pair a hundredth apart drifts by turning alone; flat sides pull at what they carry
-    assert outcome.seat() <= 0.015
+    assert outcome.seat() <= 0.018
 
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
     # Brows and nose become cubic, with every setting by about as much.
-    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.022
+    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.0225
 
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
