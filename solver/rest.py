@@ -30,6 +30,7 @@ from .proxy.flat_sides import stiffness
 from .proxy.nearest import Nearest
 from .proxy.neighbours import neighbour_links
 from .proxy.samples import extents
+from .proxy.sheets import planar_sheets
 from .proxy.thickness import outward_sign, thickness_links
 from .values import Value
 
@@ -119,6 +120,13 @@ class RestMesh(Value):
         sign = outward_sign(Triangles(self.V, self.F), self.topology.part)
         return np.where(sign < 0.0, -1.0, 1.0)[self.topology.part][:, None]
 
+    @cached_property
+    def is_sheet(self) -> BoolArray:
+        """(n,) bool, the vertices of planar sheets among other parts, see `proxy/sheets.py`."""
+        if not self.options.refine:
+            return np.zeros(len(self.V), dtype=bool)
+        return planar_sheets(self.V, self.F, self.topology.part)[self.topology.part]
+
     @property
     def cubic_normals(self) -> FloatArray:
         """(n,3) unit normals that the cubic term sees, without their details; zero for none."""
@@ -126,7 +134,12 @@ class RestMesh(Value):
 
     @property
     def cubic_shares(self) -> FloatArray:
-        """(n,) factors of the cubeness: 0 in creases, more than 1 beside them."""
+        """(n,) factors of the cubeness: 0 in creases and sheets, more than 1 beside creases."""
+        return np.where(self.is_sheet, 0.0, self.normal_counts)
+
+    @property
+    def normal_counts(self) -> FloatArray:
+        """(n,) how much the `cubic_normals` count: not in creases, more beside them."""
         return self._drawn[1]
 
     @cached_property

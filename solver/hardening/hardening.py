@@ -105,6 +105,7 @@ def hardening_of(stylization, before=None):
     R = stylization.rotations.copy()
     crispness = _crispness_of(style, rest)
     is_free = ~(crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
+    is_free |= rest.is_sheet[F[:, 0]]
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
     side, directions = sides_of(

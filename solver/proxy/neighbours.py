@@ -11,6 +11,7 @@ is the nearest one, no third part lies between. A link is accepted
 Both are measured by the parts, not by the selection: two characters at opposite ends
 of a scene are as close to their clothes as one alone. Parts that are farther apart, or side by
 side at a distance, are not linked; and vertices of one part never are, however close its fingers.
+Nor is a planar sheet to smaller parts, see `sheets.py`.
 """
 
 import numpy as np
@@ -20,6 +21,7 @@ from .closest_point import closest_points
 from .links import links_to_triangles, no_links
 from .nearest import Nearest
 from .samples import extents, surface_samples
+from .sheets import is_ground
 
 CONTACT = 0.01
 LAYER = 0.03
@@ -71,6 +73,7 @@ def neighbour_links(V, F, normals, areas, part, count):
     i, triangle, barycentric, d = _nearest_triangles(V, corners, i, triangle)
     weights = share[i] / np.maximum(_squared(d), np.maximum(share[i], spacing[i] ** 2))
     is_kept = _is_accepted(V, corners, normals, part, i, triangle, d) & (weights > LEAST_WEIGHT)
+    is_kept &= ~is_ground(V, F, part, part[i], part[corners[triangle, 0]])
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
     return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
 

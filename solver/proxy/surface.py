@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of a proxy: welded, and fine enough."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ..mesh.unit_box import UnitBox, unit_box
 from ..mesh.vertex_order import vertex_order
 from .input_map import InputMap
 from .refinement import longest_edges, refine
+from .sheets import working_extent
 from .weld import weld
 
 
@@ -43,6 +44,9 @@ def surface_of(V, F, options):
         if len(first) < len(at):
             at = at[first]
             count, part = components(F, len(at))
+    if count > 1:
+        extent = working_extent(at, F, part)
+        at, box = at / extent, replace(box, size=extent * box.size)
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
     whole = None
     if options.refine:

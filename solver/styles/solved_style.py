@@ -127,7 +127,7 @@ def solved_style(
     mu = np.zeros_like(lam)
     if captures:
         mu = _at_free(style.capture_strength, "capture_strength", setup, at_pins=0.0)
-        mu = mu * rest.cubic_shares
+        mu = mu * rest.normal_counts
     Q = _along_limbs(orientation, limbs, forms, form_of, setup)
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Planar sheets among other parts: a ground, a wall, the leaf cards of a tree.
+
+A plane has nothing to become cubic, and nothing to say to what is smaller than it. So it has no
+cubic term, no side to harden, and no links to the smaller ones: a figure on a ground is solved as
+it is alone. The smaller sheets ride along with what they are linked to.
+"""
+
+import numpy as np
+
+from ..mesh.rest_measures import triangle_areas_and_normals
+from .samples import extents
+
+PLANAR = 0.9999
+"""share of the area that faces one way, or the opposite one"""
+LARGER = 1.5
+"""times the extent of another part: then a sheet is its ground"""
+
+SCENE = 2.0
+"""times the largest part: what is larger than that is a scene"""
+
+
+def planar_sheets(V, F, part):
+    """Return which parts (p,) are planar sheets. None is if there are no other parts.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+    F : (m,3) int array
+    part : (n,) int array
+    """
+    count = int(part.max()) + 1
+    area, normal = triangle_areas_and_normals(V, F)
+    of_face = part[F[:, 0]]
+    total = np.bincount(of_face, area, count)
+    moments = np.empty((count, 3, 3))
+    for i in range(3):
+        for j in range(3):
+            moments[:, i, j] = np.bincount(of_face, area * normal[:, i] * normal[:, j], count)
+    largest = np.linalg.eigvalsh(moments)[:, -1]
+    is_sheet = (largest > PLANAR * total) & (total > 0.0)
+    return is_sheet if not is_sheet.all() else np.zeros(count, dtype=bool)
+
+
+def working_extent(V, F, part):
+    """Return the extent that counts as 1 while solving: that of the whole, unless it is a scene.
+
+    A ground of 50 m, or a stray triangle, must not make a figure so small that its run ends before
+    it is cubic.
+    """
+    sizes = extents(V, part)
+    others = sizes[~planar_sheets(V, F, part)]
+    return min(float(np.ptp(V, axis=0).max()), SCENE * float(others.max()))
+
+
+def is_ground(V, F, part, one, other):
+    """Return for which pairs (k,) of parts one is a planar sheet and the other is smaller."""
+    sizes, is_sheet = extents(V, part), planar_sheets(V, F, part)
+    found = is_sheet[one] & (sizes[one] > LARGER * sizes[other])
+    return found | is_sheet[other] & (sizes[other] > LARGER * sizes[one])

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grounds, walls and stray parts: a figure becomes what it becomes alone."""
+
+import numpy as np
+import proxy_shapes
+import pytest
+import shapes
+
+from solver import ProxyOptions, stylize
+from solver.proxy.sheets import planar_sheets
+
+RUN = {"device": "numpy", "keep_rotation": True, "proxy": ProxyOptions()}
+
+
+def figure():
+    """Return an egg that stands on the plane z = 0, of height 3."""
+    V, F = shapes.sphere(4)
+    V = V * [1.0, 0.8, 1.5]
+    return V - [0.0, 0.0, V[:, 2].min()], F
+
+
+def ground(size, turn=None):
+    V, F = shapes.sheet(9)
+    V = (V * [1.0, 1.0, 0.0] / np.ptp(V, axis=0).max() - [0.5, 0.5, 0.0]) * size
+    return (V if turn is None else V @ turn.T), F
+
+
+def test_sheets_are_told_from_other_parts():
+    tilted = ground(1.0, shapes.rotation(20, 30, 0))
+    V, F = proxy_shapes.joined(figure(), tilted)
+    part = np.repeat([0, 1], [len(figure()[0]), len(tilted[0])])
+    assert planar_sheets(V, F, part).tolist() == [False, True]
+    V, F = proxy_shapes.joined(tilted, ground(2.0))
+    part = np.repeat([0, 1], len(tilted[0]))
+    assert not planar_sheets(V, F, part).any(), "there is nothing else"
+
+
+@pytest.mark.parametrize("size", [10.0, 50.0, 1000.0])
+def test_a_ground_neither_moves_nor_moves_the_figure(size):
+    V, F = figure()
+    alone = stylize(V, F, 0.4, **RUN).positions - V
+    W, G = proxy_shapes.joined((V, F), ground(size))
+    both = stylize(W, G, 0.4, **RUN).positions - W
+    assert np.abs(both[len(V) :]).max() < 1e-9
+    assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
+
+
+def test_a_stray_triangle_far_away_changes_nothing():
+    V, F = figure()
+    alone = stylize(V, F, 0.4, **RUN).positions - V
+    W, G = proxy_shapes.joined((V, F), ([[100.0, 0, 0], [100.1, 0, 0], [100, 0, 0.1]], [[0, 1, 2]]))
+    both = stylize(W, G, 0.4, **RUN).positions - W
+    assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
