@@ -251,4 +251,8 @@ def shape_of(obj: bpy.types.Object, solution: Solution) -> np.ndarray:
 
 def read_back(problem: MemberProblem, positions, rotations):
     """Return the results of the solver, for each member in its object's coordinates."""
-    return problem.split(positions, rotations, keep_floor=settings_of_all(problem).floor)
+    settings = settings_of_all(problem)
+    stands = settings.floor == "AUTO" and settings.rotation == "KEEP"
+    return problem.split(
+        positions, rotations, keep_floor=stands or settings.floor == "ON", only_standing=stands
+    )

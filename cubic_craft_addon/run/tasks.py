@@ -80,7 +80,8 @@ class Task:
     @property
     def key(self):
         """Everything but the mesh that determines the solution; no references to Blender's data."""
-        up = self._alone.up.tobytes() if self.settings.floor else b""
+        is_free = self.settings.floor != "OFF" and not self.settings.handles
+        up = self._alone.up.tobytes() if is_free else b""
         pointers = {"frame": None, "form_object": None, "capture_object": None}
         regions = tuple(replace(region, form_object=None) for region in self.settings.regions)
         settings = replace(self.settings, regions=regions, **pointers)
@@ -105,7 +106,7 @@ class Task:
             and self.settings == other.settings
             and self._reflections == other._reflections
             and self.bones == other.bones
-            and (not self.settings.floor or np.allclose(one.up, two.up))
+            and (self.settings.floor == "OFF" or np.allclose(one.up, two.up))
             and np.allclose(one.linear, two.linear)
             and np.allclose(one.style.orientation, two.style.orientation)
         )

@@ -55,6 +55,15 @@ _TOGETHER = (
         "Meshes that are selected together also stay together, such as clothes on a body",
     ),
 )
+_FLOOR = (
+    (
+        "AUTO",
+        "What Stands",
+        "All feet, paws, wheels and legs, or a wide base, if parts may not turn",
+    ),
+    ("ON", "Lowest Point", "Whatever is lowest, such as a ball, and all that stands"),
+    ("OFF", "Off", "Nothing"),
+)
 _REFINEMENTS = (
     (
         "AUTO",
@@ -302,10 +311,11 @@ class RunProperties:
         default=Settings.hold_rest,
         options=_OPTIONS,
     )
-    floor: BoolProperty(
+    floor: EnumProperty(
         name="Keep on Floor",
-        description="Keep the lowest point at its height in the world, except for parts held by"
-        " handles or the cubeness map",
+        description="What keeps its height in the world, except for parts held by handles or the"
+        " cubeness map",
+        items=_FLOOR,
         default=Settings.floor,
         options=_OPTIONS,
     )

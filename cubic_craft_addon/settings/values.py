@@ -60,7 +60,7 @@ class Settings(FormSettings):
     """axes of the object about which halves stay mirror images"""
     hold_rest: bool = True
     """whether regions far from moved handles stay in place"""
-    floor: bool = False
+    floor: str = "AUTO"
     """whether parts that stand on the ground keep their height"""
     device: str = "AUTO"
     """AUTO, CPU, GPU or NUMPY"""

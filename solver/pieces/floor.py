@@ -1,46 +1,160 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keep on Floor: parts that stand on the ground before Cubify also do so afterwards."""
+"""Keep on Floor: what stands on the ground before Cubify also does so afterwards, on all feet.
 
+The feet of a figure, or the legs of a table, rise by different heights as it becomes cubic. Each
+gets its height back, and the heights between follow the surface as smoothly as can be: they
+minimize the Dirichlet energy, with the Laplacian of the global step.
+"""
+
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..aliases import FloatArray
+from ..aliases import BoolArray, FloatArray, IntArray
+from ..mesh.components import components
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..setup import Setup
 
 _STANDING = 0.01
-"""share of the total height that a standing part may begin above the lowest point"""
+"""share of the total height that a standing part may begin above the lowest point, and a foot"""
+_ZONE = 0.05
+"""the same for what may come to be the lowest of a foot"""
+_BASE = 0.25
+"""of the extent of a component along a horizontal axis: what all its feet span if it stands"""
+_EVEN = 0.002
+"""of the height: feet that rise as evenly are moved as one"""
+_FIRM = 1e3
+"""how firmly feet are put on the ground, relative to the diagonal of L"""
+_CYCLES = 12
+"""of multigrid, in place of the solution"""
 
 
-def kept_on_floor(setup: "Setup", positions: FloatArray, up: FloatArray) -> FloatArray:
-    """Return positions (N,3) of a run, with each standing component moved back to its height.
-
-    The lowest point of a component that begins where the whole does keeps its height. Other
-    components do not move, and neither do those with held vertices.
+class Floor:
+    """The feet of what stands on the ground.
 
     Parameters
     ----------
-    setup
-    positions : (N,3) array, where the run has taken the vertices of the input
-    up : (3,) array, unit vector
+    setup : Setup
+    up : (3,) array
+        Unit vector.
     """
-    rest = setup.rest
-    used, place = rest.place
-    component = rest.topology.component[place]
-    before = rest.input_positions[used] @ up
-    lowest = _lowest(before, component, rest.topology.component_count)
-    drop = lowest - _lowest(positions[used] @ up, component, rest.topology.component_count)
-    limit = lowest.min() + _STANDING * np.ptp(before)
-    drop[setup.is_anchored | (lowest > limit)] = 0.0
-    kept = positions.copy()
-    kept[used] += drop[component][:, None] * up
-    return kept
+
+    def __init__(self, setup: "Setup", up: FloatArray):
+        self._setup, self._up = setup, up
+        rest = setup.rest
+        self._used, self._place = rest.place
+        self._component = rest.topology.component[self._place]
+        self._before = rest.input_positions[self._used] @ up
+        lowest = self._lowest_of_components(self._before)
+        is_part = self._lowest_of_components(rest.is_sheet[self._place]) == 0.0  # and no ground
+        self._height = float(np.ptp(self._before[is_part[self._component]]))
+        self._ground = lowest[is_part].min()
+        is_low = lowest <= self._ground + _STANDING * self._height
+        self._is_moved = is_low & is_part & ~setup.is_anchored
+
+    def kept(self, positions: FloatArray, *, only_standing: bool = False) -> FloatArray:
+        """Return positions (N,3) of a run, with each foot moved back to its height.
+
+        Components that begin higher than the others do not move, and neither do those with held
+        vertices.
+
+        Parameters
+        ----------
+        positions : (N,3) array, where the run has taken the vertices of the input
+        only_standing : bool
+            Leave alone what has no feet or base, such as a ball, but touches the ground.
+        """
+        is_moved = self._is_moved & self._is_standing if only_standing else self._is_moved
+        rises = self._rises(positions[self._used] @ self._up) * is_moved[self._component]
+        if not rises.any():
+            return positions
+        kept = positions.copy()
+        kept[self._used] -= rises[:, None] * self._up
+        return kept
+
+    @cached_property
+    def _is_standing(self) -> BoolArray:
+        """(c,) bool, the components whose feet are apart, or whose base is wide."""
+        points = self._setup.rest.input_positions[self._used]
+        is_foot, found = self._is_near(_STANDING), np.zeros(len(self._is_moved), dtype=bool)
+        for axis in _across(self._up):
+            along = points @ axis
+            whole, base = (
+                -self._lowest_of_components(np.where(rows, -along, np.inf))
+                - self._lowest_of_components(np.where(rows, along, np.inf))
+                for rows in (np.ones_like(is_foot), is_foot)
+            )
+            found |= base >= _BASE * whole
+        return found
+
+    @cached_property
+    def _zone(self) -> IntArray:
+        """(k,) the foot that each vertex is of, or near, or -1."""
+        rest, is_near = self._setup.rest, self._is_near(_ZONE)
+        is_solved = np.zeros(len(rest.V), dtype=bool)
+        is_solved[self._place[is_near]] = True
+        F = rest.shown
+        edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
+        edges = edges[is_solved[edges].all(axis=1)]
+        _, part = components(np.empty((0, 3), np.int64), len(rest.V), edges)
+        _, zone = np.unique(part[self._place], return_inverse=True)
+        is_foot = np.zeros(zone.max() + 1, dtype=bool)
+        is_foot[zone[self._is_near(_STANDING)]] = True
+        zone = np.where(is_near & is_foot[zone], zone, -1)
+        return np.unique(zone, return_inverse=True)[1].ravel() - (zone < 0).any()
+
+    def _is_near(self, share):
+        """Return which vertices (k,) are within a share of the height above the ground."""
+        return self._is_moved[self._component] & (
+            self._before <= self._ground + share * self._height
+        )
+
+    def _rises(self, after):
+        """Return by how much vertices (k,) are to be lowered."""
+        at = np.flatnonzero(self._zone >= 0)
+        zone, feet = self._zone[at], self._zone.max() + 1
+        rise = _lowest(after[at], zone, feet) - _lowest(self._before[at], zone, feet)
+        if len(at) and np.ptp(rise[zone]) > _EVEN * self._height:
+            return self._spread(at, rise[zone])
+        whole = self._lowest_of_components(after) - self._lowest_of_components(self._before)
+        return whole[self._component]
+
+    def _spread(self, at, rise):
+        """Return the rises (k,) that are as smooth as can be, with those at some vertices given."""
+        values = np.zeros((len(self._setup.rest.V), 3))
+        values[self._place[at], 0] = rise
+        step, firm = self._step
+        right, found = firm[:, None] * values, values.copy()
+        for _ in range(1 if step.is_factorized else _CYCLES):
+            found = step.solve(right, found)
+        return found[self._place, 0]
+
+    @cached_property
+    def _step(self):
+        from ..global_step.step import GlobalStep
+
+        rest = self._setup.rest
+        diagonal = rest.matrices.matrix(rest.matrices.laplacian).diagonal()
+        firm = np.full(len(rest.V), 1e-9 * diagonal.mean())
+        on_feet = self._place[self._zone >= 0]
+        firm[on_feet] = _FIRM * diagonal[on_feet]
+        return GlobalStep(rest, np.empty(0, np.intp), firm), firm
+
+    def _lowest_of_components(self, values):
+        return _lowest(values, self._component, self._setup.rest.topology.component_count)
 
 
-def _lowest(heights, component, count):
-    """Return the least of the heights (n,) in each component, (count,)."""
+def _lowest(values, group, count):
+    """Return the least of the values (k,) in each group, (count,)."""
     lowest = np.full(count, np.inf)
-    np.minimum.at(lowest, component, heights)
+    np.minimum.at(lowest, group, values)
     return lowest
+
+
+def _across(up):
+    """Return two unit vectors at right angles to one."""
+    first = np.cross(up, np.eye(3)[np.abs(up).argmin()])
+    first /= np.linalg.norm(first)
+    return first, np.cross(up, first)

@@ -4,6 +4,7 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ..aliases import BoolArray, FloatArray
 from ..errors import CubicCraftError
 from ..symmetry import NO_PARTNER
-from .floor import kept_on_floor
+from .floor import Floor
 from .holds import Hold, holds_of
 from .joined_style import joined_style
 from .piece import P, parts_of
@@ -72,6 +73,10 @@ class Problem(Generic[P]):
     def triangles(self) -> int:
         """Number of triangles."""
         return sum(piece.triangles for piece in self.pieces)
+
+    @cached_property
+    def _floor(self):
+        return Floor(self.setup, self.pieces[0].placement.up)
 
     @property
     def components(self) -> int:
@@ -142,15 +147,20 @@ class Problem(Generic[P]):
         )
 
     def split(
-        self, positions: FloatArray, rotations: FloatArray | None, *, keep_floor: bool = False
+        self,
+        positions: FloatArray,
+        rotations: FloatArray | None,
+        *,
+        keep_floor: bool = False,
+        only_standing: bool = False,
     ) -> list[tuple[FloatArray, Any]]:
         """Return a result (N,3) and (N,3,3) as that of each piece, in its object's coordinates.
 
-        `keep_floor` moves components that stood on the ground back to it.
+        `keep_floor` moves what stood on the ground back to it, with all feet; see `Floor`.
         """
         at_rest = self.setup.rest.input_positions
         if keep_floor:
-            positions = kept_on_floor(self.setup, positions, self.pieces[0].placement.up)
+            positions = self._floor.kept(positions, only_standing=only_standing)
         is_held = np.zeros(len(at_rest), dtype=bool)
         is_held[self.setup.pinned_input] = True
         is_idle = bool(self.is_still.all())

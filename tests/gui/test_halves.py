@@ -62,8 +62,11 @@ def symmetric():
     before = points()
     yield from gui.click((yield from gui.find_button("cubic_craft.symmetry[0]")))
     yield from gui.click((yield from gui.find_button("cubic_craft.floor")))
+    yield 0.5
+    yield from gui.screenshot("symmetric_0_floor.png")
+    yield from gui.keys("L")  # Lowest Point
     settings = scene.settings()
-    assert tuple(settings.symmetry) == (True, False, False) and settings.floor
+    assert tuple(settings.symmetry) == (True, False, False) and settings.floor == "ON"
     yield from click_cubify()
     after = points()
     assert (in_order(after) == in_order(after * FLIP)).all()

@@ -32,7 +32,7 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --form-directions 0,0,1
     --space object --crispness 0.2 --solidity 0 --keep-pose off --detail 0.2 --detail-strength 2
     --detail-map g --keep-apart off
-    --together parts --refine off --rotation free --symmetry zx --floor --hold-rest off
+    --together parts --refine off --rotation free --symmetry zx --floor on --hold-rest off
     --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4

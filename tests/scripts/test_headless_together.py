@@ -54,8 +54,10 @@ def in_order(V):
 
 def test_symmetry_and_floor(source, tmp_path):
     """The far ball is turned about Z, and symmetric in its own axes."""
-    report, shapes = run(source, tmp_path, "--symmetry", "y", "--floor", "--together", "parts")
-    assert (report["settings"]["symmetry"], report["settings"]["floor"]) == ("y", True)
+    report, shapes = run(
+        source, tmp_path, "--symmetry", "y", "--floor", "on", "--together", "parts"
+    )
+    assert (report["settings"]["symmetry"], report["settings"]["floor"]) == ("y", "on")
     _, free = run(source, tmp_path, "--together", "parts")
     V = shapes["Far"]
     assert (in_order(V) == in_order(V * MIRRORED)).all()

@@ -135,7 +135,7 @@ def _add_shape(add: Adder) -> None:
     add_kept(add)
     add("--together", choices=("off", "parts", "selection"))
     add("--symmetry", type=_axes, default="", metavar="AXES")
-    add("--floor", action="store_true")
+    add("--floor", choices=("auto", "on", "off"), default="auto")
     add("--with-modifiers", action="store_true")
     add("--hold-rest", choices=("on", "off"))
     add("--paper", action="store_true")

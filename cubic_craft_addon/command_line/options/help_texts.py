@@ -56,7 +56,8 @@ HELP = {
     "file do (default: selection)",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
     "stay so",
-    "--floor": "what stands on the ground keeps its height",
+    "--floor": "what keeps its height: all that stands on feet or a base (auto, the default),"
+    " whatever is lowest (on), or nothing",
     "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
     "surfaces and metaballs as meshes",
     "--hold-rest": "whether what is far from handles that are moved stays where it is "

@@ -129,7 +129,7 @@ def settings_of_object(
         refine=options.refine.upper(),
         rotation=options.rotation.upper(),
         symmetry=tuple(axis in options.symmetry for axis in "xyz"),
-        floor=options.floor,
+        floor=options.floor.upper(),
         hold_rest=options.hold_rest == "on",
         device=options.device.upper(),
         max_iterations=options.max_iterations,

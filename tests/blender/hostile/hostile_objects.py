@@ -73,7 +73,7 @@ def asked(draw):
         "refine": draw(st.sampled_from(["AUTO", "OFF"])),
         "rotation": draw(st.sampled_from(["KEEP", "FREE"])),
         "symmetry": draw(st.sampled_from([(False,) * 3, (True, False, False), (True,) * 3])),
-        "floor": draw(st.booleans()),
+        "floor": draw(st.sampled_from(["AUTO", "ON", "OFF"])),
         "space": draw(st.sampled_from(["OBJECT", "WORLD", "FRAME"])),
         "orientation": draw(st.sampled_from([(0.0, 0.0, 0.0), (0.3, -1.0, 20.0)])),
         "map_group": draw(st.sampled_from(["", "Map"])),

@@ -233,8 +233,8 @@ def test_live_gives_the_same(begin, live):
     for one in (obj, other):
         halve(one)
     select(other)
-    cubify(symmetry=(False, False, True), floor=True, max_iterations=1000)
-    confirm(live, begin(obj, symmetry=(False, False, True), floor=True))
+    cubify(symmetry=(False, False, True), floor="ON", max_iterations=1000)
+    confirm(live, begin(obj, symmetry=(False, False, True), floor="ON"))
     assert bits(obj) == bits(other)
 
 

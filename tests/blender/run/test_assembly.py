@@ -125,7 +125,7 @@ def test_each_objects_own_axes_count_relative_to_the_object(trio):
     for space in ("OBJECT", "WORLD"):
         for together in ("PARTS", "SELECTION"):
             # soft, as a triangle between two sides may belong to either
-            options = {"space": space, "together": together, "crispness": 0.0}
+            options = {"space": space, "together": together, "crispness": 0.0, "floor": "OFF"}
             bpy.ops.cubic_craft.cubify(**options, tolerance=1e-5)
             shapes[space, together] = [position_of(obj.data) for obj in (body, turned)]
         one, other = shapes[space, "PARTS"], shapes[space, "SELECTION"]
@@ -216,7 +216,7 @@ def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
     group = trio[1].vertex_groups.new(name="Map")
     group.add(range(100), 1.0, "REPLACE")
     if change == "place":
-        trio[1].location.x += 0.3
+        trio[1].location.x -= 0.3  # into the body
     elif change == "solidity":
         live.live_properties().solidity = 0.6
     elif change == "together":

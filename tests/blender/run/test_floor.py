@@ -25,7 +25,7 @@ def test_the_lowest_point_keeps_its_height(space):
     cubify(space=space)
     sunk = heights(obj).min() - before
     assert abs(sunk) > 0.01
-    cubify(space=space, floor=True)
+    cubify(space=space, floor="ON")
     assert heights(obj).min() == pytest.approx(before, abs=2e-6)
 
 
@@ -36,7 +36,7 @@ def test_of_several_objects_those_keep_it_that_stand():
     free = [heights(obj) for obj in (standing, hovering)]
     bpy.ops.cubic_craft.restore()
     before = heights(standing).min()
-    cubify(floor=True)
+    cubify(floor="ON")
     assert heights(standing).min() == pytest.approx(before, abs=2e-6)
     assert heights(standing).min() != pytest.approx(free[0].min(), abs=1e-3)
     assert heights(hovering) == pytest.approx(free[1], abs=2e-6)
@@ -47,19 +47,19 @@ def test_what_is_pinned_is_not_moved():
     before = position_of(obj.data)
     obj.vertex_groups.new(name="Held").add([0, 1, 2, 3], 1.0, "REPLACE")
     pin(obj, "Held")
-    cubify(floor=True)
+    cubify(floor="ON")
     assert (position_of(obj.data)[:4] == before[:4]).all()
 
 
 def test_live_follows_when_the_object_is_turned(begin, live):
     obj, other = add_monkey(), add_monkey("Other")
     turn = Euler((1.0, 0.2, 0.0)).to_matrix().to_4x4()
-    session = begin(obj, floor=True, space="OBJECT")
+    session = begin(obj, floor="ON", space="OBJECT")
     for one in (obj, other):
         one.matrix_world = turn
     bpy.context.view_layer.update()
     session.wake()
     confirm(live, session)
     select(other)
-    cubify(floor=True, space="OBJECT", max_iterations=1000)
+    cubify(floor="ON", space="OBJECT", max_iterations=1000)
     assert bits(obj) == bits(other)

@@ -45,7 +45,7 @@ OTHER = {
     "together": ("OFF", "Keep Together"),
     "refine": ("OFF", "Refine"),
     "symmetry": ((True, False, False), "Symmetry"),
-    "floor": (True, "Keep on Floor"),
+    "floor": ("ON", "Keep on Floor"),
     "map_group": (LEFT, "Cubeness Map"),
     "result": ("SHAPE_KEY", "Write To"),
     "max_iterations": (20, "Max Iterations"),

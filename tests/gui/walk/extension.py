@@ -180,7 +180,7 @@ def change_setting(rng):
             ("refine", rng.choice(["AUTO", "OFF"])),
             ("rotation", rng.choice(["KEEP", "FREE"])),
             ("symmetry", tuple(rng.random() < 0.4 for _ in range(3))),
-            ("floor", rng.random() < 0.5),
+            ("floor", rng.choice(["AUTO", "ON", "OFF"])),
             ("hold_rest", rng.random() < 0.5),
             ("start", rng.choice(["HERE", "ORIGINAL", "EDITS"])),
             ("with_modifiers", rng.random() < 0.3),

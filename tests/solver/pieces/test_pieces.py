@@ -28,12 +28,13 @@ from solver.styles.forms import octahedron
 ROOT = Path(__file__).parents[3]
 
 
-def solved(*pieces, proxy=None, keep_floor=False, **options):
+def solved(*pieces, proxy=None, keep_floor=False, only_standing=False, **options):
     """Return the positions of each piece."""
     problem = join_pieces(pieces, proxy)
     options = SolverOptions(**{"keep_rotation": True, "device": "numpy"} | options)
     result = run(problem.stylization(options), 60)
-    found = problem.split(result.positions, result.rotations, keep_floor=keep_floor)
+    floor = {"keep_floor": keep_floor, "only_standing": only_standing}
+    found = problem.split(result.positions, result.rotations, **floor)
     return [positions for positions, _ in found]
 
 
@@ -267,3 +268,42 @@ def test_the_room_loads_no_scipy_when_it_is_imported():
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(words, env=environment, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def table(heights=(1.0, 1.0, 1.0, 1.0)):
+    """Return a slab on four rounded legs, which go down to minus some heights."""
+    rows, F, n = [], [], 0
+    for x, y, height in zip((-1, 1, -1, 1), (-1, -1, 1, 1), heights, strict=True):
+        V, G = blob(3)
+        V = (V - V.mean(axis=0)) / np.ptp(V, axis=0)
+        rows.append(V * [0.3, 0.3, height] + [0.6 * x, 0.6 * y, -0.5 * height])
+        F.append(G + n)
+        n += len(V)
+    V, G = sphere(4)
+    rows.append(np.clip(V, -0.6, 0.6) / 0.6 * [1.0, 1.0, 0.15])
+    return np.concatenate(rows), np.concatenate([*F, G + n])
+
+
+def test_all_legs_of_what_stands_come_back_to_the_floor():
+    V, F = table()
+    piece = piece_of(V, F, Style(0.8, crispness=0.9))
+    free, kept = (
+        solved(piece, proxy=ProxyOptions(), keep_floor=on, only_standing=True)[0]
+        for on in (False, True)
+    )
+    size, n = np.ptp(V[:, 2]), len(blob(3)[0])
+    legs = [slice(k * n, (k + 1) * n) for k in range(4)]
+    rises = [[U[leg, 2].min() - V[leg, 2].min() for leg in legs] for U in (free, kept)]
+    assert np.abs(rises[0]).max() > 0.006 * size
+    assert np.abs(rises[1]).max() < 1e-3 * size
+    assert np.abs(kept - free)[:, :2].max() == 0.0
+
+
+def test_what_only_touches_the_floor_is_moved_if_asked_for():
+    V, F = sphere(4)
+    piece = piece_of(V, F, Style(1.0))
+    rises = [
+        solved(piece, keep_floor=True, only_standing=standing)[0][:, 2].min() - V[:, 2].min()
+        for standing in (True, False)
+    ]
+    assert rises[0] > 0.01 and abs(rises[1]) < 1e-6
