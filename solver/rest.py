@@ -30,7 +30,7 @@ from .proxy.flat_sides import stiffness
 from .proxy.nearest import Nearest
 from .proxy.neighbours import neighbour_links
 from .proxy.samples import extents
-from .proxy.sheets import planar_sheets
+from .proxy.sheets import extrusions, planar_sheets
 from .proxy.thickness import outward_sign, thickness_links
 from .values import Value
 
@@ -230,15 +230,18 @@ class RestMesh(Value):
 
     @cached_property
     def limbs(self) -> Limbs:
-        """The Limbs of the shape, see `limbs/of_shape.py`. Parts that are boxes have none.
+        """The Limbs of the shape, see `limbs/of_shape.py`. Boxes and letters have none.
 
         They are the same in all poses, so that no frame of an animation jumps.
         """
         if self.unposed is not None:
             return self.unposed.limbs.posed(self.unposed.V, self.V)
         links = self.to_other_side if self.to_other_side is not None else no_links()
+        has_none = np.zeros(len(self.V), dtype=bool)
         if self.box_frames is not None:
-            links = links.part(~self.box_frames.any(axis=(1, 2))[links.vertices[:, 0]])
+            has_none = self.box_frames.any(axis=(1, 2))
+        has_none |= extrusions(self.V, self.F, self.topology.part)[self.topology.part]
+        links = links.part(~has_none[links.vertices[:, 0]])
         found = limbs_of_shape(self.V, self.skin, links, self.topology.part)
         neighbours = self.to_neighbours
         if not len(neighbours):

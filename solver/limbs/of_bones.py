@@ -33,8 +33,11 @@ SHORT = 0.6
 """...and of their lengths"""
 GOES_ON = np.cos(np.radians(60.0))
 """between bones of which the next has the frame of the one before"""
-ALONG = 1.5
-"""ratio of the spreads of vertices by which the next bone's head tells more than the tail"""
+ACROSS, MUCH = 1.3, 1.2
+"""ratios of widths: from the first on, the last bone lies across what it moves; up to the second, a
+way to the next bone is as good as another"""
+NEAR = 0.25
+"""of the length of a bone: where the next one begins if it goes on from there"""
 _MAIN = 0.5  # weight of the vertices that a bone is measured by...
 _FEWEST = 4  # ...unless there are fewer of them
 _LEAST = 1e-6  # sum of weights
@@ -113,25 +116,24 @@ def _usable(weights):
 
 def _measured(V, weights, heads, tails, parents):
     """Return the _Measured bones."""
-    count, spread = _spreads(V, weights)
+    count, means, spread = _spreads(V, weights)
     heads, tails = (vectors(ends, "the ends of bones") for ends in (heads, tails))
     along = tails - heads
     is_there = (count > 0) & np.isfinite(along).all(axis=1)
     parents = _nearest_there(np.asarray(parents), is_there)
-    along = _onward(along, heads, parents, spread, is_there)
+    is_there &= (along != 0.0).any(axis=1)
+    along = _onward(along, heads, parents, means, spread, is_there)
     lengths = np.where(is_there, np.linalg.norm(along, axis=1), 0.0)
     is_there &= lengths > 0.0
     parents = np.where(is_there, _nearest_there(parents, is_there), -1)
     directions = np.where(is_there[:, None], along, [0.0, 0.0, 1.0])
     directions /= np.linalg.norm(directions, axis=1)[:, None]
-    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
-    widths = np.linalg.eigvalsh(across @ spread @ across)[:, 2]
-    widths = np.where(is_there, np.sqrt(8.0 * np.maximum(widths, 0.0)), 0.0)
+    widths = np.where(is_there, _widths(spread, directions), 0.0)
     return _Measured(directions, lengths, widths, parents)
 
 
 def _spreads(V, weights):
-    """Return how many vertices each bone moves (b,), and the covariances of them (b,3,3)."""
+    """Return how many vertices each bone moves (b,), their means (b,3) and covariances (b,3,3)."""
     main = weights.copy()
     main.data[main.data <= _MAIN] = 0.0
     is_few = np.asarray((main > 0).sum(axis=0)).ravel() < _FEWEST
@@ -140,10 +142,12 @@ def _spreads(V, weights):
     count = np.asarray((main > 0).sum(axis=0)).ravel()
     total = np.asarray(main.sum(axis=0)).ravel()
     total = np.where(count > 0, total, 1.0)[:, None]
-    V = V - V.mean(axis=0)
+    middle = V.mean(axis=0)
+    V = V - middle
     mean = main.T @ V / total
     products = main.T @ (V[:, :, None] * V[:, None, :]).reshape(-1, 9) / total
-    return count, products.reshape(-1, 3, 3) - mean[:, :, None] * mean[:, None, :]
+    spread = products.reshape(-1, 3, 3) - mean[:, :, None] * mean[:, None, :]
+    return count, mean + middle, spread
 
 
 def _nearest_there(parents, is_there):
@@ -157,24 +161,58 @@ def _nearest_there(parents, is_there):
     return found
 
 
-def _onward(along, heads, parents, spread, is_there):
-    """Return the vectors (b,3) along the bones, to the next head where the tail lies sideways.
+def _onward(along, heads, parents, means, spread, is_there):
+    """Return the vectors (b,3) along the bones, or along what they move.
 
-    Of rigs from other programs, bones often point across what they move.
+    Of rigs from other programs, all bones may point up, or across what they move. Then one goes to
+    the head of the next, the farthest of several, as a twist bone begins in between. The last goes
+    through the middle of its vertices, or on, as the one before it.
     """
-    along = along.copy()
-    for bone in np.flatnonzero(is_there):
-        children = np.flatnonzero((parents == bone) & is_there)
-        if len(children) != 1:
+    given, along = along, along.copy()
+    for bone in _from_the_root(parents):
+        if not is_there[bone]:
             continue
-        onward = heads[children[0]] - heads[bone]
-        length, other = np.linalg.norm(along[bone]), np.linalg.norm(onward)
-        if not other > 0.25 * length:
+        length, ways = np.linalg.norm(given[bone]), heads[(parents == bone) & is_there]
+        ways, is_last = ways - heads[bone], not len(ways)
+        worst = MUCH
+        if is_last:
+            parent = parents[bone]
+            is_doubted = parent >= 0 and (along[parent] != given[parent]).any()
+            ways = _ways_of_last(bone, along, heads, parent, means, spread)
+            worst = 1.0 if is_doubted else 1.0 / ACROSS
+        elif np.linalg.norm(ways - given[bone], axis=1).min() < NEAR * length:
+            continue  # the next one begins where it ends
+        sizes = np.linalg.norm(ways, axis=1)
+        ways, sizes = ways[sizes > NEAR * length], sizes[sizes > NEAR * length]
+        if not len(ways):
             continue
-        own, there = along[bone] / max(length, 1e-300), onward / other
-        if there @ spread[bone] @ there > ALONG**2 * (own @ spread[bone] @ own):
-            along[bone] = onward
+        widths = _widths(np.repeat(spread[[bone]], len(ways), axis=0), ways)
+        if widths.min() > worst * _widths(spread[[bone]], given[[bone]])[0]:
+            continue
+        if is_last:
+            along[bone] = ways[widths.argmin()]
+            continue
+        sizes = np.where(widths < MUCH * widths.min(), sizes, 0.0)
+        is_along = np.abs(ways @ given[bone]) > STRAIGHT * sizes * length
+        sizes[~is_along] *= not is_along[sizes > 0.0].any()
+        along[bone] = ways[sizes.argmax()]
     return along
+
+
+def _ways_of_last(bone, along, heads, parent, means, spread):
+    """Return the ways (k,3) that a bone may go which none follows."""
+    ways = [2.0 * (means[bone] - heads[bone])]
+    if parent >= 0:
+        before = along[parent] / np.linalg.norm(along[parent])
+        ways.append(before * np.sqrt(12.0 * max(before @ spread[bone] @ before, 0.0)))
+    return np.array(ways)
+
+
+def _widths(spread, along):
+    """Return the diameters (k,) of round limbs along vectors, of vertices with covariances."""
+    directions = along / np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
+    return np.sqrt(8.0 * np.maximum(np.linalg.eigvalsh(across @ spread @ across)[:, 2], 0.0))
 
 
 def _confidence(bones):

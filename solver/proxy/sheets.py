@@ -18,6 +18,10 @@ LARGER = 1.5
 
 SCENE = 2.0
 """times the largest part: what is larger than that is a scene"""
+SQUARE = 0.01
+"""how far cosines may be from those of the planes of an extruded outline, and of its rim"""
+CAPS, SHARE = 0.3, 0.98
+"""shares of the area of an extruded outline: of its planes, and of them with the rim"""
 
 
 def planar_sheets(V, F, part):
@@ -29,17 +33,39 @@ def planar_sheets(V, F, part):
     F : (m,3) int array
     part : (n,) int array
     """
-    count = int(part.max()) + 1
     area, normal = triangle_areas_and_normals(V, F)
-    of_face = part[F[:, 0]]
-    total = np.bincount(of_face, area, count)
-    moments = np.empty((count, 3, 3))
-    for i in range(3):
-        for j in range(3):
-            moments[:, i, j] = np.bincount(of_face, area * normal[:, i] * normal[:, j], count)
+    total, moments = _moments(area, normal, part[F[:, 0]])
     largest = np.linalg.eigvalsh(moments)[:, -1]
     is_sheet = (largest > PLANAR * total) & (total > 0.0)
-    return is_sheet if not is_sheet.all() else np.zeros(count, dtype=bool)
+    return is_sheet if not is_sheet.all() else np.zeros(len(total), dtype=bool)
+
+
+def extrusions(V, F, part):
+    """Return which parts (p,) are extruded outlines, such as letters: two planes, and a rim.
+
+    Parameters
+    ----------
+    V, F, part
+        As of `planar_sheets`.
+    """
+    area, normal = triangle_areas_and_normals(V, F)
+    of_face = part[F[:, 0]]
+    total, moments = _moments(area, normal, of_face)
+    axis = np.linalg.eigh(moments)[1][:, :, -1]
+    cosine = np.abs((normal * axis[of_face]).sum(axis=1))
+    is_cap, is_rim = cosine > 1.0 - SQUARE, cosine < SQUARE
+    caps, both = (
+        np.bincount(of_face, area * rows, len(total)) for rows in (is_cap, is_cap | is_rim)
+    )
+    return (caps > CAPS * total) & (both > SHARE * total)
+
+
+def _moments(area, normal, of_face):
+    """Return the areas (p,) of parts, and the moments (p,3,3) of their normals."""
+    count = int(of_face.max()) + 1
+    products = (area * x * y for x in normal.T for y in normal.T)
+    moments = np.stack([np.bincount(of_face, product, count) for product in products], axis=1)
+    return np.bincount(of_face, area, count), moments.reshape(-1, 3, 3)
 
 
 def working_extent(V, F, part):

@@ -143,6 +143,28 @@ def test_bones_that_point_sideways_lie_toward_the_next():
     np.testing.assert_allclose(limbs.present[0], TILTED, atol=1e-12)
 
 
+@pytest.mark.parametrize("slope", [5, 45, 60])
+@pytest.mark.parametrize("has_twist", [False, True])
+def test_bones_that_all_point_up_lie_along_the_limbs(slope, has_twist):
+    """As those of a VRM or glTF file, also with a twist bone between two joints."""
+    along = np.array([np.cos(np.radians(slope)), 0.0, -np.sin(np.radians(slope))])
+    points = [t * along for t in (0.0, 3.0, 6.0, 7.0)]
+    V, weights, heads, tails, parents = rig(*chain(points, [0.7, 0.6, 0.5]))
+    before = limbs_of_bones(V, weights, heads, tails, parents)
+    tails = heads + 0.5 * Z
+    if has_twist:  # which moves a few of the vertices of the upper arm
+        own = weights.toarray()
+        middle = 1.5 * along
+        is_near = (np.linalg.norm(V - middle, axis=1) < 1.0) & (own[:, 0] > 0.0)
+        weights = csr_matrix(np.c_[own, 0.3 * is_near])
+        heads, tails = np.vstack([heads, middle]), np.vstack([tails, middle + 0.5 * Z])
+        parents = np.append(parents, 0)
+    limbs = limbs_of_bones(V, weights, heads, tails, parents)
+    np.testing.assert_allclose(limbs.present[:2], before.present[:2], atol=1e-9)
+    total = [np.asarray(one.shares.sum(axis=1)).ravel() for one in (before, limbs)]
+    np.testing.assert_allclose(total[1], total[0], atol=0.02)
+
+
 def test_what_is_broken_is_no_limb():
     V, weights, heads, tails, _ = rig(*chain([0 * X, 2 * X, 4 * X, 6 * X], 3 * [0.2]))
     tails[2] = heads[2]

@@ -6,8 +6,8 @@ import proxy_shapes
 import pytest
 import shapes
 
-from solver import ProxyOptions, stylize
-from solver.proxy.sheets import planar_sheets
+from solver import ProxyOptions, rest_mesh, stylize
+from solver.proxy.sheets import extrusions, planar_sheets
 
 RUN = {"device": "numpy", "keep_rotation": True, "proxy": ProxyOptions()}
 
@@ -51,3 +51,31 @@ def test_a_stray_triangle_far_away_changes_nothing():
     W, G = proxy_shapes.joined((V, F), ([[100.0, 0, 0], [100.1, 0, 0], [100, 0, 0.1]], [[0, 1, 2]]))
     both = stylize(W, G, 0.4, **RUN).positions - W
     assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
+
+
+def letter(sides=4):
+    """Return an extruded L, or a prism of `sides` that is as long."""
+    if sides == 4:
+        outline = np.array([[0, 0], [3, 0], [3, 1], [1, 1], [1, 4], [0, 4.0]])
+        caps = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
+        depth = 0.6
+    else:
+        angles = np.arange(sides) * 2.0 * np.pi / sides
+        outline = 0.3 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        caps = np.array([[0, k, k + 1] for k in range(1, sides - 1)])
+        depth = 4.0
+    n = len(outline)
+    V = np.concatenate([np.c_[outline, np.full(n, z)] for z in (0.0, depth)])
+    ring = np.arange(n)
+    after = (ring + 1) % n
+    rim = np.concatenate([np.c_[ring, after, after + n], np.c_[ring, after + n, ring + n]])
+    return V, np.concatenate([caps[:, ::-1], caps + n, rim])
+
+
+@pytest.mark.parametrize(("sides", "is_letter"), [(4, True), (6, False)])
+def test_letters_are_told_from_limbs(sides, is_letter):
+    V, F = letter(sides)
+    V = V @ shapes.rotation(20, 30, 40).T
+    part = np.zeros(len(V), np.int64)
+    assert extrusions(V, F, part).tolist() == [is_letter]
+    assert bool(len(rest_mesh(V, F, ProxyOptions()).limbs.directions)) != is_letter
