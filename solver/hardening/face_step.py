@@ -146,7 +146,7 @@ class FaceStep:
         of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
         shares = (1.0 / count[F.ravel()], F.ravel(), np.arange(0, 3 * m + 1, 3))
         around = sp.kron(sp.csr_matrix(shares, shape=(m, n)), sp.identity(3), format="csr")
-        of_faces = around @ of_links
+        of_faces = sp.csr_matrix(around @ of_links)
         free = (3 * self._free[:, None] + np.arange(3)).ravel()
         self._free_pulls = self._free_pulls + of_faces[free]
         entries = of_faces.tocoo()

@@ -81,7 +81,8 @@ def _places(
     old_normals = _normals(positions, triangles)
     corners, shares = np.empty((len(points), 3), np.int64), np.empty((len(points), 3))
     for k, (point, normal) in enumerate(zip(points.tolist(), normals, strict=True)):
-        distance = tree.find_nearest(point)[3]
+        nearest: Any = tree.find_nearest(point)
+        distance = nearest[3]
         for reach in (_SAME, _NEAR):  # other layers only if the nearest faces away
             near: Any = tree.find_nearest_range(point, distance + reach * size)
             at = triangles[[number for _, _, number, _ in near]]
