@@ -13,14 +13,18 @@ import bpy
 from mathutils import Matrix, Vector
 
 from .. import mesh_bridge
+from ..environment.curves import animated_paths
 
-_GAP = 1.2  # of the width of the original
+_GAP, _NEAR = 1.2, 0.1  # of the width of the original
 _MARK = "cubic_craft_follower"
 
 
 @dataclass(frozen=True)
 class _Place:
     basis: Matrix
+    delta: Vector
+    is_free: bool
+    """without constraints, which would put it elsewhere"""
     is_selected: bool
     is_active: bool
 
@@ -73,7 +77,7 @@ class Follower:
         if place is None:
             _put_beside(new, source)
         else:
-            new.matrix_basis = place.basis
+            _put(new, place)
         with suppress(RuntimeError):  # none of its collections is in this view layer
             # a copy has the selection state of its source
             new.select_set(place is not None and place.is_selected)
@@ -106,14 +110,15 @@ class Follower:
         obj = self.find()
         if obj is not None:
             is_active = bpy.context.view_layer.objects.active == obj
-            self._place = _Place(obj.matrix_basis.copy(), obj.select_get(), is_active)
+            place = obj.matrix_basis.copy(), obj.delta_location.copy(), not obj.constraints
+            self._place = _Place(*place, obj.select_get(), is_active)
             _remove(obj)
         self._uid = self.mesh_uid = 0
 
     def give_place(self, obj: bpy.types.Object) -> None:
         """Put a result where the follower was."""
         if self._place is not None:
-            obj.matrix_basis = self._place.basis
+            _put(obj, self._place)
         release(obj)
 
 
@@ -135,12 +140,28 @@ def release(obj: bpy.types.Object) -> None:
         del obj[_MARK]
 
 
+def _put(obj, place):
+    if place.is_free:
+        obj.constraints.clear()
+    obj.delta_location, obj.matrix_basis = place.delta, place.basis
+
+
 def _put_beside(obj, source):
+    """Put an object beside the one that it is a copy of, whatever moves that one."""
     corners = [source.matrix_world @ Vector(corner) for corner in source.bound_box]
     places = [corner.x for corner in corners]
-    world = source.matrix_world.copy()
-    world.translation.x += _GAP * (max(places) - min(places))
-    obj.matrix_world = world
+    width = max(places) - min(places)
+    shift, world = Vector((_GAP * width, 0.0, 0.0)), source.matrix_world.copy()
+    world.translation += shift
+    if "location" in animated_paths(source):  # the delta is added to what the animation says
+        space = source.matrix_world @ source.matrix_basis.inverted_safe()
+        obj.delta_location += space.to_3x3().inverted_safe() @ shift
+    else:
+        obj.matrix_world = world
+    bpy.context.view_layer.update()
+    if (obj.matrix_world.translation - world.translation).length > _NEAR * width:
+        obj.constraints.clear()
+        obj.matrix_world = world
 
 
 def _remove(obj):

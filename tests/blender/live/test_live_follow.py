@@ -400,3 +400,39 @@ def test_painting_the_map_is_followed(live, follow):
     assert bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
+
+
+@pytest.mark.parametrize("moved_by", ["keys", "strip", "driver", "constraint"])
+def test_it_stands_beside_an_original_that_something_else_moves(live, follow, moved_by):
+    obj = add_monkey()
+    scene = bpy.context.scene
+    if moved_by in ("keys", "strip"):
+        for frame, height in ((1, 0.0), (10, 1.0)):
+            obj.location.z = height
+            obj.keyframe_insert("location", frame=frame)
+        scene.frame_set(1)
+        if moved_by == "strip":
+            action, obj.animation_data.action = obj.animation_data.action, None
+            obj.animation_data.nla_tracks.new().strips.new("Rise", 1, action)
+    elif moved_by == "driver":
+        obj.driver_add("location", 0).driver.expression = "0"
+    else:
+        place = bpy.data.objects.new("Place", None)
+        scene.collection.objects.link(place)
+        obj.constraints.new("COPY_LOCATION").target = place
+    bpy.context.view_layer.update()
+
+    def apart():
+        bpy.context.view_layer.update()
+        one, other = (o.matrix_world.translation for o in (obj, follower_of(obj)))
+        return (one - other).length
+
+    session = tick_to_rest(follow(obj))
+    assert apart() > 1.5
+    scene.frame_set(6)
+    tick_to_rest(session)
+    assert apart() > 1.5
+    confirm(live, session)
+    assert apart() > 1.5
+    scene.frame_set(8)
+    assert apart() > 1.5
