@@ -19,6 +19,8 @@ from .values import Value
 
 NO_PARTNER = -1
 """in place of the index of a partner"""
+LEAST_MATCHING = 0.8
+"""share of the vertices that must have partners; those of fewer would tear the others apart"""
 MATCHING = 1e-3
 """largest distance of a vertex from the image of its partner, relative to the largest extent"""
 

@@ -20,6 +20,7 @@ from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
 from ...solver.pieces.whole import Whole
+from ...solver.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..regions.shares import region_shares
@@ -153,7 +154,7 @@ def read_member(
         known = None
     V = alone.place(shape.original)
     handle_of = _handle_of(obj, settings, V, shape.triangles, known)
-    whole = _whole(shape, reflections, settings, known)
+    whole = _whole(obj.name, shape, reflections, settings, known)
     bones = _bones(obj, settings, whole, alone, shape, known, rigged)
     return Member(
         uid=obj.session_uid,
@@ -236,8 +237,15 @@ def _bones(obj, settings, whole, alone, shape, known, rigged):
     return read_bones(obj, shape.original, whole, alone, known and known.bones)
 
 
-def _whole(shape, reflections, settings, known):
+def _whole(name, shape, reflections, settings, known):
     before = known and (known.whole.reflections, known.settings.symmetry)
     if known and known.shape is shape and before == (reflections, settings.symmetry):
         return known.whole
-    return Whole(shape.original, shape.triangles, reflections, settings.symmetry)
+    whole = Whole(shape.original, shape.triangles, reflections, settings.symmetry)
+    if whole.matching is not None and whole.matching < LEAST_MATCHING * len(shape.original):
+        raise CubicCraftError(
+            f'"{name}" is not symmetric: only {whole.matching:,} of its {len(shape.original):,}'
+            " vertices have a mirror image about the axes of Symmetry, and would tear it apart;"
+            " turn these off, or use Mesh > Symmetrize first"
+        )
+    return whole

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from ...solver.pieces.whole import Whole
+from ...solver.symmetry import LEAST_MATCHING
 from .. import mesh_bridge
 from ..read.reflections import modifier_reflections
 
@@ -20,25 +21,28 @@ def draw_symmetry(layout, obj, properties):
     row = layout.row(align=True, heading="Symmetry")
     for axis, name in enumerate(_AXES):
         row.prop(properties, "symmetry", index=axis, text=name, toggle=True)
-    text = _says(obj, tuple(properties.symmetry))
+    text, icon = _says(obj, tuple(properties.symmetry))
     if text:
-        layout.label(text=text, icon="MOD_MIRROR")
+        layout.label(text=text, icon=icon)
 
 
 def _says(obj, symmetry):
-    """Return the message about the halves of an object, or an empty text."""
+    """Return the message about the halves of an object, or an empty text, and its icon."""
     is_mirrored = bool(modifier_reflections(obj))
     if not any(symmetry):
-        return "Follows the Mirror modifier" if is_mirrored else ""
+        return "Follows the Mirror modifier" if is_mirrored else "", "MOD_MIRROR"
     mesh = mesh_bridge.mesh_of(obj)
     if mesh.is_editmode or len(mesh.vertices) > _MOST_VERTICES:
-        return ""
+        return "", "NONE"
     try:
         positions = mesh_bridge.original_positions(mesh)
     except CubicCraftError:
-        return ""
+        return "", "NONE"
     matching = _matching(positions.tobytes(), symmetry)
-    return f"{matching:,} of {len(positions):,} match"
+    text = f"{matching:,} of {len(positions):,} match"
+    if matching < LEAST_MATCHING * len(positions):
+        return f"Only {text}", "ERROR"
+    return text, "MOD_MIRROR"
 
 
 @lru_cache(maxsize=4)

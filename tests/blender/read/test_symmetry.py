@@ -228,8 +228,14 @@ def test_a_modifier_that_is_off_or_cuts_is_not_followed(is_cut):
     assert bits(obj) == bits(plain)
 
 
+def add_ball(name="Ball"):
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    bpy.context.object.name = name
+    return bpy.context.object
+
+
 def test_live_gives_the_same(begin, live):
-    obj, other = add_monkey(), add_monkey("Other")
+    obj, other = add_ball(), add_ball("Other")
     for one in (obj, other):
         halve(one)
     select(other)
@@ -238,8 +244,18 @@ def test_live_gives_the_same(begin, live):
     assert bits(obj) == bits(other)
 
 
-def test_restore_gives_all_bits_back():
+def test_what_is_not_symmetric_is_refused():
+    """Mirror images of a few vertices would tear all others apart."""
     obj = add_monkey()
+    before = bits(obj)
+    with pytest.raises(RuntimeError, match=r'"Suzanne" is not symmetric: only .* of its 507'):
+        cubify(symmetry=(False, False, True))
+    assert bits(obj) == before
+    assert cubify(symmetry=(True, False, False)) == {"FINISHED"}
+
+
+def test_restore_gives_all_bits_back():
+    obj = add_ball()
     halve(obj)
     before = bits(obj)
     cubify(symmetry=(False, True, False))
