@@ -35,6 +35,13 @@ def test_sheets_are_told_from_other_parts():
     assert not planar_sheets(V, F, part).any(), "there is nothing else"
 
 
+def test_a_plane_beside_a_point_keeps_its_size():
+    V, F = ground(3.0)
+    W, G = proxy_shapes.joined((V, F), (np.ones((3, 3)), np.array([[0, 1, 2]])))
+    U = stylize(W, G, 0.4, **RUN).positions
+    assert np.isfinite(U).all() and np.ptp(U, axis=0).max() > 2.0
+
+
 @pytest.mark.parametrize("size", [10.0, 50.0, 1000.0])
 def test_a_ground_neither_moves_nor_moves_the_figure(size):
     V, F = figure()
