@@ -4,7 +4,8 @@
 page_pictures.py OLDER [PICTURE ...] [--output FOLDER]
 
 OLDER is a source tree of the extension: git archive 9c85a9d | tar -x -C OLDER
-The picture "characters" is made only if it is named, and with bd16ae9 as OLDER.
+The pictures "characters" and "thirty" are made only if they are named, and with bd16ae9 and
+77d1518 as OLDER.
 """
 
 import argparse
@@ -41,8 +42,23 @@ PICTURES = {
         [["body", "clothes"], ["character", "fox"], ["hand", "spring"], ["teapot", "monkey"]],
         210,
     ),
+    "thirty": (
+        [
+            ["monkey", "monkey_2012", "monkey_flat"],
+            ["teapot", "cup", "bowl"],
+            ["body", "clothes", "character"],
+            ["skin", "fox", "hand"],
+            ["painted", "character_seams", "teapot_seams"],
+            ["sphere", "torus", "cylinder"],
+            ["cone", "car", "text"],
+            ["house", "house_30", "box_skew"],
+            ["spring", "pipe", "waves"],
+            ["cape", "pinched", "fin"],
+        ],
+        150,
+    ),
 }
-LABELS = {"characters": "before"}
+LABELS = {"characters": "before", "thirty": "before"}
 """of the older version, where it is not the one of 9c85a9d, which solves the skin alone"""
 STOOD_UP = ("text", "hand")
 """cases that lie on their back"""
