@@ -27,6 +27,8 @@ _EVEN = 0.002
 """of the height: feet that rise as evenly are moved as one"""
 _FIRM = 1e3
 """how firmly feet are put on the ground, relative to the diagonal of L"""
+_LEAST = 1e-9
+"""the same of all others, so that what has no foot has a solution, too"""
 _CYCLES = 12
 """of multigrid, in place of the solution"""
 
@@ -137,9 +139,9 @@ class Floor:
 
         rest = self._setup.rest
         diagonal = rest.matrices.matrix(rest.matrices.laplacian).diagonal()
-        firm = np.full(len(rest.V), 1e-9 * diagonal.mean())
+        firm = np.full(len(rest.V), _LEAST * np.abs(diagonal).mean() + _LEAST)
         on_feet = self._place[self._zone >= 0]
-        firm[on_feet] = _FIRM * diagonal[on_feet]
+        firm[on_feet] += _FIRM * np.abs(diagonal[on_feet])
         return GlobalStep(rest, np.empty(0, np.intp), firm), firm
 
     def _lowest_of_components(self, values):
