@@ -13,7 +13,7 @@ from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
 from .contacts.crossings import CrossingTriangles
 from .inputs import instance, real_numbers
-from .limbs import Limbs, limbs_of_shape, with_coverings
+from .limbs import Limbs, limbs_of_shape, with_coverings, without_shells
 from .memory import check_memory
 from .mesh.cotangents import cotangents
 from .mesh.face_graph import FaceGraph
@@ -243,6 +243,7 @@ class RestMesh(Value):
         has_none |= extrusions(self.V, self.F, self.topology.part)[self.topology.part]
         links = links.part(~has_none[links.vertices[:, 0]])
         found = limbs_of_shape(self.V, self.skin, links, self.topology.part)
+        found = without_shells(found, self.V, self.topology.part, self.areas, self.thickness)
         neighbours = self.to_neighbours
         if not len(neighbours):
             return found

@@ -12,6 +12,7 @@ from .joined import joined_limbs, placed_limbs
 from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_bones import limbs_of_bones
 from .of_shape import limbs_of_shape
+from .shells import without_shells
 from .turns import turns
 
 __all__ = (
@@ -24,4 +25,5 @@ __all__ = (
     "placed_limbs",
     "turns",
     "with_coverings",
+    "without_shells",
 )

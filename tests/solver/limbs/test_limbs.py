@@ -24,7 +24,7 @@ from solver import (
     run,
     stylize,
 )
-from solver.limbs import KnownLimbs, Limbs, turns
+from solver.limbs import KnownLimbs, Limbs, turns, without_shells
 from solver.limbs.swing import swung
 from solver.styles import forms
 from solver.styles.forms import cube, prism
@@ -253,3 +253,16 @@ def test_a_trunk_keeps_the_frame_of_the_object():
     G = turns(limbs, np.eye(3)[None])
     np.testing.assert_array_equal(G[0], np.eye(3))
     np.testing.assert_allclose(G[1] @ [0.6, 0.0, 0.8], [0, 0, 1], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("share", "wall", "is_shell"), [(0.2, 0.02, True), (0.2, 0.1, False), (0.6, 0.02, False)]
+)
+def test_the_rim_of_a_shell_is_no_limb(share, wall, is_shell):
+    """The trunk of a figure is thicker than its limbs, and a spring is all limb."""
+    V = np.random.default_rng(0).uniform(size=(100, 3))
+    is_limb = np.arange(100) < 100 * share
+    limbs = Limbs(np.eye(3)[:1], sp.csr_matrix(is_limb[:, None].astype(float)))
+    thickness = np.where(is_limb, 0.03, wall)
+    found = without_shells(limbs, V, np.zeros(100, int), np.full(100, 0.01), thickness)
+    assert found.shares.sum() == (0.0 if is_shell else limbs.shares.sum())
