@@ -175,7 +175,7 @@ bpy.context.object.location = (1, 2, 3)
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
     assert shape_of(monkey) == (
-        *(0.7, 0.6, 0.3, 0.05, 1.0),
+        *(0.7, 0.9, 0.3, 0.05, 1.0),
         *(True, True, "SELECTION", "AUTO", "KEEP", True),
     )
     assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
