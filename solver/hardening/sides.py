@@ -40,6 +40,9 @@ STEADY = 0.3
 TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
 """by axis: of sides that cost the same, mirror images take mirror images, whatever the rounding"""
 
+COPLANAR = np.cos(np.radians(0.5))
+"""between the normals of triangles in one plane"""
+
 NO_SIDE = -1
 _LEAST_AREA = 1e-30
 NEVER = 9.0
@@ -82,10 +85,8 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
         costs[had, before[had]] -= STEADY
     is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
     is_followed &= ~is_free[graph.other]
-    if whole is None:
-        side = smooth_labels(costs, border_shares(graph, is_followed))
-    else:
-        side = _of_whole(graph, costs, is_followed, whole, form_of)
+    group = _groups(graph, whole, form_of)
+    side = _of_groups(graph, costs, is_followed, group)
     side[is_free | (side == costs.shape[1] - 1)] = NO_SIDE
     faced = np.zeros_like(local)
     for number, (flat, _) in enumerate(parted):
@@ -95,13 +96,30 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
     return side, np.einsum("mji,mj->mi", frames, faced)
 
 
-def _of_whole(graph, costs, is_followed, whole, form_of):
-    """Return the likeliest label (m,) of each triangle, the same for the pieces of one."""
-    _, group = np.unique(whole * (form_of.max() + 1) + form_of, return_inverse=True)
+def _groups(graph, whole, form_of):
+    """Return the group (m,) of each triangle, of one side: what is flat is not bent.
+
+    Connected triangles that lie in one plane are a group, or the pieces of a face.
+    """
+    m, one, other = len(form_of), graph.one, graph.other
+    is_flat = np.einsum("kj,kj->k", graph.normals[one], graph.normals[other]) > COPLANAR
+    pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
+    count, flat = components(np.empty((0, 3), np.int64), m, pairs)
+    weighted = graph.areas[:, None] * graph.normals
+    mean = unit(np.stack([np.bincount(flat, x, count) for x in weighted.T], axis=1))
+    # in a dense mesh, a round side is a chain of triangles that are nearly in one plane
+    worst = np.ones(count)
+    np.minimum.at(worst, flat, np.einsum("mj,mj->m", graph.normals, mean[flat]))
+    faces = np.arange(m) if whole is None else whole
+    group = np.where(worst[flat] > COPLANAR, flat, count + faces)
+    return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
+
+
+def _of_groups(graph, costs, is_followed, group):
+    """Return the likeliest label (m,) of each triangle, the same for all of a group."""
     count = group.max() + 1
-    gather = sp.csr_matrix(
-        (graph.areas + _LEAST_AREA, (group, np.arange(len(group)))), shape=(count, len(group))
-    )
+    weights = graph.areas + _LEAST_AREA
+    gather = sp.csr_matrix((weights, (group, np.arange(len(group)))), shape=(count, len(group)))
     area = np.asarray(gather.sum(axis=1))
     one, other = group[graph.one], group[graph.other]
     shares = _shares(one, other, graph.length * (is_followed & (one != other)), count)
