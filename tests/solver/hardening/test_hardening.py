@@ -318,3 +318,17 @@ def test_a_sequence_that_was_stopped_goes_on_alike():
     stopped = FrameSequence(setup.rest)
     frames(stopped, (1.0, 1.05))
     np.testing.assert_array_equal(frames(FrameSequence(setup.rest, stopped.state), (1.1,)), whole)
+
+
+def test_a_flat_roof_between_two_sides_is_not_bent():
+    V = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1.5, 1.5) for z in (0.0, 1.5)])
+    V = np.concatenate([V, [[0.0, -1.5, 2.5], [0.0, 1.5, 2.5]]])
+    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 8, 9, 3], [5, 7, 9, 8]]
+    ends = [[0, 4, 5], [0, 5, 1], [1, 5, 8], [2, 3, 7], [2, 7, 6], [3, 9, 7]]
+    F = np.array(
+        [*ends, *([a, b, c] for a, b, c, _ in sides), *([a, c, d] for a, b, c, d in sides)]
+    )
+    U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=0.9).positions
+    for roof in ([1, 8, 9, 3], [5, 7, 9, 8]):
+        X = U[roof] - U[roof].mean(axis=0)
+        assert np.linalg.svd(X)[1][2] < 0.02
