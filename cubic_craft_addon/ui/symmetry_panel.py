@@ -49,4 +49,4 @@ def _says(obj, symmetry):
 def _matching(positions, symmetry):
     """Count the vertices with a partner, of positions as bytes."""
     V = np.frombuffer(positions, np.float32).reshape(-1, 3)
-    return Whole(V, np.empty((0, 3), dtype=np.intp), (), symmetry).matching
+    return Whole(V, np.empty((0, 3), dtype=np.intp), (), symmetry).matching or 0
