@@ -110,9 +110,10 @@ def _make(
         plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
         seen = mesh_bridge.read_positions(high_mesh)
         triangles = mesh_bridge.triangles(high_mesh, seen)
-        keys = _keys_as_seen(stage, obj, present, seen)
+        offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
+        keys = _keys_as_seen(stage, obj, present, offsets, seen)
         problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
-        missing = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj)).keys() - keys
+        missing = offsets.keys() - keys
         problems += [f'shape key "{name}" gives its modifiers other vertices' for name in missing]
     new = obj.copy()
     assert new is not None
@@ -135,15 +136,19 @@ def _mesh_of_result(stage: Studio, obj: bpy.types.Object, positions: np.ndarray)
 
 
 def _keys_as_seen(
-    stage: Studio, obj: bpy.types.Object, present: np.ndarray, seen: np.ndarray
+    stage: Studio,
+    obj: bpy.types.Object,
+    present: np.ndarray,
+    offsets: dict[str, np.ndarray],
+    seen: np.ndarray,
 ) -> dict[str, np.ndarray]:
     """Return the offsets of shape keys from the result with its modifiers, seen (n,3).
 
     One with which they make another number of vertices, as a weld may, is left out.
     """
     found = {}
-    for name, offsets in mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj)).items():
-        mesh = _mesh_of_result(stage, obj, present + offsets)
+    for name, moved in offsets.items():
+        mesh = _mesh_of_result(stage, obj, present + moved)
         positions = mesh_bridge.read_positions(mesh)
         bpy.data.meshes.remove(mesh)
         if len(positions) == len(seen):

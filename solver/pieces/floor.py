@@ -69,6 +69,8 @@ class Floor:
             Leave alone what has no feet or base, such as a ball, but touches the ground.
         """
         is_moved = self._is_moved & self._is_standing if only_standing else self._is_moved
+        if not is_moved.any():
+            return positions
         rises = self._rises(positions[self._used] @ self._up) * is_moved[self._component]
         if not rises.any():
             return positions

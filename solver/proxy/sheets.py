@@ -15,7 +15,6 @@ PLANAR = 0.9999
 """share of the area that faces one way, or the opposite one"""
 LARGER = 1.5
 """times the extent of another part: then a sheet is its ground"""
-
 SCENE = 2.0
 """times the largest part: what is larger than that is a scene"""
 SQUARE = 0.01

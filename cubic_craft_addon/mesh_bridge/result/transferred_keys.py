@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
+from ....solver.mesh.rest_measures import areas_and_normals
 from ..access.arrays import read_key, read_position, write_key
 from ..access.checks import mesh_of
 from ..access.triangulation import triangles as triangles_of
@@ -55,7 +56,9 @@ def transfer_keys(
     assert source.shape_keys is not None
     mesh = mesh_of(new)
     base = read_position(mesh)
-    corners, shares = _places(base, _normals(base, triangles_of(mesh, base)), positions, triangles)
+    corners, shares = _places(
+        base, areas_and_normals(base, triangles_of(mesh, base))[1], positions, triangles
+    )
     new.shape_key_add(name=source.shape_keys.reference_key.name, from_mix=False)
     made = {name: new.shape_key_add(name=name, from_mix=False) for name in offsets}
     moved = {name: np.einsum("nk,nkj->nj", shares, of[corners]) for name, of in offsets.items()}
@@ -78,7 +81,7 @@ def _places(
     """Return the corners (k,3) of the triangles that points are at, and their shares (k,3)."""
     tree = BVHTree.FromPolygons(positions.tolist(), triangles.tolist())
     size = float(np.ptp(positions, axis=0).max())
-    old_normals = _normals(positions, triangles)
+    _, old_normals = areas_and_normals(positions, triangles)
     corners, shares = np.empty((len(points), 3), np.int64), np.empty((len(points), 3))
     for k, (point, normal) in enumerate(zip(points.tolist(), normals, strict=True)):
         nearest: Any = tree.find_nearest(point)
@@ -106,15 +109,6 @@ def _shares(places: np.ndarray, corners: np.ndarray) -> np.ndarray:
     areas = np.linalg.norm(opposite, axis=2).T
     total = areas.sum(axis=1, keepdims=True)
     return np.where(total > 0.0, areas / np.where(total > 0.0, total, 1.0), 1.0 / 3.0)
-
-
-def _normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return unit normals (n,3) of vertices."""
-    a, b, c = positions[triangles].swapaxes(0, 1)
-    normals, flat = np.zeros_like(positions), np.cross(b - a, c - a)
-    for corner in triangles.T:
-        np.add.at(normals, corner, flat)
-    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
 
 
 def _copy_animation(source: bpy.types.Key, target: Any) -> None:
