@@ -25,6 +25,7 @@ from .mesh.triangles import Triangles
 from .mesh.unit_box import UnitBox
 from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
 from .proxy.boxes import box_frames
+from .proxy.cavities import cavity_links
 from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
 from .proxy.nearest import Nearest
@@ -77,6 +78,8 @@ class RestMesh(Value):
     to_neighbours: Links
     to_other_side: Links | None
     """for a solidity of 1; None if they have not been computed"""
+    across_cavities: Links | None
+    """likewise"""
     options: ProxyOptions
     cotangents: FloatArray
     """(m,3) weight of the edge opposite each corner of the triangles"""
@@ -155,9 +158,10 @@ class RestMesh(Value):
     @property
     def links(self) -> Links:
         """All links, with their weights."""
-        if self.to_other_side is None:
+        if self.to_other_side is None or self.across_cavities is None:
             return self.to_neighbours
-        return self.to_neighbours.joined(self.to_other_side.scaled(self.options.solidity))
+        of_walls = self.to_other_side.joined(self.across_cavities)
+        return self.to_neighbours.joined(of_walls.scaled(self.options.solidity))
 
     def with_options(self, options: ProxyOptions) -> "RestMesh | None":
         """Return the RestMesh with other options, or None if its surface would be another one."""
@@ -166,11 +170,11 @@ class RestMesh(Value):
             return None
         if options == now:
             return self
-        to_other_side = self.to_other_side
-        if to_other_side is None and _needs_other_side(options):
+        changed = replace(self, options=options)
+        if self.to_other_side is None and _needs_other_side(options):
             triangles, part = Triangles(self.V, self.F), self.topology.part
-            to_other_side = thickness_links(triangles, self.normals, self.areas, part)
-        changed = replace(self, to_other_side=to_other_side, options=options)
+            found = _links_within(triangles, self.normals, self.areas, part)
+            changed = replace(changed, to_other_side=found[0], across_cavities=found[1])
         if options.solidity != now.solidity:
             matrices = changed.skin.with_links(self.V, changed.links)
             changed = replace(changed, matrices=matrices)
@@ -426,7 +430,7 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
         to_neighbours, search = no_links(), None
         if _needs_other_side(proxy):
-            search = beside.submit(thickness_links, triangles, normals, areas, parts.part)
+            search = beside.submit(_links_within, triangles, normals, areas, parts.part)
         if proxy.together:
             to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
         smooth, shares = np.ones(len(V)), np.ones(len(V))
@@ -438,7 +442,7 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
             is_flat[F[factors < 1.0]] = True
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
-        to_other_side = search.result() if search else None
+        to_other_side, across_cavities = search.result() if search else (None, None)
     rest = RestMesh(
         input_positions,
         surface.input_map,
@@ -452,6 +456,7 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
         shares,
         to_neighbours,
         to_other_side,
+        across_cavities,
         proxy,
         C,
         skin,
@@ -459,6 +464,11 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     )
     matrices = skin.with_links(V, rest.links)
     return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
+
+
+def _links_within(*surface):
+    """Return the Links to the other side of parts, and across their cavities."""
+    return thickness_links(*surface), cavity_links(*surface)
 
 
 def _needs_other_side(options):

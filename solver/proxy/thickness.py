@@ -22,7 +22,7 @@ As next to no vertex of the part lies inside the ball, a link does not cross ano
 import numpy as np
 
 from ..algebra import columns, dot
-from .links import links_between, no_links
+from .links import links_between
 from .nearest import Nearest
 from .samples import surface_samples
 
@@ -57,22 +57,44 @@ def thickness_links(triangles, normals, areas, part):
     part : (n,) int array
         Connected part of each vertex.
     """
-    V = triangles.V
     outward = outward_sign(triangles, part)[part]
-    is_solid = (outward != 0.0) & normals.any(axis=1)
-    points = np.flatnonzero(is_solid)
+    return links_between(*facing_pairs(triangles.V, outward[:, None] * normals, areas, part))
+
+
+def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS):
+    """Return pairs of vertices on opposite sides of a part, and weights of links between them.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Rest positions in the unit box.
+    normals : (n,3) float array
+        Unit normals away from the side on which the balls are, or zero for none.
+    areas : (n,) float array
+    part : (n,) int array
+    count : int
+        Approximate number of vertices to start from.
+    most : int
+        Number of vertices that the balls are measured against.
+
+    Returns
+    -------
+    i, j : (k,) int arrays
+    weights : (k,) array
+    """
+    is_asked = normals.any(axis=1)
+    points = np.flatnonzero(is_asked)
     if len(points) < 4:
-        return no_links()
-    points = points[:: -(-len(points) // MOST_POINTS)]
-    spacing, chosen, area = surface_samples(V, normals, areas, part, is_solid, SAMPLES)
-    normals = outward[:, None] * normals
+        return points[:0], points[:0], areas[:0]
+    points = points[:: -(-len(points) // most)]
+    spacing, chosen, area = surface_samples(V, normals, areas, part, is_asked, count)
     i, j = _opposite(V, normals, part, chosen, points)
     is_facing = _are_facing(V, normals, i, j)
     i, j = i[is_facing], j[is_facing]
     share = np.zeros(len(V))
     share[chosen] = area
     distance = np.linalg.norm(V[j] - V[i], axis=1)
-    return links_between(i, j, STRENGTH * share[i] / np.maximum(distance, spacing[i]) ** 2)
+    return i, j, STRENGTH * share[i] / np.maximum(distance, spacing[i]) ** 2
 
 
 def _opposite(V, normals, part, chosen, points):
