@@ -113,6 +113,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
             layout.prop_search(self, "frame", context.blend_data, "objects")
         layout.prop(self, "orientation")
         draw_volume(layout, self)
+        layout.prop(self, "keep_symmetric")
         layout.row(align=True).prop(self, "symmetry", toggle=True)
         layout.prop(self, "floor")
         draw_advanced(layout, self)

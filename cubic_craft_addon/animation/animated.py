@@ -65,6 +65,7 @@ class Animated:
         return replace(
             on_the_way(before, overrides.settings_for(owner), share),
             symmetry=(False, False, False),
+            keep_symmetric=False,
             result="MESH",
             with_modifiers=False,
             start="HERE",

@@ -22,7 +22,7 @@ INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 DEFAULT = "Cubic"
 SETTINGS = (
     *("cubeness", "crispness", "solidity", "keep_pose", "detail", "detail_strength", "keep_apart"),
-    *("together", "refine", "rotation", "hold_rest"),
+    *("together", "refine", "rotation", "keep_symmetric", "hold_rest"),
 )
 """the settings of a look; the orientation belongs to a mesh, the device to a machine"""
 

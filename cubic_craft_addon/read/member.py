@@ -15,11 +15,11 @@ import bpy
 
 from ...solver import CubicCraftError
 from ...solver.mesh.mesh_checks import check_mesh
+from ...solver.pieces.own_symmetry import with_own_symmetry
 from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
-from ...solver.pieces.whole import Whole
 from ...solver.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
@@ -92,7 +92,8 @@ def _is_joined(item):
 def placed(members: Sequence[Member]) -> list[Member]:
     """Return the members of an assembly where they are solved: one alone, several in the world."""
     if len(members) == 1:
-        return [replace(members[0], placement=members[0].alone)]
+        alone = replace(members[0], placement=members[0].alone)
+        return [with_own_symmetry(alone) if alone.settings.keep_symmetric else alone]
     return [replace(one, placement=one.in_world) for one in members if one.in_world is not None]
 
 
@@ -154,7 +155,7 @@ def read_member(
         known = None
     V = alone.place(shape.original)
     handle_of = _handle_of(obj, settings, V, shape.triangles, known)
-    whole = _whole(obj.name, shape, reflections, settings, known)
+    whole = _whole(obj.name, shape, reflections, settings)
     bones = _bones(obj, settings, whole, alone, shape, known, rigged)
     return Member(
         uid=obj.session_uid,
@@ -237,11 +238,8 @@ def _bones(obj, settings, whole, alone, shape, known, rigged):
     return read_bones(obj, shape.original, whole, alone, known and known.bones)
 
 
-def _whole(name, shape, reflections, settings, known):
-    before = known and (known.whole.reflections, known.settings.symmetry)
-    if known and known.shape is shape and before == (reflections, settings.symmetry):
-        return known.whole
-    whole = Whole(shape.original, shape.triangles, reflections, settings.symmetry)
+def _whole(name, shape, reflections, settings):
+    whole = shape.whole(reflections, settings.symmetry)
     if whole.matching is not None and whole.matching < LEAST_MATCHING * len(shape.original):
         raise CubicCraftError(
             f'"{name}" is not symmetric: only {whole.matching:,} of its {len(shape.original):,}'

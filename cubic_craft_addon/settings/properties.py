@@ -304,6 +304,13 @@ class RunProperties:
         default=Settings.symmetry,
         options=_OPTIONS,
     )
+    keep_symmetric: BoolProperty(
+        name="Keep Symmetric",
+        description="A mesh of which 99 % mirror each other about its origin, along X, Y or Z,"
+        " stays symmetric, if it is solved alone and its form and weights are symmetric, too",
+        default=Settings.keep_symmetric,
+        options=_OPTIONS,
+    )
     hold_rest: BoolProperty(
         name="Hold the Rest",
         description="Where no handle is pinned, keep regions far from the moved handles in place"

@@ -58,6 +58,8 @@ class Settings(FormSettings):
     """KEEP holds each free part in its orientation, FREE lets it turn as a whole"""
     symmetry: tuple[bool, bool, bool] = (False, False, False)
     """axes of the object about which halves stay mirror images"""
+    keep_symmetric: bool = True
+    """whether it stays symmetric about axes about which it is"""
     hold_rest: bool = True
     """whether regions far from moved handles stay in place"""
     floor: str = "AUTO"

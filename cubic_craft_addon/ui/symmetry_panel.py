@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.pieces.shape import LEAST_MATCHING as SYMMETRIC
 from ...solver.pieces.whole import Whole
 from ...solver.symmetry import LEAST_MATCHING
 from .. import mesh_bridge
@@ -19,6 +20,7 @@ _AXES = "XYZ"
 def draw_symmetry(layout, obj, properties):
     """Draw the axes, and below them what is symmetric."""
     row = layout.row(align=True, heading="Symmetry")
+    row.prop(properties, "keep_symmetric", text="Auto", toggle=True)
     for axis, name in enumerate(_AXES):
         row.prop(properties, "symmetry", index=axis, text=name, toggle=True)
     text, icon = _says(obj, tuple(properties.symmetry))
@@ -42,6 +44,8 @@ def _says(obj, symmetry):
     text = f"{matching:,} of {len(positions):,} match"
     if matching < LEAST_MATCHING * len(positions):
         return f"Only {text}", "ERROR"
+    if matching < SYMMETRIC * len(positions):
+        text += "; the rest is free"
     return text, "MOD_MIRROR"
 
 

@@ -5,6 +5,7 @@ import numpy as np
 
 from ..aliases import FloatArray
 from .placement import Placement
+from .reflection import Reflection
 from .whole import Whole
 
 _ALIKE = 1e-5  # smaller rotations make no difference
@@ -18,16 +19,34 @@ def orientations(whole: Whole, placement: Placement) -> list[FloatArray]:
     """
     turns = [np.eye(3)]
     for reflection in whole.mirrored:
-        linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
-        U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
-        turns += [turn @ U @ Vt for turn in turns]
+        turns += [turn @ _placed(reflection, placement) for turn in turns]
     axes = [np.asarray(style.orientation) for style in placement.styles]
-    pairs = list(zip(axes, (style.form for style in placement.styles), strict=True))
-    is_captured = placement.style.capture is not None
-    if all(_looks_alike(Q @ turn @ Q.T, form, is_captured) for Q, form in pairs for turn in turns):
+    if all(_look_alike(turn, placement) for turn in turns):
         return [Q[None] for Q in axes]
     sides = whole.sides()
     return [np.stack([Q @ turn for turn in turns])[sides] for Q in axes]
+
+
+def is_own_image(reflection: Reflection, placement: Placement) -> bool:
+    """Return whether each form of a placement is its own image about a plane of the object."""
+    return _look_alike(_placed(reflection, placement), placement)
+
+
+def _placed(reflection, placement):
+    """Return the map (3,3) of a reflection of the object where it is solved, without a stretch."""
+    linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
+    U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
+    return U @ Vt
+
+
+def _look_alike(turn, placement):
+    """Return whether all forms look the same after a turn or reflection."""
+    is_captured = placement.style.capture is not None
+    for style in placement.styles:
+        Q = np.asarray(style.orientation)
+        if not _looks_alike(Q @ turn @ Q.T, style.form, is_captured):
+            return False
+    return True
 
 
 def _looks_alike(turn, form, is_captured):

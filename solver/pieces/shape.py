@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of one object at rest."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
+from .reflection import Reflection
+from .whole import Whole
+
+LEAST_MATCHING = 0.99
+"""share of the vertices that must have mirror images in a shape that is symmetric"""
+_NEARLY = 0.02  # of the extent: difference of the distances of the bounding box's sides
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +31,29 @@ class Shape:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()
         return is_same and np.array_equal(self.triangles, other.triangles)
+
+    def whole(self, reflections: Sequence[Reflection], symmetry: Sequence[bool]) -> Whole:
+        """Return its Whole, the same each time."""
+        key = (tuple(reflections), tuple(symmetry))
+        if key not in self._wholes:
+            self._wholes[key] = Whole(self.original, self.triangles, *key)
+        return self._wholes[key]
+
+    @cached_property
+    def _wholes(self):
+        return {}
+
+    @cached_property
+    def symmetric_axes(self) -> tuple[bool, ...]:
+        """About which planes through the origin it is symmetric."""
+        return tuple(self._is_symmetric(axis) for axis in range(3))
+
+    def _is_symmetric(self, axis):
+        x = self.original[:, axis]
+        if len(x) < 3 or not abs(x.min() + x.max()) <= _NEARLY * np.ptp(x):
+            return False  # by this, most meshes are known not to be
+        matching = self.whole((), [number == axis for number in range(3)]).matching or 0
+        return matching >= LEAST_MATCHING * len(x)
 
     @cached_property
     def components(self) -> int:

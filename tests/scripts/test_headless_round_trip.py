@@ -168,7 +168,7 @@ def test_report(results):
         "keep_apart": "on",
     }
     by_default |= {"together": "selection", "refine": "auto", "rotation": "keep"}
-    off = {"symmetry": "", "floor": "auto", "hold_rest": "on", "with_modifiers": False}
+    off = {"symmetry": "auto", "floor": "auto", "hold_rest": "on", "with_modifiers": False}
     form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}
     form["capture_strength"] = None
     form["form_directions"] = ""

@@ -21,7 +21,12 @@ __all__ = ("parse",)
 
 OF_FILE = ("object", "directions")
 """forms that are made from a file"""
-DEFAULTS = {**OF_METHOD, "together": ("selection", "off"), "hold_rest": ("on", "off")}
+DEFAULTS = {
+    **OF_METHOD,
+    "together": ("selection", "off"),
+    "symmetry": ("auto", ""),
+    "hold_rest": ("on", "off"),
+}
 """name: by default, with ``--paper``"""
 
 
@@ -134,7 +139,7 @@ def _add_method(add: Adder) -> None:
 def _add_shape(add: Adder) -> None:
     add_kept(add)
     add("--together", choices=("off", "parts", "selection"))
-    add("--symmetry", type=_axes, default="", metavar="AXES")
+    add("--symmetry", type=_axes, metavar="AXES")
     add("--floor", choices=("auto", "on", "off"), default="auto")
     add("--with-modifiers", action="store_true")
     add("--hold-rest", choices=("on", "off"))
@@ -184,6 +189,10 @@ def _words(text: str) -> list[str]:
 
 def _axes(text: str) -> str:
     axes = text.lower()
+    if axes in ("auto", "off"):
+        return axes.removeprefix("off")
     if set(axes) - set("xyz") or len(set(axes)) < len(axes):
-        raise argparse.ArgumentTypeError(f"{text!r} is none of x, y, z, xy, xz, yz and xyz")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is none of auto, off, x, y, z, xy, xz, yz and xyz"
+        )
     return "".join(sorted(axes))

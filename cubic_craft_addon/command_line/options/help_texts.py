@@ -55,7 +55,7 @@ HELP = {
     "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
     "file do (default: selection)",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
-    "stay so",
+    "stay so; auto: those that are so in 99 %% of a mesh that is solved alone; off (default: auto)",
     "--floor": "what keeps its height: all that stands on feet or a base (auto, the default),"
     " whatever is lowest (on), or nothing",
     "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
@@ -63,8 +63,8 @@ HELP = {
     "--hold-rest": "whether what is far from handles that are moved stays where it is "
     "(default: on)",
     "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, "
-    "together off, refine off, rotation free, hold-rest off; each of them can be given beside it "
-    "and counts then",
+    "together off, refine off, rotation free, symmetry off, hold-rest off; each of them can be "
+    "given beside it and counts then",
     "--output": "(default: cubic_craft.png)",
     "--no-render": "no picture",
     "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "

@@ -44,7 +44,8 @@ def shape_of(obj):
     p = obj.cubic_craft
     looks = p.cubeness, p.crispness, p.solidity, p.detail, p.detail_strength
     sizes = (round(value, 6) for value in looks)
-    return *sizes, p.keep_pose, p.keep_apart, p.together, p.refine, p.rotation, p.hold_rest
+    kept = p.keep_pose, p.keep_apart, p.keep_symmetric, p.hold_rest
+    return *sizes, *kept, p.together, p.refine, p.rotation
 
 
 def test_ours_are_there_without_a_user_folder(files, monkey):

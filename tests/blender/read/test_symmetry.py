@@ -62,9 +62,25 @@ def test_halves_end_as_mirror_images_bit_for_bit():
 def test_without_symmetry_they_do_not():
     obj = add_lump()
     partner = partner_of(position_of(obj.data), 1e-4)
-    cubify()
+    cubify(keep_symmetric=False)
     after = position_of(obj.data)
     assert (after[partner] != after * FLIP_X).any()
+
+
+def test_what_is_symmetric_stays_so_without_being_asked():
+    obj = add_monkey()
+    cubify()
+    after = position_of(obj.data)
+    assert (in_order(after) == in_order(after * FLIP_X)).all()
+    assert "507 of 507 match" in obj.cubic_craft.status
+
+
+def test_what_is_solved_with_others_has_no_plane_of_its_own():
+    """An eye would be held in its place."""
+    head, eye = add_monkey(), add_monkey(location=(0.4, 0, 1.5))
+    select(head, eye)
+    cubify()
+    assert "match" not in head.cubic_craft.status + eye.cubic_craft.status
 
 
 def test_about_three_axes_at_once():

@@ -179,6 +179,7 @@ def change_setting(rng):
             ("together", rng.choice(["OFF", "PARTS", "SELECTION"])),
             ("refine", rng.choice(["AUTO", "OFF"])),
             ("rotation", rng.choice(["KEEP", "FREE"])),
+            ("keep_symmetric", rng.random() < 0.5),
             ("symmetry", tuple(rng.random() < 0.4 for _ in range(3))),
             ("floor", rng.choice(["AUTO", "ON", "OFF"])),
             ("hold_rest", rng.random() < 0.5),

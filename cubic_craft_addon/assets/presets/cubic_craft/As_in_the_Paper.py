@@ -13,4 +13,5 @@ bpy.context.object.cubic_craft.keep_apart = False
 bpy.context.object.cubic_craft.together = "OFF"
 bpy.context.object.cubic_craft.refine = "OFF"
 bpy.context.object.cubic_craft.rotation = "FREE"
+bpy.context.object.cubic_craft.keep_symmetric = False
 bpy.context.object.cubic_craft.hold_rest = False

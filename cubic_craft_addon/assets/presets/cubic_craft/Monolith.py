@@ -14,4 +14,5 @@ bpy.context.object.cubic_craft.keep_apart = True
 bpy.context.object.cubic_craft.together = "SELECTION"
 bpy.context.object.cubic_craft.refine = "AUTO"
 bpy.context.object.cubic_craft.rotation = "KEEP"
+bpy.context.object.cubic_craft.keep_symmetric = True
 bpy.context.object.cubic_craft.hold_rest = True
