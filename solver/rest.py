@@ -35,6 +35,8 @@ from .proxy.sheets import extrusions, planar_sheets
 from .proxy.thickness import outward_sign, thickness_links
 from .values import Value
 
+LIGHT = 0.01
+"""how much planar sheets count in the place and the rotation of what they hang on"""
 _OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness")
 """cached properties that links change nothing in"""
 
@@ -146,14 +148,25 @@ class RestMesh(Value):
         return self._drawn[1]
 
     @cached_property
+    def weighing(self) -> FloatArray:
+        """(n,) weights of the vertices in the place of a component: areas, of sheets next to none.
+
+        The crown of a tree sinks into itself; its trunk stays on its roots.
+        """
+        return np.where(self.is_sheet, LIGHT, 1.0) * self.areas + 1e-300
+
+    @cached_property
     def standing(self) -> FloatArray:
         """(n,) weights of the vertices in the rotation of a component.
 
         In the paper's energy, they are the areas. Otherwise they are the fourth roots of the areas,
         nearly a count of vertices: a rotation is noticeable where an artist has put many vertices,
-        as in a face, but the tiny triangles of a zip must not turn a coat.
+        as in a face, but the tiny triangles of a zip must not turn a coat. Leaves, which are planar
+        sheets, must not turn a trunk.
         """
-        return (np.sqrt(np.sqrt(self.areas)) if self.options.refine else self.areas) + 1e-300
+        if not self.options.refine:
+            return self.areas + 1e-300
+        return np.where(self.is_sheet, LIGHT, 1.0) * np.sqrt(np.sqrt(self.areas)) + 1e-300
 
     @property
     def links(self) -> Links:
@@ -440,6 +453,10 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
             shares = cubic_shares(triangles, smooth, areas)
             factors = stiffness(triangles, parts.part)
             is_flat[F[factors < 1.0]] = True
+            is_sheet = planar_sheets(V, F, parts.part)[parts.part]
+            factors = np.where(is_sheet[F[:, 0]], LIGHT * factors, factors)
+            ends = is_sheet[to_neighbours.vertices] & (to_neighbours.coefficients != 0.0)
+            to_neighbours = to_neighbours.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side, across_cavities = search.result() if search else (None, None)

@@ -93,7 +93,11 @@ def placed(members: Sequence[Member]) -> list[Member]:
     """Return the members of an assembly where they are solved: one alone, several in the world."""
     if len(members) == 1:
         alone = replace(members[0], placement=members[0].alone)
-        return [with_own_symmetry(alone) if alone.settings.keep_symmetric else alone]
+        settings = alone.settings
+        if not settings.keep_symmetric:
+            return [alone]
+        stands = settings.floor != "OFF" and not settings.handles
+        return [with_own_symmetry(alone, alone.alone.up if stands else None)]
     return [replace(one, placement=one.in_world) for one in members if one.in_world is not None]
 
 

@@ -42,7 +42,7 @@ class TaichiMotion:
         topology = rest.topology
         (bounds, of_chunk), (groups, self._component) = topology.chunks, topology.groups
         self._bounds, self._of_chunk, self._groups = keep(bounds), keep(of_chunk), keep(groups)
-        share = topology.shares(rest.areas + 1e-300)
+        share = topology.shares(rest.weighing)
         self._centre = topology.sum_parts(share[:, None] * rest.V)
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         # only asked for where a component has to be kept from turning

@@ -19,7 +19,7 @@ class Centring:
     def __init__(self, rest, is_floating):
         topology = rest.topology
         self._is_whole = topology.component_count == 1
-        share = topology.shares(rest.areas + 1e-300)
+        share = topology.shares(rest.weighing)
         if self._is_whole:
             self._share = share
         else:

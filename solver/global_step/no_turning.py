@@ -50,7 +50,7 @@ class NoTurning:
         self.pull = share[:, None] * x
         self._is_idle = not is_free.any()
         P = np.zeros_like(x) if self._is_idle else solve(self.pull)
-        share = topology.shares(rest.areas + 1e-300)  # so that the centroid stays where it is
+        share = topology.shares(rest.weighing)  # so that the centroid stays where it is
         P -= topology.sum_parts(share[:, None] * P)[topology.component]
         self.P = P * is_free[topology.component][:, None]
         M = topology.sum_parts((self.P[:, :, None] * self.pull[:, None, :]).reshape(-1, 9))

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keep each large part of a component from turning, not only the component as a whole.
+"""Keep each part of a component from turning, not only the component as a whole.
 
 Links hold parts together where they touch, which is often a joint: the roof of a lamp could tilt
 to bring its slope to the cube, and the post would lean the other way, so that both together had
-not turned. An eye, however, must be able to follow its socket, and a shirt its body. So parts that
-are large beside their component and touch others at a few places keep their rotation, by
-constraints like those of `no_turning.py`; the others follow what they touch.
+not turned; so could the rods of an arm. A shirt, however, must be able to follow its body. So parts
+that others cover only in part keep their rotation, by constraints like those of `no_turning.py`;
+the others, and crumbs, follow what they touch.
 
 The torques t_j of all constraints are to vanish, those of the parts and that of the component.
 Among the positions that obey them, those of least energy are U + sum_k mu_k x P_k with
@@ -21,11 +21,11 @@ from ..proxy.samples import extents
 from .no_turning import SMALLEST
 from .tall_products import tall_product, transposed_product, weighted_sum
 
-LARGE = 0.25
+LARGE = 0.05
 """extent of a part whose rotation is kept, relative to that of its component"""
-HELD = 0.3
+HELD = 0.6
 """share of the area of a part that is linked to others; with more, these determine its rotation"""
-MOST_PARTS = 16
+MOST_PARTS = 32
 """in a component; of more, the largest"""
 MOST_MEMORY = 2**28
 """bytes for the constraints of all components together; the largest components come first"""
@@ -70,7 +70,7 @@ class UprightParts:
             for c in having:
                 rows = self._rows[c]
                 pulls[c].append(pull[rows])
-                ways[c].append(P[rows] - _centroid(rest.areas[rows], P[rows]))
+                ways[c].append(P[rows] - _centroid(rest.weighing[rows], P[rows]))
         self._pulls = {c: np.hstack(pulls[c]) for c in groups}
         self._ways = {c: np.hstack(ways[c]) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}

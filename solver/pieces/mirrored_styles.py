@@ -27,9 +27,17 @@ def orientations(whole: Whole, placement: Placement) -> list[FloatArray]:
     return [np.stack([Q @ turn for turn in turns])[sides] for Q in axes]
 
 
-def is_own_image(reflection: Reflection, placement: Placement) -> bool:
-    """Return whether each form of a placement is its own image about a plane of the object."""
-    return _look_alike(_placed(reflection, placement), placement)
+def is_own_image(
+    reflection: Reflection, placement: Placement, direction: FloatArray | None = None
+) -> bool:
+    """Return whether each form of a placement is its own image about a plane of the object.
+
+    And a direction (3,), where it is solved.
+    """
+    turn = _placed(reflection, placement)
+    if direction is not None and np.abs(turn @ direction - direction).max() > _ALIKE:
+        return False
+    return _look_alike(turn, placement)
 
 
 def _placed(reflection, placement):

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from ..aliases import FloatArray
 from ..symmetry import Mirror
 from .mirrored_styles import is_own_image
 from .piece import Piece
@@ -20,8 +21,11 @@ _ALIKE = 0.01  # of weights
 T = TypeVar("T", bound=Piece)
 
 
-def with_own_symmetry(piece: T) -> T:
+def with_own_symmetry(piece: T, up: FloatArray | None = None) -> T:
     """Return a piece that is solved alone, symmetric about the axes about which it is at rest.
+
+    With a direction `up` (3,), where it is solved, only about planes that contain it: what keeps
+    its place on the floor is shifted afterward.
 
     Neither where its form is not its own image, nor where handles, regions or painted weights are
     not symmetric. One with a symmetry that was asked for stays as it is.
@@ -32,7 +36,7 @@ def with_own_symmetry(piece: T) -> T:
     if any(handle.is_moved for handle in piece.handles):
         return piece
     axes = tuple(
-        is_symmetric and is_own_image(flip(axis), piece.placement)
+        is_symmetric and is_own_image(flip(axis), piece.placement, up)
         for axis, is_symmetric in enumerate(piece.shape.symmetric_axes)
     )
     if not any(axes):

@@ -40,6 +40,10 @@ class Links(Value):
         """Return the links with scaled weights; none for a factor of 0."""
         return replace(self, weights=factor * self.weights) if factor > 0.0 else no_links()
 
+    def weighted(self, factors):
+        """Return the links with their weights multiplied by factors (k,)."""
+        return replace(self, weights=factors[:, None] * self.weights)
+
     def mapped(self, number):
         """Return the links with their vertices mapped by number (n,)."""
         return replace(self, vertices=number[self.vertices])

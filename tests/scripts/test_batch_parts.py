@@ -80,11 +80,11 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
 
 IN_FULL = (
     "--crispness 0 --solidity 0 --keep-pose off --detail 0 --keep-apart off"
-    " --together off --refine off --rotation free --hold-rest off"
+    " --together off --refine off --rotation free --symmetry off --hold-rest off"
 )
 BY_DEFAULT = (
     "--crispness 0.9 --solidity 0.3 --keep-pose on --detail 0.05 --keep-apart on"
-    " --together selection --refine auto --rotation keep --hold-rest on"
+    " --together selection --refine auto --rotation keep --symmetry auto --hold-rest on"
 )
 
 
@@ -102,7 +102,7 @@ def test_the_paper_is_its_options_in_full(folder, monkeypatch):
     beside = batch_options("--paper", "--rotation", "keep", "--solidity", "0.1")
     assert (beside.rotation, beside.solidity, beside.together) == ("keep", 0.1, "off")
     keys = {key(*in_full[:k], *in_full[k + 2 :]) for k in range(0, len(in_full), 2)}
-    assert len(keys | {key("--paper")}) == 10, "each of them decides about the result"
+    assert len(keys | {key("--paper")}) == 11, "each of them decides about the result"
 
 
 def names(*inputs, is_recursive=False):

@@ -177,7 +177,7 @@ bpy.context.object.location = (1, 2, 3)
     monkey.cubic_craft.preset = "Mine"
     assert shape_of(monkey) == (
         *(0.7, 0.9, 0.3, 0.05, 1.0),
-        *(True, True, "SELECTION", "AUTO", "KEEP", True),
+        *(True, True, True, True, "SELECTION", "AUTO", "KEEP"),
     )
     assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
     for name in ("broken.py", "empty.py"):

@@ -9,6 +9,7 @@ from devices import by_device
 from procrustes import best_rotation
 
 from solver import ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
+from solver.global_step.upright_parts import HELD
 
 
 def solid(*outline, sides=20):
@@ -60,6 +61,28 @@ def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
         assert max(leaning(lamp(), cubeness)) > 5.0, "it shows nothing"
 
 
+def figure_of_parts():
+    """Return a trunk with arms of a shoulder, an elbow and two rods each, which overlap."""
+    rod = solid(*((0.1, z) for z in np.linspace(0.05, 0.6, 8)), sides=24)
+    ball = solid(*((0.13 * np.sin(a), -0.13 * np.cos(a)) for a in np.linspace(0.1, 3.0, 13)))
+    trunk = solid(*((0.35 + 0.1 * np.sin(4 * z), z) for z in np.linspace(-0.5, 0.2, 9)), sides=40)
+    arms = []
+    for side in (-1.0, 1.0):
+        place = np.array([side * 0.52, 0.0, 0.0])
+        for way in ([side * 0.75, 0.0, -0.66], [side * 0.2, -0.3, -0.93]):
+            turn = np.linalg.qr(np.column_stack([way, [0, 1, 0], [1, 0, 0]]))[0][:, [1, 2, 0]]
+            turn = turn * np.sign([1.0, np.linalg.det(turn) * (turn[:, 2] @ way), turn[:, 2] @ way])
+            arms += [(V @ turn.T + place, F) for V, F in (ball, rod)]
+            place = place + 0.6 * np.array(way)
+    return proxy_shapes.joined(trunk, *arms)
+
+
+def test_no_part_of_a_figure_of_parts_turns(monkeypatch):
+    assert max(leaning(figure_of_parts(), 0.4)) < 1.0
+    monkeypatch.setattr("solver.global_step.upright_parts.LARGE", 0.25)
+    assert max(leaning(figure_of_parts(), 0.4)) > 1.5, "it shows nothing"
+
+
 def test_the_energy_falls_and_nothing_turns():
     rest = rest_mesh(*lamp(), ProxyOptions(keep_apart=False))
     setup = Setup(rest)
@@ -68,7 +91,7 @@ def test_the_energy_falls_and_nothing_turns():
     run(state, 40, 1e-12, lambda s: energies.append(s.energy.total))
     assert np.diff(energies).max() <= 1e-12
     assert setup.global_step.upright_parts.is_kept.all()
-    assert asymmetry(rest, state.positions) < 1e-9
+    assert asymmetry(rest, state.positions) < 1e-7
 
 
 def test_nothing_turns_where_a_factorisation_would_be_too_large(device, monkeypatch):
@@ -114,10 +137,10 @@ def test_several_do_as_each_would_alone():
         assert np.abs(moved - (alone.positions - V)).max() < 0.04
 
 
-@pytest.mark.parametrize("make", [proxy_shapes.eye_in_head, proxy_shapes.blob_with_shirt])
-def test_an_eye_and_a_shirt_follow_what_they_touch(make):
-    setup = Setup(rest_mesh(*make(), ProxyOptions()))
-    assert not setup.global_step.upright_parts.is_kept.any()
+def test_a_shirt_follows_what_it_covers():
+    rest = rest_mesh(*proxy_shapes.blob_with_shirt(), ProxyOptions())
+    body, shirt = rest.linked_share
+    assert body < HELD < shirt
 
 
 def test_a_part_that_is_pinned_frees_the_others():

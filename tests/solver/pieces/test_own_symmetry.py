@@ -78,6 +78,12 @@ def test_it_is_not_where_something_is_not_symmetric(why):
     assert np.abs(axes_of(**options)).tolist() == asked
 
 
+def test_what_stands_on_a_floor_is_symmetric_about_upright_planes():
+    V, F = uv_sphere(32, 16)
+    up = np.array([0.0, 0.0, 1.0])
+    assert len(with_own_symmetry(piece_of(V, F), up).whole.mirrored) == 2
+
+
 @pytest.mark.parametrize("why", ["pinned", "map", "half"])
 def test_it_is_where_these_are_symmetric_too(why):
     V, _ = ears()

@@ -5,6 +5,7 @@ import numpy as np
 import proxy_shapes
 import pytest
 import shapes
+from procrustes import best_rotation
 
 from solver import ProxyOptions, rest_mesh, stylize
 from solver.proxy.sheets import extrusions, planar_sheets
@@ -86,3 +87,27 @@ def test_letters_are_told_from_limbs(sides, is_letter):
     part = np.zeros(len(V), np.int64)
     assert extrusions(V, F, part).tolist() == [is_letter]
     assert bool(len(rest_mesh(V, F, ProxyOptions()).limbs.directions)) != is_letter
+
+
+def test_leaves_do_not_turn_a_trunk():
+    """Cards at one side of its top: their number, area and stiffness are those of many leaves."""
+    rng = np.random.default_rng(5)
+    V, F = shapes.sphere(4)
+    trunk = V * [0.35, 0.3, 1.5]
+    corners = np.array([[0.0, -0.5, 0], [1, -0.5, 0], [1, 0.5, 0], [0, 0.5, 0]])
+    places = trunk[(V[:, 2] > 0.3) & (V[:, 0] > 0.0)]
+    leaves = [
+        (0.4 * corners @ np.linalg.qr(rng.normal(size=(3, 3)))[0] + place, [[0, 1, 2], [0, 2, 3]])
+        for place in places[rng.choice(len(places), 60)]
+    ]
+    alone = stylize(trunk, F, 0.4, **RUN).positions
+    W, G = proxy_shapes.joined((trunk, F), *((P, np.array(T)) for P, T in leaves))
+    U = stylize(W, G, 0.4, **RUN).positions[: len(trunk)]
+    assert degrees(alone, U) < 0.6
+    assert abs(U[:, 2].min() - alone[:, 2].min()) < 0.01 * np.ptp(alone[:, 2])
+
+
+def degrees(V, U):
+    """Return by how much U (n,3) is turned from V (n,3)."""
+    Q = best_rotation(V, U, np.ones(len(V)))
+    return np.degrees(np.arccos(np.clip((np.trace(Q) - 1) / 2, -1, 1)))
