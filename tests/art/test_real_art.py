@@ -35,12 +35,12 @@ def test_parts_that_touch_stay_together(name):
     outcome = outcome_of(name)
     assert outcome.drift() <= 0.01
     # a pair a hundredth apart drifts by turning alone; flat sides pull at what they carry
-    assert outcome.seat() <= 0.019
+    assert outcome.seat() <= 0.023
 
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
     # Brows and nose become cubic, with every setting by about as much.
-    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.0225
+    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.023
 
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
@@ -52,7 +52,7 @@ def test_a_mesh_that_is_cut_open_does_not_tear(name, whole):
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
 def test_a_mesh_that_is_cut_open_becomes_as_cubic_as_the_whole(name, whole):
-    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.01)
+    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.015)
 
 
 @pytest.mark.thorough(2)
