@@ -355,11 +355,11 @@ class Session:
             may_be_written = task.is_followed or task.obj.mode in MODES
             if may_be_written and not mesh.suits(task):  # else the next tick ends it
                 mesh_bridge.end_preview(task.mesh)
-                mesh.put_back()
+                mesh.discard()
                 other = _mesh_for(task, seen)
                 other.take_over(mesh)
                 self.meshes[self.meshes.index(mesh)] = other
-                other.begin_preview(task.obj)
+                other.begin_preview(task.obj, self._sources)
             seen.add(task.mesh)
 
     def _is_changed_at_rest(self, objects):
@@ -404,7 +404,7 @@ class Session:
 
     def _begin_previews(self):
         for mesh, task in self._plan.pairs(self.meshes):
-            mesh.begin_preview(task.obj)
+            mesh.begin_preview(task.obj, self._sources)
 
     def _complete(self):
         with elsewhere.waiting(self._window):
@@ -436,9 +436,7 @@ class Session:
     def _put_back(self):
         self.written.out_of_file()
         take_along(self.meshes, self._objects(bpy.context))
-        for mesh in self.meshes:
-            mesh.put_back()
-        remove_left()
+        remove_left({mesh.follower_uid for mesh in self.meshes})
         # On all meshes: a preview may have been copied, or left on a mesh that was removed.
         mesh_bridge.end_all_previews()
 
@@ -451,10 +449,15 @@ class Session:
         self._plan.release()
         self._runs.release()
         for mesh in self.meshes:
+            mesh.discard()
             mesh.release()
         redraw_panels()
 
     # -- helpers -----------------------------------------------------------------------------------
+
+    @property
+    def _sources(self):
+        return [task.obj for task in self._plan.tasks.values()]
 
     def _objects(self, context):
         """Return the objects that still exist, by ``session_uid``, the active one first."""

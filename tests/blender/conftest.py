@@ -14,6 +14,7 @@ __all__ = (
     "begin",
     "empty_file",
     "extension",
+    "follow",
     "live",
     "one_phase",
     "posed",
@@ -79,5 +80,16 @@ def begin(live):
             setattr(objects[0].cubic_craft, name, value)
         select(*objects)
         return live.begin(bpy.context, list(objects))
+
+    return start
+
+
+@pytest.fixture
+def follow(live, begin, monkeypatch):
+    """Return a function that begins Live with a follower; the exact run waits for no long pause."""
+    monkeypatch.setattr(f"{live.__name__}.pace.LEAST_PAUSE", 0.05)
+
+    def start(*objects, **settings):
+        return begin(*objects, result="NEW_OBJECT", **{"cubeness": 0.5, **settings})
 
     return start
