@@ -65,7 +65,8 @@ def live(extension):
 @pytest.fixture
 def one_phase(live, monkeypatch):
     """Let a tick end after one phase of the solver: else a fast machine does all in the first."""
-    monkeypatch.setattr(f"{live.__name__}.session.SLICE", 0.0)
+    for name in ("SLICE", "LONGEST"):
+        monkeypatch.setattr(f"{live.__name__}.slices.{name}", 0.0)
 
 
 @pytest.fixture

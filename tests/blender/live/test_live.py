@@ -220,11 +220,12 @@ def test_without_a_window_it_says_so():
 def test_a_tick_keeps_to_its_slice(live, begin, monkeypatch):
     """By a clock on which each phase of the solver takes a third of it, and all else nothing."""
     session_module = importlib.import_module(f"{live.__name__}.session")
+    slices = importlib.import_module(f"{live.__name__}.slices")
     runs_module = importlib.import_module(f"{live.__name__}.live_runs")
     session = begin(add_monkey(), tolerance=1e-6)
     (mesh,) = session.meshes
     phases = []
-    clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * session_module.SLICE)
+    clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * slices.SLICE)
     monkeypatch.setattr(session_module, "time", clock)
     monkeypatch.setattr(runs_module, "time", clock)
     advance = mesh.run.advance
