@@ -30,6 +30,7 @@ from .memory.original import (
     read_positions,
     starts_here,
 )
+from .memory.strokes import moved_as_a_whole, offsets_by_hand
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.charts import charts
@@ -88,8 +89,10 @@ __all__ = (
     "mesh_of",
     "mesh_untouched",
     "move_seen",
+    "moved_as_a_whole",
     "not_hidden",
     "noted_outcome",
+    "offsets_by_hand",
     "original_positions",
     "plain_copy",
     "positions_with_strokes",
