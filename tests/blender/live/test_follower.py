@@ -124,6 +124,27 @@ def test_weights_painted_on_it_are_kept_and_so_is_the_mode(live, follow):
     assert follower.vertex_groups["Shine"].weight(7) == 0.25 and bits(follower) == shown
 
 
+def test_an_undo_of_something_else_leaves_it_dressed(live, follow):
+    obj = add_monkey()
+    name = obj.name
+    bpy.ops.ed.undo_push(message="Monkey")
+    session = tick_to_rest(follow(obj))
+    dress(follower_of(obj))
+    bpy.ops.ed.undo_push(message="Dressed")
+    shown = bits(bpy.data.objects[NAME])
+    obj.data.vertices[40].co.y -= 0.3
+    obj.data.update()
+    bpy.ops.ed.undo_push(message="Moved")
+    tick_to_rest(session)
+    assert bits(bpy.data.objects[NAME]) != shown
+    bpy.ops.ed.undo()
+    tick_to_rest(session)
+    assert bits(bpy.data.objects[NAME]) == shown
+    confirm(live, session)
+    check_dressed(bpy.data.objects[NAME])
+    assert len(bpy.data.objects) == 3 and bpy.context.object == bpy.data.objects[name]
+
+
 def test_cancelling_leaves_nothing_of_it(live, follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))
