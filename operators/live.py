@@ -59,6 +59,8 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         """Process events for Live; pass all others to Blender, so that the view can be orbited."""
         session = self._session
         is_ours = False
+        if event.type != "TIMER":
+            session.touch()
         session.look_around(context)
         if session.is_dragged():
             # During a drag, Blender keeps mouse and keys, and events have other types.

@@ -19,6 +19,7 @@ from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
 from ..read.member import ShapeRead, assemblies
 from ..run.failures import UNEXPECTED
+from ..run.posed_anew import is_posed_anew
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task, plan, write_all
 from ..settings.overrides import SettingsOverrides
@@ -81,6 +82,7 @@ class Job:
             rebase_edited_handles(meshes, self._overrides.start_of)
             self._tasks, problems = plan(self._overrides, objects)
         self._problems += problems + [_lost(task) for task in self._tasks if _is_lost(task)]
+        self._problems += [_posed_anew(task) for task in self._tasks if _is_torn(task)]
         sources = {new.session_uid: source for new, source in self._made}
         for task in self._tasks:
             task.source = sources.get(task.uid)
@@ -232,6 +234,17 @@ def _lost(task: Task) -> str:
     return (
         f'"{task.obj.name}" starts from its current shape: it was edited so that its original can'
         " no longer be determined"
+    )
+
+
+def _is_torn(task: Task) -> bool:
+    return task.settings.start != "HERE" and is_posed_anew(task.obj)
+
+
+def _posed_anew(task: Task) -> str:
+    return (
+        f'"{task.obj.name}" was posed anew since the last run, but its original is in the former'
+        " pose: if the result is torn, undo and choose From Here"
     )
 
 

@@ -7,7 +7,8 @@ rotation in the last solution that was seen. The solver comes after, see `pace`.
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from typing import Any, NamedTuple
 
 import bpy
@@ -17,6 +18,7 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
+from .beside import shift_beside
 from .follower import Follower
 from .live_mesh import LiveMesh
 from .stale_previews import leave
@@ -61,6 +63,11 @@ class FollowedMesh(LiveMesh):
         self._has_keys = False
 
     @property
+    def follower_uid(self):
+        """``session_uid`` of the follower."""
+        return self._follower.uid
+
+    @property
     def shown_uid(self):
         """``session_uid`` of the follower's mesh."""
         return self._follower.mesh_uid
@@ -101,19 +108,19 @@ class FollowedMesh(LiveMesh):
         """Let the present shape, which an undo may have changed, be read again."""
         self._change()
 
-    def begin_preview(self, obj: bpy.types.Object) -> None:
+    def begin_preview(self, obj: bpy.types.Object, beside: Sequence[bpy.types.Object]) -> None:
         """Make the follower, and show on it what was seen."""
         if self._follower.find() is None:
-            self._follower.make(obj)
-        super().begin_preview(obj)
+            self._follower.make(obj, shift_beside(beside))
+        super().begin_preview(obj, beside)
         if self.original is None:
             self.original, self._corners = self._glance(obj)
         else:
             self.look(obj, is_reported=False)
             self._is_carried = self._solved is not None
 
-    def put_back(self) -> None:
-        """Remove the follower, and remember its place."""
+    def discard(self) -> None:
+        """Remove the follower, unless it has become the result."""
         self._follower.remove()
 
     def leave(self) -> None:
@@ -122,9 +129,9 @@ class FollowedMesh(LiveMesh):
         if follower is not None:
             leave(follower)
 
-    def settle(self, written: bpy.types.Object) -> None:
-        """Put the result where the follower was."""
-        self._follower.give_place(written)
+    def settle(self, written: bpy.types.Object, undo: ExitStack | None) -> bpy.types.Object:
+        """Make the follower the result."""
+        return self._follower.become(written, undo)
 
     def look(self, obj: bpy.types.Object, *, is_reported: bool) -> bool:
         """Look whether the artist has changed the original; return whether he has.
@@ -177,7 +184,7 @@ class FollowedMesh(LiveMesh):
         if run is not None and not self._is_stale and run.moment not in (None, self._shown_moment):
             if not self._fits(obj):
                 self._follower.renew(obj)
-                super().begin_preview(obj)
+                super().begin_preview(obj, [obj])
             self._solved, self._is_carried = None, False
             return super().show(obj, values)
         return self._is_carried and self._show_carried(obj, values)

@@ -3,7 +3,8 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack
 from typing import Any
 
 import bpy
@@ -79,6 +80,11 @@ class LiveMesh:
         return self._preview is None or self._shown_moment is not None
 
     @property
+    def follower_uid(self):
+        """``session_uid`` of the object beside the original on which it shows the result; or 0."""
+        return 0
+
+    @property
     def shown_uid(self):
         """``session_uid`` of the mesh on which it shows what is on no mesh of the artist; or 0."""
         return 0
@@ -113,8 +119,11 @@ class LiveMesh:
             if self.run is not None:
                 self.run.forget()
 
-    def begin_preview(self, obj: bpy.types.Object) -> None:
-        """Keep what the preview will overwrite, on the mesh itself."""
+    def begin_preview(self, obj: bpy.types.Object, beside: Sequence[bpy.types.Object]) -> None:
+        """Keep what the preview will overwrite, on the mesh itself.
+
+        A follower, if it needs one, is made `beside` all these.
+        """
         mesh = self.shows_on(obj)
         if self._is_shown and mesh is not None:
             self._preview = mesh_bridge.Preview(mesh, self._start)
@@ -129,11 +138,15 @@ class LiveMesh:
         self.run = other.run
         self.member = other.member if self.is_as_seen == other.is_as_seen else None
 
-    def put_back(self) -> None:
+    def discard(self) -> None:
         """Remove what was made to show it on; previews have been ended."""
 
-    def settle(self, written: bpy.types.Object) -> None:
-        """Complete an object to which the result was written."""
+    def settle(self, written: bpy.types.Object, undo: ExitStack | None) -> bpy.types.Object:
+        """Return the object that is the result, once it was written to an object.
+
+        What is made of it is taken back by `undo`, or if that is None, is for good.
+        """
+        return written
 
     def show(self, obj: bpy.types.Object, values: Mapping[str, Any]) -> bool:
         """Show the current state of the run; return whether it was new.

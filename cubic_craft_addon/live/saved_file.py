@@ -6,8 +6,6 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import contextlib
 from collections.abc import Sequence
 
-import bpy
-
 from .. import hidden_source, mesh_bridge
 from ..run.tasks import Task, write_task
 from ..settings.overrides import SettingsOverrides
@@ -32,7 +30,6 @@ def write_for_file(
         for mesh in dict.fromkeys(task.mesh for task in kept if not task.is_followed):
             stack.enter_context(mesh_bridge.mesh_untouched(mesh))
         stack.enter_context(settings_untouched(meshes))
-        stack.enter_context(_selection_untouched())
         for task in kept:
             put_back = hidden_source.as_it_was(task.obj)
             write_task(overrides, task, task.run)
@@ -44,15 +41,3 @@ def write_for_file(
 
 def _loses_key(task):
     return task.settings.result == "MESH" and mesh_bridge.find_cubic_key(task.mesh) is not None
-
-
-@contextlib.contextmanager
-def _selection_untouched():
-    objects = bpy.context.view_layer.objects
-    selected, active = list(objects.selected), objects.active
-    try:
-        yield
-    finally:
-        for obj in selected:
-            obj.select_set(True)
-        objects.active = active

@@ -26,13 +26,12 @@ from .live_mesh import LiveMesh, take_along
 from .live_runs import LiveRuns
 from .machine import Action, Event, Machine, State
 from .plan import Plan
+from .slices import Slices
 from .undo_steps import UndoSteps
 from .written import Written
 
 _log = logging.getLogger(__name__)
 
-SLICE = 0.02
-"""seconds per tick for computing, plus the last phase of the solver"""
 _TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and handles events
 _PANEL_STEP = 0.1  # seconds between two redraws of the panel
 _CHECK_SHARE = 0.1  # largest share of the time for checking whether anything has changed
@@ -75,6 +74,8 @@ class Session:
         self.is_dragged: Callable[[], bool] = lambda: False
         self._has_written = self._may_be_painted = self._is_undone = False
         self._is_reported = False
+        self._slices = Slices()
+        self.touch()
         self._undo_steps = UndoSteps()
         self.written = Written()
         self.error = ""
@@ -180,8 +181,13 @@ class Session:
         if self.error and not self.is_ended:
             self.on(Event.FAILED)
 
+    def touch(self) -> None:
+        """Record that the artist does something, between whose events there is no long wait."""
+        self._slices.touch(time.perf_counter())
+
     def wake(self) -> None:
         """Make the next tick check whether anything has changed."""
+        self.touch()
         self._next_check = 0.0
         self.on(Event.WAKE)
 
@@ -271,7 +277,11 @@ class Session:
             self._check(list(objects.values()), begin)
             now = time.perf_counter()
             self._next_check = now + (now - begin) / _CHECK_SHARE
-        self._runs.advance(begin + SLICE)
+        if self._window is not None and len(self._window.modal_operators) > 1:
+            self.touch()  # the view is orbited, or a stroke drawn: Live sees none of their events
+        begin = time.perf_counter()
+        self._runs.advance(begin + self._slices.begin(begin))
+        self._slices.end(time.perf_counter())
         # Not at rest before Blender has evaluated what was shown: a stroke could go unnoticed.
         is_new = self._show(objects)
         is_working = self._runs.is_working or self._following.is_waiting or is_new
@@ -355,11 +365,11 @@ class Session:
             may_be_written = task.is_followed or task.obj.mode in MODES
             if may_be_written and not mesh.suits(task):  # else the next tick ends it
                 mesh_bridge.end_preview(task.mesh)
-                mesh.put_back()
+                mesh.discard()
                 other = _mesh_for(task, seen)
                 other.take_over(mesh)
                 self.meshes[self.meshes.index(mesh)] = other
-                other.begin_preview(task.obj)
+                other.begin_preview(task.obj, self._sources)
             seen.add(task.mesh)
 
     def _is_changed_at_rest(self, objects):
@@ -404,7 +414,7 @@ class Session:
 
     def _begin_previews(self):
         for mesh, task in self._plan.pairs(self.meshes):
-            mesh.begin_preview(task.obj)
+            mesh.begin_preview(task.obj, self._sources)
 
     def _complete(self):
         with elsewhere.waiting(self._window):
@@ -436,9 +446,7 @@ class Session:
     def _put_back(self):
         self.written.out_of_file()
         take_along(self.meshes, self._objects(bpy.context))
-        for mesh in self.meshes:
-            mesh.put_back()
-        remove_left()
+        remove_left({mesh.follower_uid for mesh in self.meshes})
         # On all meshes: a preview may have been copied, or left on a mesh that was removed.
         mesh_bridge.end_all_previews()
 
@@ -451,10 +459,15 @@ class Session:
         self._plan.release()
         self._runs.release()
         for mesh in self.meshes:
+            mesh.discard()
             mesh.release()
         redraw_panels()
 
     # -- helpers -----------------------------------------------------------------------------------
+
+    @property
+    def _sources(self):
+        return [task.obj for task in self._plan.tasks.values()]
 
     def _objects(self, context):
         """Return the objects that still exist, by ``session_uid``, the active one first."""

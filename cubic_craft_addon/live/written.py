@@ -55,15 +55,18 @@ class Written:
 
     def write(self, plan: Plan, meshes: Sequence[LiveMesh], problems: Sequence[str]) -> None:
         """Write all that is solved; `problems` are those of what is not."""
-        self.summary, unwritten = write_all(plan.overrides, plan.solved(meshes))
-        _settle(plan, meshes)
+        with _selection_untouched():
+            self.summary, unwritten = write_all(plan.overrides, plan.solved(meshes))
+            _settle(plan, meshes, None)
         self.problems = [*problems, *unwritten]
 
     def write_to_file(self, plan: Plan, meshes: Sequence[LiveMesh]) -> None:
         """Write all that is solved until `out_of_file` takes it back."""
         try:
-            self._in_file = write_for_file(plan.overrides, plan.solved(meshes))
-            _settle(plan, meshes)
+            with contextlib.ExitStack() as stack, _selection_untouched():
+                stack.enter_context(write_for_file(plan.overrides, plan.solved(meshes)))
+                _settle(plan, meshes, stack)
+                self._in_file = stack.pop_all()
         except UNEXPECTED:
             _log.exception("The file is saved with the mesh as before Live")
 
@@ -73,7 +76,20 @@ class Written:
             self._in_file = contextlib.nullcontext()
 
 
-def _settle(plan, meshes):
+def _settle(plan, meshes, undo):
     for mesh, task in plan.pairs(meshes):
         if task.written is not None:
-            mesh.settle(task.written)
+            task.written = mesh.settle(task.written, undo)
+
+
+@contextlib.contextmanager
+def _selection_untouched():
+    """Keep active what the artist works on: the result has been there all the time."""
+    objects = bpy.context.view_layer.objects
+    selected, active = list(objects.selected), objects.active
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(True)
+        objects.active = active

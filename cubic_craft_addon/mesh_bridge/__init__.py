@@ -11,6 +11,7 @@ from .access.any_mode import flush, glance, in_no_mode
 from .access.carried import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
 from .access.copies import remove_copy
+from .access.dress import dress_of
 from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
@@ -29,6 +30,7 @@ from .memory.original import (
     read_positions,
     starts_here,
 )
+from .memory.strokes import moved_as_a_whole, offsets_by_hand
 from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
 from .result.charts import charts
@@ -40,7 +42,7 @@ from .result.plain_copy import plain_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import positions_with_strokes, write_mesh, write_shape_key
-from .result.rollback import mesh_untouched
+from .result.rollback import carry_result, mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
 from .result.transferred_keys import key_offsets, transfer_keys
 
@@ -53,6 +55,7 @@ __all__ = (
     "Start",
     "as_seen",
     "carried_attributes",
+    "carry_result",
     "charts",
     "check_editable",
     "check_relative_keys",
@@ -61,6 +64,7 @@ __all__ = (
     "covers",
     "discard_original",
     "distance",
+    "dress_of",
     "end_all_previews",
     "end_preview",
     "faces_of_triangles",
@@ -85,8 +89,10 @@ __all__ = (
     "mesh_of",
     "mesh_untouched",
     "move_seen",
+    "moved_as_a_whole",
     "not_hidden",
     "noted_outcome",
+    "offsets_by_hand",
     "original_positions",
     "plain_copy",
     "positions_with_strokes",

@@ -27,6 +27,7 @@ from ..settings.rollback import settings_kept
 from . import pipeline
 from .failures import UNEXPECTED, in_words
 from .hair import hair_left_behind
+from .posed_anew import REST
 from .up_to_date import what_matters
 
 _log = logging.getLogger(__name__)
@@ -96,7 +97,8 @@ class Task:
     def run(self) -> LastRun:
         """The summary of the solution, once it is solved."""
         assert self.solution is not None
-        return run_of(self.solution, what_matters(self.settings))
+        rest = {REST: list(self.bones.ends)} if self.bones else {}
+        return run_of(self.solution, what_matters(self.settings) | rest)
 
     def is_like(self, other: Task) -> bool:
         """Return whether both have the same solution if each is solved alone."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Restore the settings of objects if the work that they belong to fails."""
+"""Restore the settings of objects if the work that they belong to fails, or copy them."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -35,6 +35,19 @@ def settings_untouched(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
         yield
     finally:
         _put_all_back(before)
+
+
+@glimpse.quiet()
+def copy_settings(source: bpy.types.Object, target: bpy.types.Object) -> None:
+    """Give an object all settings of another, with its handles and regions."""
+    one, other = object_properties(source), object_properties(target)
+    for name in ("handles", "regions"):
+        there, new = getattr(one, name), getattr(other, name)
+        new.clear()
+        for _ in there:
+            new.add()
+    for group, copy in zip(_groups(source), _groups(target), strict=True):
+        _put_back(copy, _read(group))
 
 
 def _read_all(meshes: Iterable[bpy.types.Mesh]) -> list[tuple[bpy.types.Object, Any]]:

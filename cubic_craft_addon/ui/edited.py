@@ -13,6 +13,7 @@ from .. import live, mesh_bridge
 from ..environment import handlers
 from ..environment.modes import MODES
 from ..object_properties import object_properties
+from ..run.posed_anew import is_posed_anew
 from ..screen.kept import Kept
 from ..screen.text_fit import room_for_text, wrapped
 
@@ -21,10 +22,14 @@ _LOST = (
     "New vertices were moved by hand, so that the original can no longer be determined: Cubify"
     " starts from here"
 )
+_POSED = (
+    "Posed anew since the last run: From Here starts from this pose, the others from the former"
+)
 _BOX = 1.0  # width of an icon, that a box takes from a line
 
 _edited: Kept[bool] = Kept()
 _lost: Kept[bool] = Kept()
+_posed: Kept[bool] = Kept()
 """by the mesh"""
 
 
@@ -46,6 +51,8 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.
     column.prop(properties, "start", expand=True)
     if properties.start == "HERE":
         _draw_text(context, box, _REPLACED)
+    elif _found_out(mesh, _posed, lambda _: is_posed_anew(obj)):
+        _draw_text(context, box, _POSED)
 
 
 def has_edits(mesh: bpy.types.Mesh) -> bool:
@@ -90,12 +97,16 @@ def _on_update(_scene, depsgraph):
             if isinstance(mesh, bpy.types.Mesh):
                 _edited.has_changed(mesh.session_uid)
                 _lost.has_changed(mesh.session_uid)
+                _posed.has_changed(mesh.session_uid)
+            elif isinstance(data, bpy.types.Armature):
+                _posed.forget()
 
 
 @persistent
 def _forget(*_):
     _edited.forget()
     _lost.forget()
+    _posed.forget()
 
 
 _HANDLERS = (

@@ -8,6 +8,7 @@ import bpy
 
 from .. import hidden_source, job, live, mesh_bridge
 from ..object_properties import object_properties
+from ..presets import panel as presets_panel
 from . import job_progress as job_panel
 
 # Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
@@ -85,6 +86,9 @@ def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
     if running is not None:
         job_panel.draw(layout, running, lambda texts: tuple(texts)[-1])
     else:
+        properties = object_properties(obj)
+        presets_panel.draw(layout, properties)
+        layout.prop(properties, "cubeness", slider=True)
         _draw_button(layout, "Cubify to New Mesh", is_main=True)
 
 

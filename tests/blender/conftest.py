@@ -14,6 +14,7 @@ __all__ = (
     "begin",
     "empty_file",
     "extension",
+    "follow",
     "live",
     "one_phase",
     "posed",
@@ -64,7 +65,8 @@ def live(extension):
 @pytest.fixture
 def one_phase(live, monkeypatch):
     """Let a tick end after one phase of the solver: else a fast machine does all in the first."""
-    monkeypatch.setattr(f"{live.__name__}.session.SLICE", 0.0)
+    for name in ("SLICE", "LONGEST"):
+        monkeypatch.setattr(f"{live.__name__}.slices.{name}", 0.0)
 
 
 @pytest.fixture
@@ -79,5 +81,16 @@ def begin(live):
             setattr(objects[0].cubic_craft, name, value)
         select(*objects)
         return live.begin(bpy.context, list(objects))
+
+    return start
+
+
+@pytest.fixture
+def follow(live, begin, monkeypatch):
+    """Return a function that begins Live with a follower; the exact run waits for no long pause."""
+    monkeypatch.setattr(f"{live.__name__}.pace.LEAST_PAUSE", 0.05)
+
+    def start(*objects, **settings):
+        return begin(*objects, result="NEW_OBJECT", **{"cubeness": 0.5, **settings})
 
     return start

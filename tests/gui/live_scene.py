@@ -134,12 +134,12 @@ def wait_idle():
 
 @contextlib.contextmanager
 def long_ticks():
-    session = importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live.session")
-    usual, session.SLICE = session.SLICE, LONG_SLICE
+    slices = importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live.slices")
+    usual, slices.SLICE = slices.SLICE, LONG_SLICE
     try:
         yield
     finally:
-        session.SLICE = usual
+        slices.SLICE = usual
 
 
 def is_over():

@@ -44,6 +44,31 @@ def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
         return strokes.astype(np.float32)
 
 
+def offsets_by_hand(mesh: bpy.types.Mesh) -> np.ndarray | None:
+    """Return how far vertices were moved by hand since the result, beside what moved them all.
+
+    Returns
+    -------
+    (n,3) numpy float64 array in object space, on the original; None if none were, or if the
+    original is not known
+
+    Raises
+    ------
+    CubicCraftError
+        As `is_edited`, or coordinates that are not finite.
+    """
+    recognised = recognise_result(mesh)
+    return _since(mesh, recognised) if recognised is not None and recognised.is_edited else None
+
+
+def moved_as_a_whole(mesh: bpy.types.Mesh, points: np.ndarray) -> np.ndarray | None:
+    """Move points (n,3) of object space as the mesh was since the result; None if it is none."""
+    recognised = recognise_result(mesh)
+    if recognised is None or not recognised.is_whole:
+        return None
+    return recognised.parts[0].map.moved(points)
+
+
 def with_strokes(
     mesh: bpy.types.Mesh, points: np.ndarray, strokes: np.ndarray | None, matrices: np.ndarray
 ) -> np.ndarray:

@@ -37,6 +37,22 @@ def mesh_untouched(mesh: bpy.types.Mesh) -> Iterator[None]:
         state.put_back()
 
 
+def carry_result(mesh: bpy.types.Mesh, other: bpy.types.Mesh) -> bool:
+    """Give another mesh of the same vertices the shapes of this one, and all that is ours on it.
+
+    Returns
+    -------
+    Whether it could be done: not if it has other vertices, or lacks a shape key.
+    """
+    state = _State(mesh)
+    there = other.shape_keys.key_blocks.keys() if other.shape_keys is not None else ()
+    if len(mesh.vertices) != len(other.vertices) or not state.shapes.keys.keys() <= set(there):
+        return False
+    state.mesh = other
+    state.put_back()
+    return True
+
+
 class _State:
     """The state that is restored."""
 

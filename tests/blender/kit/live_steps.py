@@ -24,6 +24,10 @@ def bits(obj):
     return values.tobytes()
 
 
+def follower_of(obj):
+    return bpy.data.objects[f"{obj.name} Cubic"]
+
+
 def tick_to_rest(session):
     bpy.context.view_layer.update()
     for _ in range(STEPS):

@@ -23,6 +23,9 @@ class Recorder:
     def prop(self, _data, name, **_):
         self.drawn.append(name)
 
+    def template_icon_view(self, _data, name, **_):
+        self.drawn.append(name)
+
     def label(self, text="", **_):
         self.labels.append(text)
 
@@ -32,7 +35,7 @@ class Recorder:
     def row(self, **_):
         return self
 
-    box = column = row
+    box = column = split = row
 
 
 class Properties:

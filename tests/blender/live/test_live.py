@@ -7,7 +7,15 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest, tick_to_sight
+from live_steps import (
+    add_monkey,
+    bits,
+    check_gone,
+    confirm,
+    follower_of,
+    tick_to_rest,
+    tick_to_sight,
+)
 from rich_mesh import add_rich_monkey
 from scene import add_triangles, cubify, select
 from snapshot import differences, snapshot_mesh, snapshot_object
@@ -21,7 +29,8 @@ def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
     session = tick_to_rest(begin(obj, result=result, cubeness=0.7, refine=refine))
     confirm(live, session)
     check_gone(live)
-    one = snapshot_mesh(bpy.context.object.data)
+    assert bpy.context.object == obj
+    one = snapshot_mesh((follower_of(obj) if result == "NEW_OBJECT" else obj).data)
     select(twin)
     twin.cubic_craft.result, twin.cubic_craft.cubeness = result, 0.7
     bpy.ops.cubic_craft.cubify()
@@ -211,11 +220,12 @@ def test_without_a_window_it_says_so():
 def test_a_tick_keeps_to_its_slice(live, begin, monkeypatch):
     """By a clock on which each phase of the solver takes a third of it, and all else nothing."""
     session_module = importlib.import_module(f"{live.__name__}.session")
+    slices = importlib.import_module(f"{live.__name__}.slices")
     runs_module = importlib.import_module(f"{live.__name__}.live_runs")
     session = begin(add_monkey(), tolerance=1e-6)
     (mesh,) = session.meshes
     phases = []
-    clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * session_module.SLICE)
+    clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * slices.SLICE)
     monkeypatch.setattr(session_module, "time", clock)
     monkeypatch.setattr(runs_module, "time", clock)
     advance = mesh.run.advance

@@ -5,20 +5,9 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from live_steps import add_monkey, bits, check_gone, confirm, tick_to_rest
+from live_steps import add_monkey, bits, check_gone, confirm, follower_of, tick_to_rest
 from scene import edit_mode, select
 from snapshot import differences, snapshot_mesh
-
-
-@pytest.fixture
-def follow(live, begin, monkeypatch):
-    """Return a function that begins Live with a follower; the exact run waits for no long pause."""
-    monkeypatch.setattr(f"{live.__name__}.pace.LEAST_PAUSE", 0.05)
-
-    def start(obj, **settings):
-        return begin(obj, result="NEW_OBJECT", **{"cubeness": 0.5, **settings})
-
-    return start
 
 
 def check_asleep_in_all_modes(session):
@@ -28,10 +17,6 @@ def check_asleep_in_all_modes(session):
         for _ in range(3):
             bpy.context.view_layer.update()
             assert session._timer is None, f"woken in {mode}"
-
-
-def follower_of(obj):
-    return bpy.data.objects[f"{obj.name} Cubic"]
 
 
 def stroke(obj, by=0.2):

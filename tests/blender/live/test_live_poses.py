@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, tick_to_rest
+from live_steps import bits, check_gone, confirm, follower_of, tick_to_rest
 from mathutils import Matrix
 from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin
 from rich_mesh import position_of
@@ -175,8 +175,8 @@ def test_a_new_object_takes_the_pose_and_the_old_one_keeps_its_own(live, begin):
     original = position_of(obj.data)
     session = raised(live, begin(obj, result="NEW_OBJECT"), obj)
     confirm(live, session)
-    made = bpy.context.object
-    assert made != obj and bits(obj) == original.tobytes()
+    made = follower_of(obj)
+    assert bits(obj) == original.tobytes()
     check_right(made, right, original, UP)
     assert live.pose_of(made, handle_of(made)) == UP
     assert live.pose_of(obj, handle_of(obj)) == IDENTITY

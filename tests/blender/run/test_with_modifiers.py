@@ -6,6 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+from recorder import Recorder
 from rich_mesh import position_of
 from scene import add_monkey, cubify, reports_of, select
 
@@ -102,6 +103,21 @@ def add_surface():
 def add_metaball():
     bpy.ops.object.metaball_add()
     return bpy.context.object
+
+
+def test_a_text_has_presets_and_cubeness_before_the_first_click(part):
+    made = []
+    for cubeness in (None, 1.5):
+        text, layout = add_text(), Recorder()
+        part("ui.seen").draw_other(layout, text)
+        assert layout.drawn.index("preset") < layout.drawn.index("cubeness")
+        assert "cubic_craft.cubify" in layout.drawn[layout.drawn.index("cubeness") :]
+        if cubeness is not None:
+            text.cubic_craft.cubeness = cubeness
+        assert cubify(**SEEN) == {"FINISHED"}
+        made.append(bpy.context.object)
+    assert made[0].cubic_craft.cubeness != made[1].cubic_craft.cubeness == 1.5
+    assert (position_of(made[0].data) != position_of(made[1].data)).any()
 
 
 @pytest.mark.parametrize("add", [add_text, add_pipe, add_surface, add_metaball])
