@@ -3,18 +3,25 @@
 
 The walls of a letter can only turn toward the cube if its flat front gives way, and a tapered
 cabin becomes a box only if its roof grows. In an organic shape the curved surface itself gives way;
-a flat side holds everything around it, as strongly as if it were full of detail.
+a flat side holds everything around it, as strongly as if it were full of detail. The faces of a
+plate, such as a lid, a coin or the top of a table, hold its rim: the less of it there is, the more.
 """
 
 import numpy as np
 
 from ..algebra import columns, dot, take
 from ..mesh.components import components
+from .sheets import moments_of_normals
 
 STIFFNESS = 0.15
 """weight of the triangles of a flat side"""
 LEAST_SHARE = 0.03
 """of the area of a part; a smaller side may be a facet of a round shape"""
+PLATE, LEAST = 0.25, 0.05
+"""share of the area of a plate that does not face along its axis, with which its faces are as stiff
+as any flat side; they are less with less, down to a factor for the thinnest"""
+ALONG = 0.99
+"""cosine between the normals of a plate's faces and its axis"""
 COPLANAR = np.cos(np.radians(0.5))
 
 
@@ -36,4 +43,15 @@ def stiffness(triangles, part):
     of_face = triangles.parts(part)
     of_part = np.bincount(of_face, areas)
     share = np.bincount(side, areas, count)[side] / np.maximum(of_part[of_face], 1e-300)
-    return np.where(share >= LEAST_SHARE, STIFFNESS, 1.0)
+    of_plates = STIFFNESS * _of_plates(areas, normals, of_face, len(of_part))
+    return np.where(share >= LEAST_SHARE, of_plates, 1.0)
+
+
+def _of_plates(areas, normals, of_face, count):
+    """Return factors (m,): less than 1 for triangles across the axis of a plate."""
+    total, moments = moments_of_normals(areas, normals, of_face, count)
+    values, axes = np.linalg.eigh(moments)
+    rim = 1.0 - values[:, -1] / np.maximum(total, 1e-300)
+    factors = np.clip((rim / PLATE) ** 2, LEAST, 1.0)
+    is_face = np.abs((normals * axes[of_face, :, -1]).sum(axis=1)) > ALONG
+    return np.where(is_face, factors[of_face], 1.0)

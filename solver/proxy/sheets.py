@@ -33,7 +33,7 @@ def planar_sheets(V, F, part):
     part : (n,) int array
     """
     area, normal = triangle_areas_and_normals(V, F)
-    total, moments = _moments(area, normal, part[F[:, 0]], int(part.max()) + 1)
+    total, moments = moments_of_normals(area, normal, part[F[:, 0]], int(part.max()) + 1)
     largest = np.linalg.eigvalsh(moments)[:, -1]
     is_sheet = (largest > PLANAR * total) & (total > 0.0)
     return is_sheet if not is_sheet.all() else np.zeros(len(total), dtype=bool)
@@ -49,7 +49,7 @@ def extrusions(V, F, part):
     """
     area, normal = triangle_areas_and_normals(V, F)
     of_face = part[F[:, 0]]
-    total, moments = _moments(area, normal, of_face, int(part.max()) + 1)
+    total, moments = moments_of_normals(area, normal, of_face, int(part.max()) + 1)
     axis = np.linalg.eigh(moments)[1][:, :, -1]
     cosine = np.abs((normal * axis[of_face]).sum(axis=1))
     is_cap, is_rim = cosine > 1.0 - SQUARE, cosine < SQUARE
@@ -59,8 +59,8 @@ def extrusions(V, F, part):
     return (caps > CAPS * total) & (both > SHARE * total)
 
 
-def _moments(area, normal, of_face, count):
-    """Return the areas (p,) of parts, and the moments (p,3,3) of their normals."""
+def moments_of_normals(area, normal, of_face, count):
+    """Return the areas (p,) of parts, and the moments (p,3,3) of their normals, times areas."""
     products = (area * x * y for x in normal.T for y in normal.T)
     moments = np.stack([np.bincount(of_face, product, count) for product in products], axis=1)
     return np.bincount(of_face, area, count), moments.reshape(-1, 3, 3)
