@@ -205,7 +205,7 @@ class Job:
             is_same = now.key_in_world == task.key_in_world
         start = task.settings.start
         original = mesh_bridge.original_positions(task.mesh, start)
-        shape = ShapeRead(original, mesh_bridge.triangles(task.mesh, original), start)
+        shape = ShapeRead(original, mesh_bridge.triangles(task.mesh, original), start=start)
         if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
             return ""
         return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'

@@ -19,6 +19,7 @@ from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
+from ...solver.pieces.subdivided import Subdivided
 from ...solver.pieces.whole import Whole
 from ...solver.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
@@ -26,6 +27,7 @@ from ..environment.requirements import check_requirements
 from ..regions.shares import region_shares
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
+from .cages import read_cage
 from .object_frame import placements
 from .reflections import modifier_reflections
 
@@ -114,7 +116,8 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     mesh_bridge.check_editable(obj)
     mesh = mesh_bridge.mesh_of(obj)
     original = mesh_bridge.original_positions(mesh, start)
-    return ShapeRead(original, mesh_bridge.triangles(mesh, original), start)
+    triangles = mesh_bridge.triangles(mesh, original)
+    return ShapeRead(original, triangles, read_cage(obj), start=start)
 
 
 def read_member(
@@ -144,7 +147,7 @@ def read_member(
     """
     begin = time.perf_counter()
     alone, in_world = placements(obj, settings, is_posed=rigged is not None)
-    shape = known.shape if known else read_shape(obj, settings.start)
+    shape = _with_cage(known.shape, obj) if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)
     if known is not None and known.alone.shape_key != alone.shape_key:
@@ -174,6 +177,13 @@ def read_member(
         bones=bones,
         seconds=time.perf_counter() - begin,
     )
+
+
+def _with_cage(shape, obj):
+    """Return a known shape; its modifiers and creases may have changed."""
+    cage = read_cage(obj)
+    is_same = cage is None if shape.cage is None else shape.cage.is_like(cage)
+    return shape if is_same else replace(shape, cage=cage)
 
 
 def _check_alone(name, placement, shape):
@@ -238,10 +248,13 @@ def _bones(obj, settings, whole, alone, shape, known, rigged):
 
 
 def _whole(name, shape, reflections, settings, known):
-    before = known and (known.whole.reflections, known.settings.symmetry)
-    if known and known.shape is shape and before == (reflections, settings.symmetry):
+    now = reflections, settings.symmetry, settings.refine
+    before = known and (known.whole.reflections, known.settings.symmetry, known.settings.refine)
+    if known and known.shape is shape and before == now:
         return known.whole
-    whole = Whole(shape.original, shape.triangles, reflections, settings.symmetry)
+    given = shape.original, shape.triangles, reflections, settings.symmetry
+    cage = shape.cage if settings.refine == "AUTO" else None
+    whole = Whole(*given) if cage is None else Subdivided(*given, cage)
     if whole.matching is not None and whole.matching < LEAST_MATCHING * len(shape.original):
         raise CubicCraftError(
             f'"{name}" is not symmetric: only {whole.matching:,} of its {len(shape.original):,}'

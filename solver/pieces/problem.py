@@ -165,8 +165,7 @@ class Problem(Generic[P]):
         is_held[self.setup.pinned_input] = True
         is_idle = bool(self.is_still.all())
         found = []
-        for piece, every in parts_of(self.pieces):
-            part = slice(every.start, every.start + piece.vertices)  # without those of mirrors
+        for piece, part in parts_of(self.pieces):
             own = positions[part], None if rotations is None else rotations[part]
             found.append(piece.read_back(*own, at_rest[part], is_held[part], is_idle=is_idle))
         return found

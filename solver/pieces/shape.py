@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
+from ..mesh.catmull_clark import Cage
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,12 +18,15 @@ class Shape:
     """(n,3) positions, in the coordinates of the object; Blender's are float32"""
     triangles: IntArray
     """(m,3) int"""
+    cage: Cage | None = None
+    """its faces, if what is seen is the smooth surface of it"""
 
     def is_like(self, other: "Shape") -> bool:
         """Return whether both are the same, bit for bit."""
         if self is other:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()
+        is_same &= other.cage is None if self.cage is None else self.cage.is_like(other.cage)
         return is_same and np.array_equal(self.triangles, other.triangles)
 
     @cached_property
