@@ -84,7 +84,7 @@ def catmull_clark(cage: Cage) -> tuple[Any, Any, Cage]:
     -----
     Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes",
     1978; creases by DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
-    Where sharpness ends between two levels, both rules are mixed, in a simpler way than there.
+    Where sharpness ends between two levels, the rules of both are mixed, as in Blender.
     """
     import scipy.sparse as sp
 
@@ -104,7 +104,7 @@ def catmull_clark(cage: Cage) -> tuple[Any, Any, Cage]:
     at_edges = sp.diags(1.0 - now) @ (0.5 * middles + 0.25 * beside @ at_faces)
     at_edges = at_edges + sp.diags(now) @ middles
     of_vertex = incidence(cage.corners, faces, (n, f))
-    at_vertices = _at_vertices(cage, at_faces, middles, of_vertex, ends.T.tocsr(), now)
+    at_vertices = _at_vertices(cage, at_faces, middles, of_vertex, ends.T.tocsr(), sharp)
     smooth = sp.vstack([at_vertices, at_edges, at_faces]).tocsr()
     flat = sp.vstack([sp.identity(n), middles, at_faces]).tocsr()
     before = np.empty_like(edge)
@@ -137,38 +137,41 @@ def _sharpness(cage, edges, edge):
     return sharp
 
 
-def _at_vertices(cage, at_faces, middles, of_vertex, at, sharp):
-    """Return the rule (n,n) of the vertices of the cage, which are the corner of `of_vertex`.
+def _at_vertices(cage, at_faces, middles, faces_of, edges_of_vertex, sharp):
+    """Return the rule (n,n) of the vertices of the cage.
 
     Parameters
     ----------
     at_faces, middles : (f,n) and (e,n) csr_matrix
-    of_vertex : (n,f) csr_matrix
-        The faces of each vertex.
-    at : (n,e) csr_matrix
-        The edges of each vertex.
+    faces_of, edges_of_vertex : (n,f) and (n,e) csr_matrix
+        The faces and the edges of each vertex, as ones.
     sharp : (e,) array
-        From 0 to 1.
     """
     import scipy.sparse as sp
 
     n = len(cage.stiffness)
+    faces, edges = (np.diff(each.indptr) for each in (faces_of, edges_of_vertex))
+    is_loose = faces == 0
+    k = np.maximum(edges, 1)
     stay = sp.identity(n).tocsr()
-    count = np.bincount(at.nonzero()[0], minlength=n)
-    k = np.maximum(count, 1)
-    faces = np.maximum(np.diff(of_vertex.indptr), 1)
-    round_off = sp.diags(1.0 / (k * faces)) @ (of_vertex @ at_faces)
-    round_off = round_off + sp.diags(2.0 / (k * k)) @ (at @ middles) + sp.diags((k - 3.0) / k)
-    is_sharp = sp.diags((sharp > 0.0).astype(float))
-    sharp_edges = at @ is_sharp
-    number = np.asarray(sharp_edges.sum(axis=1)).ravel()
-    mean = at @ sharp / np.maximum(number, 1.0)
-    in_crease = 0.5 * stay + 0.25 * (sharp_edges @ middles)
-    share = np.where(number == 2, mean, 0.0)
-    fixed = np.where(number > 2, mean, 0.0)
-    fixed = np.maximum(fixed, np.minimum(cage.stiffness, 1.0))
-    fixed[count == 0] = 1.0
-    if cage.keeps_corners:
-        fixed[faces == 1] = 1.0
-    moving = sp.diags(1.0 - share) @ round_off + sp.diags(share) @ in_crease
-    return sp.diags(1.0 - fixed) @ moving + sp.diags(fixed) @ stay
+    smooth = sp.diags(1.0 / (k * np.maximum(faces, 1))) @ (faces_of @ at_faces)
+    smooth = smooth + sp.diags(2.0 / (k * k)) @ (edges_of_vertex @ middles)
+    smooth = smooth + sp.diags((k - 3.0) / k)
+
+    def rule(is_sharp, is_stiff):
+        """Return which rule holds, 0, 1 or 2, and its matrix."""
+        those = edges_of_vertex @ sp.diags(is_sharp.astype(float))
+        count = edges_of_vertex @ is_sharp.astype(float)
+        which = np.where((count > 2) | is_stiff | is_loose, 2, (count == 2).astype(int))
+        if cage.keeps_corners:
+            which[faces == 1] = 2
+        each = smooth, 0.5 * stay + 0.25 * (those @ middles), stay
+        return which, sum(sp.diags((which == k).astype(float)) @ m for k, m in enumerate(each))
+
+    now, at_once = rule(sharp > 0.0, cage.stiffness > 0.0)
+    then, later = rule(sharp > 1.0, cage.stiffness > 1.0)
+    ends, stops = (sharp > 0.0) & (sharp <= 1.0), (cage.stiffness > 0.0) & (cage.stiffness <= 1.0)
+    total = edges_of_vertex @ np.where(ends, sharp, 0.0) + np.where(stops, cage.stiffness, 0.0)
+    share = total / np.maximum(edges_of_vertex @ ends.astype(float) + stops, 1.0)
+    share[now == then] = 1.0
+    return sp.diags(share) @ at_once + sp.diags(1.0 - share) @ later
