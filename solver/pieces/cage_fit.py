@@ -3,7 +3,8 @@
 
 Least squares alone would tangle the cage: the surface hardly tells where the vertices of narrow
 faces are, as around an eye. So the edges of the cage also want to be those at rest, turned as the
-surface around them, and the more so the shorter they are.
+surface around them, and the more so the shorter they are. And the surface would ripple beside edges
+that are too sharp for it, as a Fourier series does: so the cage stays near the surface.
 """
 
 from typing import Any
@@ -16,6 +17,8 @@ from ..rotation_fit import svd_rotations
 
 FIRMNESS = 0.025
 """of an edge of median length, relative to one vertex of the cage that fits everywhere"""
+NEARNESS = 0.2
+"""weight of a vertex of the cage that stays with the surface, relative to the same"""
 DIRECTION = 3.0
 """weight of edges of the surface, relative to places of vertices: where it faces is what counts"""
 PER_VERTEX = 16.0
@@ -52,11 +55,14 @@ class CageFit:
         length = np.linalg.norm(self._across @ at_rest, axis=1)
         median = np.median(length)
         length = np.maximum(length, SHORTEST * median + 1e-300)
-        weight = FIRMNESS * smooth.shape[0] / (PER_VERTEX * len(at_rest))
-        self._firm = (self._across.T @ sp.diags(weight * (median / length) ** 2)).tocsr()
+        fineness = smooth.shape[0] / (PER_VERTEX * len(at_rest))
+        firmness = FIRMNESS * fineness * (median / length) ** 2
+        self._firm = (self._across.T @ sp.diags(firmness)).tocsr()
+        self._near = NEARNESS * fineness
         self._surface_at_rest = smooth @ at_rest
         self._reach = np.asarray(smooth.sum(axis=0)).ravel()[:, None]
-        self._matrix = (self._fitting @ smooth + self._firm @ self._across).tocsr()
+        regular = self._firm @ self._across + self._near * sp.identity(len(at_rest))
+        self._matrix = (self._fitting @ smooth + regular).tocsr()
         free = np.flatnonzero(~is_held)
         self._solve = factorize(self._matrix[free][:, free].tocsr()) if len(free) else None
 
@@ -75,7 +81,8 @@ class CageFit:
         cage = goal.copy()
         if self._solve is not None:
             wanted = self._turned(surface, self._across @ self._at_rest)
-            right = self._fitting @ surface + self._firm @ wanted - self._matrix @ goal
+            right = self._fitting @ surface + self._firm @ wanted
+            right += self._near * surface[: len(goal)] - self._matrix @ goal
             cage[~self._is_held] += self._solve(right[~self._is_held])
         return cage
 
