@@ -56,7 +56,7 @@ class CageFit:
         median = np.median(length)
         length = np.maximum(length, SHORTEST * median + 1e-300)
         fineness = smooth.shape[0] / (PER_VERTEX * len(at_rest))
-        firmness = FIRMNESS * fineness * (median / length) ** 2
+        firmness = FIRMNESS * fineness * (median / length) ** 4
         self._firm = (self._across.T @ sp.diags(firmness)).tocsr()
         self._near = NEARNESS * fineness
         self._surface_at_rest = smooth @ at_rest

@@ -254,7 +254,19 @@ def _rest(pieces, proxy, earlier):
         if rest is not None:
             return rest
     triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
-    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy)
+    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy, _faces(pieces))
+
+
+def _faces(pieces):
+    """Return which face each triangle is a piece of; None if all are whole."""
+    if all(piece.whole.faces is None for piece in pieces):
+        return None
+    found, begin = [], 0
+    for piece in pieces:
+        own = piece.whole.faces
+        found.append(begin + (np.arange(len(piece.F)) if own is None else own))
+        begin += len(piece.F)
+    return np.concatenate(found)
 
 
 def _positions(pieces):

@@ -46,7 +46,7 @@ class Subdivided(Whole):
         super().__init__(original, triangles, reflections, symmetry)
         self._cage = cage
         whole = self._with_images(cage)
-        self._edges = whole.edges
+        self._edges, self._faces = whole.edges, whole.faces
         self._smooth, self._flat, self._surface = _subdivided(whole)
         self._nearest = np.asarray(self._flat.argmax(axis=1)).ravel()
         self._fit: CageFit | None = None
@@ -85,6 +85,11 @@ class Subdivided(Whole):
         Quads are cut from their old vertex, so that those of mirrored faces are mirrored.
         """
         return self._surface.corners.reshape(-1, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+    @property
+    def faces(self) -> IntArray:
+        """(M,) int the face of the cage, or of its images, that each triangle is a piece of."""
+        return np.repeat(self._faces, len(self.triangles) // len(self._faces))
 
     def everywhere(self, values: Any) -> Any:
         """Return values (n,...) of the mesh at all vertices (N,...).

@@ -93,6 +93,11 @@ class Whole:
         """(N,) int vertex of the mesh that each is an image of; the first n are themselves."""
         return self._source
 
+    @property
+    def faces(self) -> IntArray | None:
+        """(M,) int the face that each triangle is a piece of; None if it is whole."""
+        return None
+
     def everywhere(self, values: Any) -> Any:
         """Return values (n,...) of the mesh, an array or csr_matrix, at all vertices (N,...)."""
         return values[self._source]
