@@ -12,7 +12,7 @@ from . import details
 from .aliases import BoolArray, Faces, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
 from .contacts.crossings import CrossingTriangles
-from .inputs import instance, real_numbers
+from .inputs import instance, real_numbers, whole_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings, without_shells
 from .memory import check_memory
 from .mesh.cotangents import cotangents
@@ -92,7 +92,7 @@ class RestMesh(Value):
     triangles: NDArray[np.int32] | None = None
     """(k,3) int32 triangles of the input, as given"""
     whole: IntArray | None = None
-    """(m,) int the triangle before refinement that each is a piece of; None if it is whole"""
+    """(m,) int the triangle before refinement, or the face, that each is a piece of, or None"""
     unposed: "RestMesh | None" = None
     """the mesh that this is a pose of"""
 
@@ -386,7 +386,9 @@ class Coarsening(Value):
     """(n,) int vertex of the coarser mesh into which each vertex was merged"""
 
 
-def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
+def rest_mesh(
+    V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER, faces: ArrayLike | None = None
+) -> RestMesh:
     """Build the RestMesh of a mesh.
 
     Parameters
@@ -397,6 +399,8 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
         Triangles. Polygons (m,s), or rows of any length, are split into triangles.
     proxy : ProxyOptions
         How to prepare the surface; by default nothing is done, as in the paper.
+    faces : (m,) numpy int array, optional
+        The face of a coarser mesh that each triangle is a piece of: *Crispness* gives it one side.
 
     Returns
     -------
@@ -434,7 +438,8 @@ def rest_mesh(V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER) -> RestMesh:
     instance(proxy, "proxy", ProxyOptions)
     given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
-    surface = surface_of(input_positions, F, proxy)
+    faces = None if faces is None else whole_numbers(faces, "faces")
+    surface = surface_of(input_positions, F, proxy, faces)
     V, F = surface.V, surface.F
     triangles = Triangles(V, F)
     areas, normals = areas_and_normals(V, F, triangles.measures)

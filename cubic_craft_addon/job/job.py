@@ -17,7 +17,7 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.modes import MODES
 from ..handles.baked_pose import rebase_edited_handles
-from ..read.member import ShapeRead, assemblies
+from ..read.member import ShapeRead, assemblies, read_shape
 from ..run.failures import UNEXPECTED
 from ..run.posed_anew import is_posed_anew
 from ..run.stepwise_run import StepwiseRun
@@ -205,9 +205,7 @@ class Job:
         is_same = now.key == task.key
         if task.uid in self._joined:
             is_same = now.key_in_world == task.key_in_world
-        start = task.settings.start
-        original = mesh_bridge.original_positions(task.mesh, start)
-        shape = ShapeRead(original, mesh_bridge.triangles(task.mesh, original), start)
+        shape = read_shape(task.obj, task.settings.start)
         if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
             return ""
         return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'

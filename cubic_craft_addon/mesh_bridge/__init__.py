@@ -8,6 +8,7 @@ first original is removed by Apply and *Restore First*).
 """
 
 from .access.any_mode import flush, glance, in_no_mode
+from .access.arrays import corner_vertices
 from .access.carried import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
 from .access.copies import remove_copy
@@ -60,6 +61,7 @@ __all__ = (
     "check_editable",
     "check_relative_keys",
     "check_usable",
+    "corner_vertices",
     "cover_problem",
     "covers",
     "discard_original",

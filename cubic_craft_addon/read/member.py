@@ -26,6 +26,7 @@ from ..environment.requirements import check_requirements
 from ..regions.shares import region_shares
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
+from .cages import read_cage
 from .object_frame import placements
 from .reflections import modifier_reflections
 
@@ -119,7 +120,8 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     mesh_bridge.check_editable(obj)
     mesh = mesh_bridge.mesh_of(obj)
     original = mesh_bridge.original_positions(mesh, start)
-    return ShapeRead(original, mesh_bridge.triangles(mesh, original), start)
+    triangles = mesh_bridge.triangles(mesh, original)
+    return ShapeRead(original, triangles, read_cage(obj), start=start)
 
 
 def read_member(
@@ -149,7 +151,7 @@ def read_member(
     """
     begin = time.perf_counter()
     alone, in_world = placements(obj, settings, is_posed=rigged is not None)
-    shape = known.shape if known else read_shape(obj, settings.start)
+    shape = _with_cage(known.shape, obj) if known else read_shape(obj, settings.start)
     if known is None or known.alone.shape_key != alone.shape_key:
         _check_alone(obj.name, alone, shape)
     if known is not None and known.alone.shape_key != alone.shape_key:
@@ -179,6 +181,13 @@ def read_member(
         bones=bones,
         seconds=time.perf_counter() - begin,
     )
+
+
+def _with_cage(shape, obj):
+    """Return a known shape; its modifiers and creases may have changed."""
+    cage = read_cage(obj)
+    is_same = cage is None if shape.cage is None else shape.cage.is_like(cage)
+    return shape if is_same else replace(shape, cage=cage)
 
 
 def _check_alone(name, placement, shape):
@@ -243,7 +252,7 @@ def _bones(obj, settings, whole, alone, shape, known, rigged):
 
 
 def _whole(name, shape, reflections, settings):
-    whole = shape.whole(reflections, settings.symmetry)
+    whole = shape.whole(reflections, settings.symmetry, is_smooth=settings.refine == "AUTO")
     if whole.matching is not None and whole.matching < LEAST_MATCHING * len(shape.original):
         raise CubicCraftError(
             f'"{name}" is not symmetric: only {whole.matching:,} of its {len(shape.original):,}'

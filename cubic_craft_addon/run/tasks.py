@@ -19,6 +19,7 @@ from ..handles.baked_pose import remember_pose
 from ..handles.own_pose import keep_poses
 from ..mesh_bridge import LastRun
 from ..read.bones import bone_places
+from ..read.cages import subdivision_of
 from ..read.member import Member, read_member
 from ..read.object_frame import placements
 from ..read.reflections import modifier_reflections
@@ -70,6 +71,7 @@ class Task:
         self.written: bpy.types.Object | None = None
         """what has the cubic shape, once it is written"""
         self._reflections = modifier_reflections(obj)
+        self._subdivision = subdivision_of(obj)
         self._alone, self.in_world = placements(obj, self.settings)
         self.bones = bone_places(obj) if self.settings.keep_pose else None
 
@@ -86,7 +88,7 @@ class Task:
         pointers = {"frame": None, "form_object": None, "capture_object": None}
         regions = tuple(replace(region, form_object=None) for region in self.settings.regions)
         settings = replace(self.settings, regions=regions, **pointers)
-        return settings, self._reflections, up, self._alone.key, self.bones
+        return settings, self._reflections, self._subdivision, up, self._alone.key, self.bones
 
     @property
     def key_in_world(self):
@@ -107,6 +109,7 @@ class Task:
             self.mesh == other.mesh
             and self.settings == other.settings
             and self._reflections == other._reflections
+            and self._subdivision == other._subdivision
             and self.bones == other.bones
             and (self.settings.floor == "OFF" or np.allclose(one.up, two.up))
             and np.allclose(one.linear, two.linear)

@@ -9,6 +9,7 @@ import bpy
 from .. import hidden_source, job, live, mesh_bridge
 from ..object_properties import object_properties
 from ..presets import panel as presets_panel
+from ..read.cages import subdivision_of
 from . import job_progress as job_panel
 
 # Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
@@ -46,7 +47,10 @@ def hint_for(obj: bpy.types.Object) -> Hint | None:
         return Hint(f"{covers[0]} hides the result", is_needed=True)
     shown = [each for each in obj.modifiers if each.show_viewport]
     if len(mesh_bridge.mesh_of(obj).vertices) < _COARSE:
+        is_fitted = object_properties(obj).refine == "AUTO" and subdivision_of(obj) is not None
         for modifier in shown:
+            if is_fitted and modifier.type == "SUBSURF":
+                continue
             if modifier.type in _ROUNDING and _ROUNDING[modifier.type](modifier):
                 return Hint(f"{modifier.name} will round it again", is_needed=True)
     if any(each.type in _MAKING and not _only_shades(each) for each in shown):

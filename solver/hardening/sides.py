@@ -65,8 +65,8 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
     is_free : (m,) bool array
         Triangles that belong to no side.
     whole : (m,) int array, optional
-        The triangle of the artist's mesh that each one is a piece of. Pieces have one side, so that
-        no edge of the mesh cuts across the border of two.
+        The triangle of the artist's mesh, or the face of a cage, that each one is a piece of.
+        Pieces have one side, so that no edge of the mesh cuts across the border of two.
     before : (m,) int array, optional
         The sides in the frame of an animation before.
 
@@ -105,14 +105,26 @@ def _groups(graph, whole, form_of):
     is_flat = np.einsum("kj,kj->k", graph.normals[one], graph.normals[other]) > COPLANAR
     pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
     count, flat = components(np.empty((0, 3), np.int64), m, pairs)
-    weighted = graph.areas[:, None] * graph.normals
-    mean = unit(np.stack([np.bincount(flat, x, count) for x in weighted.T], axis=1))
     # in a dense mesh, a round side is a chain of triangles that are nearly in one plane
-    worst = np.ones(count)
-    np.minimum.at(worst, flat, np.einsum("mj,mj->m", graph.normals, mean[flat]))
+    is_plane = _are_planes(graph, flat, count)[flat]
     faces = np.arange(m) if whole is None else whole
-    group = np.where(worst[flat] > COPLANAR, flat, count + faces)
+    group = np.where(is_plane, flat, count + faces)
+    bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
+    if len(bent):  # only those of cages are
+        nodes = int(group.max()) + 1
+        pairs = np.stack([group[bent], nodes + faces[bent]], axis=1)
+        total = nodes + int(faces.max()) + 1
+        group = components(np.empty((0, 3), np.int64), total, pairs)[1][group]
     return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
+
+
+def _are_planes(graph, part, count):
+    """Return which parts (count,) of the triangles (m,) lie in one plane each."""
+    weighted = graph.areas[:, None] * graph.normals
+    mean = unit(np.stack([np.bincount(part, x, count) for x in weighted.T], axis=1))
+    worst = np.ones(count)
+    np.minimum.at(worst, part, np.einsum("mj,mj->m", graph.normals, mean[part]))
+    return worst > COPLANAR
 
 
 def _of_groups(graph, costs, is_followed, group):

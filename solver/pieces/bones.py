@@ -133,6 +133,7 @@ class _Images:
         count = total = len(heads)
         n = int(whole.source.max(initial=-1)) + 1
         own = csr_matrix((weights.weight, (weights.vertex, weights.bone)), shape=(n, count))
+        every = whole.everywhere(own)
         found, blocks = [(heads, tails, parents)], []
         self._maps, self._bone = [np.eye(4)] * count, list(range(count))
         for is_image, matrix in whole.elements():
@@ -146,7 +147,7 @@ class _Images:
             self._maps += [matrix] * len(new)
             self._bone += new.tolist()
             rows = np.flatnonzero(is_image)
-            block = own[whole.source[rows]].tocoo()
+            block = every[rows].tocoo()
             blocks.append((block.data, rows[block.row], place[block.col]))
         data, rows, columns = (np.concatenate(part) for part in zip(*blocks, strict=True))
         self.weights = csr_matrix((data, (rows, columns)), shape=(len(whole.source), total))

@@ -15,6 +15,7 @@ from ..symmetry import Mirror
 from .mirrored_styles import is_own_image
 from .piece import Piece
 from .reflection import flip
+from .subdivided import Subdivided
 
 _ALIKE = 0.01  # of weights
 
@@ -41,7 +42,8 @@ def with_own_symmetry(piece: T, up: FloatArray | None = None) -> T:
     )
     if not any(axes):
         return piece
-    found = piece.shape.whole(whole.reflections, axes)
+    is_smooth = isinstance(whole, Subdivided)
+    found = piece.shape.whole(whole.reflections, axes, is_smooth=is_smooth)
     if not all(_is_even(piece, mirror) for mirror in found.own_partners):
         return piece
     return replace(piece, whole=found)

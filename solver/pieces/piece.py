@@ -13,6 +13,7 @@ from .bones import Bones
 from .handle_pose import HandlePose, targets
 from .placement import Placement
 from .shape import Shape
+from .subdivided import Subdivided
 from .whole import Whole
 
 
@@ -76,7 +77,7 @@ class Piece:
     def everywhere(self, values: ArrayLike) -> NDArray[Any]:
         """Return values (n,...) of the vertices, or one for all, at all that are solved (N,...)."""
         every = np.broadcast_to(values, (self.vertices, *np.shape(values)[1:]))
-        return every[self.whole.source]
+        return self.whole.everywhere(every)
 
     @property
     def V(self) -> FloatArray:  # noqa: N802 - the field's name
@@ -92,7 +93,8 @@ class Piece:
     @property
     def targets(self) -> FloatArray:
         """(N,3) where handles take the vertices, where it is solved."""
-        own = targets(self.shape.original, self.handle_of, self.handles)
+        handle_of = self.whole.beyond_handles(self.handle_of)
+        own = targets(self.shape.original, handle_of, self.handles)
         return self.placement.place(self.whole.images(own))
 
     @property
@@ -124,10 +126,10 @@ class Piece:
 
         Parameters
         ----------
-        positions, at_rest : (n,3) arrays
+        positions, at_rest : (N,3) arrays
             Of the result and before, where it was solved.
-        rotations : (n,3,3) array, optional
-        is_held : (n,) bool array
+        rotations : (N,3,3) array, optional
+        is_held : (N,) bool array
         is_idle : bool
             Whether nothing was to change.
 
@@ -135,16 +137,27 @@ class Piece:
         -------
         (n,3) array of the type of the shape, and (n,3,3) array or None
         """
-        own = self.placement.read_back(positions).astype(self.shape.original.dtype)
+        n = self.vertices
         # Held vertices must not move by rounding errors of the placement.
-        is_still = (positions == at_rest).all(axis=1) | is_idle
+        is_still = (positions[:n] == at_rest[:n]).all(axis=1) | is_idle
+        is_held = is_held[:n]
+        own = self._mesh_of(positions, is_held | is_still).astype(self.shape.original.dtype)
         own[is_still] = self.shape.original[is_still]
         self.whole.symmetrize(own, is_held | is_still)
         if rotations is None:
             return own, None
-        turned = self.placement.read_rotations_back(rotations)
+        turned = self.placement.read_rotations_back(rotations[:n])
         self.whole.settle_rotations(turned, is_held)
         return own, turned
+
+    def _mesh_of(self, positions, is_held):
+        """Return the mesh (n,3) of solved positions (N,3); held vertices of a cage are given."""
+        if isinstance(self.whole, Subdivided):
+            goal = targets(self.shape.original, self.handle_of, self.handles)
+            at_rest = self.placement.place(self.whole.cage(self.shape.original))
+            goal = self.placement.place(self.whole.cage(goal))
+            positions = self.whole.fitted(positions, at_rest, goal, is_held)
+        return self.placement.read_back(positions[: self.vertices])
 
 
 P = TypeVar("P", bound=Piece)

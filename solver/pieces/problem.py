@@ -165,8 +165,7 @@ class Problem(Generic[P]):
         is_held[self.setup.pinned_input] = True
         is_idle = bool(self.is_still.all())
         found = []
-        for piece, every in parts_of(self.pieces):
-            part = slice(every.start, every.start + piece.vertices)  # without those of mirrors
+        for piece, part in parts_of(self.pieces):
             own = positions[part], None if rotations is None else rotations[part]
             found.append(piece.read_back(*own, at_rest[part], is_held[part], is_idle=is_idle))
         return found
@@ -255,7 +254,19 @@ def _rest(pieces, proxy, earlier):
         if rest is not None:
             return rest
     triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
-    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy)
+    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy, _faces(pieces))
+
+
+def _faces(pieces):
+    """Return which face each triangle is a piece of; None if all are whole."""
+    if all(piece.whole.faces is None for piece in pieces):
+        return None
+    found, begin = [], 0
+    for piece in pieces:
+        own = piece.whole.faces
+        found.append(begin + (np.arange(len(piece.F)) if own is None else own))
+        begin += len(piece.F)
+    return np.concatenate(found)
 
 
 def _positions(pieces):

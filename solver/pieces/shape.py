@@ -8,7 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
+from ..mesh.catmull_clark import Cage
 from .reflection import Reflection
+from .subdivided import Subdivided
 from .whole import Whole
 
 LEAST_MATCHING = 0.99
@@ -24,19 +26,27 @@ class Shape:
     """(n,3) positions, in the coordinates of the object; Blender's are float32"""
     triangles: IntArray
     """(m,3) int"""
+    cage: Cage | None = None
+    """its faces, if what is seen is the smooth surface of it"""
 
     def is_like(self, other: "Shape") -> bool:
         """Return whether both are the same, bit for bit."""
         if self is other:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()
+        is_same &= other.cage is None if self.cage is None else self.cage.is_like(other.cage)
         return is_same and np.array_equal(self.triangles, other.triangles)
 
-    def whole(self, reflections: Sequence[Reflection], symmetry: Sequence[bool]) -> Whole:
-        """Return its Whole, the same each time."""
-        key = (tuple(reflections), tuple(symmetry))
+    def whole(
+        self, reflections: Sequence[Reflection], symmetry: Sequence[bool], *, is_smooth: bool
+    ) -> Whole:
+        """Return its Whole, of a cage that `is_smooth` its Subdivided, the same each time."""
+        cage = self.cage if is_smooth else None
+        given = tuple(reflections), tuple(symmetry)
+        key = (*given, cage is None)
         if key not in self._wholes:
-            self._wholes[key] = Whole(self.original, self.triangles, *key)
+            own = self.original, self.triangles, *given
+            self._wholes[key] = Whole(*own) if cage is None else Subdivided(*own, cage)
         return self._wholes[key]
 
     @cached_property
@@ -52,7 +62,8 @@ class Shape:
         x = self.original[:, axis]
         if len(x) < 3 or not abs(x.min() + x.max()) <= _NEARLY * np.ptp(x):
             return False  # by this, most meshes are known not to be
-        matching = self.whole((), [number == axis for number in range(3)]).matching or 0
+        axes = [number == axis for number in range(3)]
+        matching = self.whole((), axes, is_smooth=False).matching or 0
         return matching >= LEAST_MATCHING * len(x)
 
     @cached_property

@@ -7,6 +7,7 @@ not at its border.
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -36,8 +37,6 @@ class Whole:
         As given.
     added : tuple of Reflection
         Those that commute with each other, by which it grows.
-    source : (N,) int array
-        The vertex of the mesh that each is an image of; the first n are those themselves.
     mirrored : tuple of Reflection
         All about which it is to stay symmetric.
     """
@@ -87,7 +86,25 @@ class Whole:
             total += len(fresh)
             sources.append(fresh)
             elements.append(np.full(len(fresh), element))
-        self.source, self._element = np.concatenate(sources), np.concatenate(elements)
+        self._source, self._element = np.concatenate(sources), np.concatenate(elements)
+
+    @property
+    def source(self) -> IntArray:
+        """(N,) int vertex of the mesh that each is an image of; the first n are themselves."""
+        return self._source
+
+    @property
+    def faces(self) -> IntArray | None:
+        """(M,) int the face that each triangle is a piece of; None if it is whole."""
+        return None
+
+    def everywhere(self, values: Any) -> Any:
+        """Return values (n,...) of the mesh, an array or csr_matrix, at all vertices (N,...)."""
+        return values[self._source]
+
+    def beyond_handles(self, handle_of: IntArray) -> IntArray:
+        """Return which handle (n,) takes each vertex along, those around held vertices included."""
+        return handle_of
 
     @cached_property
     def triangles(self) -> IntArray:
@@ -103,7 +120,7 @@ class Whole:
 
     def images(self, points: FloatArray) -> FloatArray:
         """Return points (n,3) of the mesh, float64, with their images (N,3)."""
-        result = points[self.source].astype(np.float64)
+        result = points[self._source].astype(np.float64)
         for bit, reflection in enumerate(self.added):
             is_reflected = (self._element >> bit & 1).astype(bool)
             result[is_reflected] = reflection.image(result[is_reflected])
@@ -131,9 +148,9 @@ class Whole:
         """For each of `mirrored`, the partner (N,) of each vertex of the whole."""
         found = []
         for bit in range(len(self.added)):
-            found.append(self._numbers[self._element ^ 1 << bit, self.source])
+            found.append(self._numbers[self._element ^ 1 << bit, self._source])
         for mirror in self.own_partners:
-            partner = np.append(mirror.partner, NO_PARTNER)[self.source]
+            partner = np.append(mirror.partner, NO_PARTNER)[self._source]
             there = self._numbers[self._element, np.maximum(partner, 0)]
             found.append(np.where(partner >= 0, there, NO_PARTNER))
         return found
@@ -141,7 +158,7 @@ class Whole:
     def sides(self) -> IntArray:
         """Return on which side of each of `mirrored` each vertex (N,) is, as bits of a number."""
         sides = self._element.copy()
-        points = self._original[self.source]
+        points = self._original[self._source]
         for number, reflection in enumerate(self._asked, start=len(self.added)):
             axis = reflection.linear[::4].index(-1.0)
             sides |= (points[:, axis] < 0.0).astype(np.intp) << number

@@ -26,13 +26,16 @@ class Surface:
     F: IntArray
     """(m,3) int32 triangles"""
     whole: IntArray | None
-    """(m,) int numbers of the triangles before refinement; None if each is still whole"""
+    """(m,) int numbers of the triangles before refinement, or of the faces that were given;
+    None if each is still whole"""
 
 
-def surface_of(V, F, options):
+def surface_of(V, F, options, faces=None):
     """Return the Surface of positions V (N,3), any unit, and triangles F (m,3).
 
     options : ProxyOptions
+    faces : (m,) int array, optional
+        The face of the artist's mesh that each triangle is a piece of.
     """
     used, F = _used_vertices(F, len(V))
     box = unit_box(V[used])
@@ -48,9 +51,12 @@ def surface_of(V, F, options):
         extent = working_extent(at, F, part)
         at, box = at / extent, replace(box, size=extent * box.size)
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
-    whole = None
+    whole, count_of_triangles = None, len(F)  # welding may have removed some
     if options.refine:
         at, F, parents, rounds, whole = refine(at, F, longest_edges(at, F, part)[part], count)
+    whole = whole if len(parents) else None
+    if faces is not None and len(faces) == count_of_triangles:
+        whole = faces if whole is None else faces[whole]
     of_input = np.full(len(V), -1)
     of_input[used] = group
     input_map = InputMap(of_input, used[first], parents, rounds)
@@ -59,7 +65,7 @@ def surface_of(V, F, options):
         number = np.empty(len(order), dtype=np.int32)
         number[order] = np.arange(len(order), dtype=np.int32)
         input_map, at, F = input_map.ordered(order), at[order], number[F]
-    return Surface(input_map, box, at, F, whole if len(parents) else None)
+    return Surface(input_map, box, at, F, whole)
 
 
 def _welded(V, F, part):

@@ -180,6 +180,8 @@ def test_the_panel_hints_where_the_mesh_says_little(extension):
     obj.modifiers.new("Armature", "ARMATURE")
     assert not seen.can_be_seen(obj)
     modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    assert not seen.can_be_seen(obj), "what it shows is solved"
+    obj.cubic_craft.refine = "OFF"
     assert seen.can_be_seen(obj)
     modifier.show_viewport = False
     assert not seen.can_be_seen(obj)
