@@ -87,7 +87,7 @@ def test_what_is_seen_of_a_cage_becomes_cubic(add, least):
     before, was_folded = position_of(obj.data), folds(obj)
     finely()
     assert share(obj) > least
-    assert folds(obj) <= was_folded + 4
+    assert folds(obj) <= was_folded + 6  # three of them on each side
     assert len(obj.data.vertices) == len(before)
     assert [each.type for each in obj.modifiers] == ["SUBSURF"]
     assert [tuple(each.uv) for each in obj.data.uv_layers[0].data] == uvs
