@@ -76,7 +76,7 @@ def page(rows):
         "",
         "Written by `make bench-live`: ten seconds of dragging the cubeness slider back and",
         "forth in a real window of Blender 4.3 with Taichi, so that the run restarts all the",
-        "time. All settings but cubeness are the artist's defaults: solidity 0.1, parts kept",
+        "time. All settings but cubeness are the artist's defaults: solidity 0.3, parts kept",
         "together, coarse meshes refined, rotation kept. The monkey, subdivided once, is a mesh",
         "that is refined.",
         "",
