@@ -33,7 +33,7 @@ class NearestTriangles:
         Triangles.
     part : (n,) int array
     chosen : (k,) int array
-        The vertices to search from, in ascending order.
+        The vertices to search from.
     sizes : (p,) array
         Extents of the parts.
     reach : callable
@@ -42,7 +42,7 @@ class NearestTriangles:
     Attributes
     ----------
     triangle : (k,) int array
-        The nearest triangle of another part within reach, or -1.
+        The nearest triangle of another part within reach of each, or -1.
     """
 
     def __init__(self, V, corners, part, chosen, sizes, reach):
@@ -75,13 +75,14 @@ class NearestTriangles:
         Returns
         -------
         i, triangle : (f,) int arrays
-            Vertices and triangles.
+            Vertices, in ascending order, and triangles.
         barycentric : (f,3) array
             Of the nearest point.
         d : (f,3) array
             From the vertex to it.
         """
         rows = np.flatnonzero(self.triangle >= 0)
+        rows = rows[np.argsort(self._chosen[rows])]
         return self._chosen[rows], self.triangle[rows], *self._ways(rows, self.triangle[rows])
 
     def _places(self, triangles):
