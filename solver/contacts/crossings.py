@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from ..algebra import cross, dot
-from .overlaps import blocks_of_overlaps, near
+from ..mesh.overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""

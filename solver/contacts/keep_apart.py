@@ -5,7 +5,8 @@ At the end of a run, triangles that cross and did not cross at rest are found. W
 all. A few are pushed apart. Otherwise links are made across the gaps that are closed, the global
 step is factorized anew, and the iteration goes on from where it is; up to four times, but not for
 the few that a round has left and pushing does not part: another round hardly does. The links only
-add a term to the energy, so it falls in every step of a round.
+add a term to the energy, so it falls in every step of a round. A round costs much more than to
+push, so what a round has left is pushed first if it is not much, and often nearly all parts.
 """
 
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ FEW = 1.0 / 2000.0
 """of the triangles: so few are pushed apart first, and only if that fails there is a first round"""
 FEWEST = 40
 """triangles that are few on any mesh, however coarse: to push them apart takes less than a round"""
+LEFT = 1.0 / 200.0
+"""of the triangles: so few of those that a round has left are pushed apart before another round"""
 HELPED = 0.5
 """share of the pairs that cross between which there must be links, or a round would be in vain"""
 
@@ -87,10 +90,11 @@ class KeepApart:
         self._progress = progress
         if not now.count or self._rounds == ROUNDS or is_stuck:
             return False
-        if now.count > max(FEW * len(self._shown), FEWEST):
+        few = max(FEW * len(self._shown), FEWEST)
+        if now.count > (max(LEFT * len(self._shown), few) if self._rounds else few):
             return True
         self._push(now, stylization)
-        return self._best_so_far().count > 0 and not self._rounds
+        return self._best_so_far().count > (few if self._rounds else 0)
 
     def renewed(self, stylization):
         """Return a Stylization with links against what crosses, from the same state.

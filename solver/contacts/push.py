@@ -12,6 +12,10 @@ from ..proxy.closest_point import closest_points
 from .crossings import DEPTH, Watched
 
 STEPS = 40
+PATIENCE = 5
+"""steps in which, of many pairs, a tenth has to come apart: else it is at its end"""
+MANY = 100
+"""pairs; with fewer, a step takes next to no time, and a late one may still help"""
 MARGIN = 20.0 * DEPTH
 """between what has been pushed apart"""
 
@@ -38,11 +42,13 @@ def pushed(V, U, triangles, pairs, counts, is_free, impose):
     impose : callable
         Moves positions (n,3) in place so that they satisfy all constraints.
     """
-    start, best, fewest = U, U, len(pairs)
+    start, best, fewest, before = U, U, len(pairs), []
     watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH, counts)
     for _ in range(STEPS):
-        if not fewest:
+        is_stuck = len(before) >= PATIENCE and fewest > 0.9 * before[-PATIENCE]
+        if not fewest or (is_stuck and fewest > MANY):
             break
+        before.append(fewest)
         U = start + np.clip(
             U + _corrections(V, U, triangles, pairs, is_free) - start, -REACH, REACH
         )

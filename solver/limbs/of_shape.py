@@ -52,6 +52,8 @@ BLUR = 0.35
 """of the width: how far a piece reaches into the next"""
 SMOOTHINGS = 4
 """averages over neighboring vertices"""
+TOGETHER = 500
+"""nodes that are looked at together, if they are connected or not"""
 FEWEST = 6
 """links; of fewer, nothing is found"""
 
@@ -67,6 +69,11 @@ class Skeleton(NamedTuple):
     """(n,) int of each vertex, -1 where a part has none"""
     graph: sp.csr_matrix
     """(m,m) lengths between neighbors"""
+
+    def part(self, nodes):
+        """Return the Skeleton of some of the nodes (k,)."""
+        graph = self.graph[nodes][:, nodes]
+        return Skeleton(self.place[nodes], self.thickness[nodes], self.node, graph)
 
 
 def limbs_of_shape(V, skin, links, part):
@@ -86,21 +93,50 @@ def limbs_of_shape(V, skin, links, part):
     if len(links) < FEWEST:
         return no_limbs(len(V))
     skeleton = skeleton_of(V, skin, links, part)
+    entries, directions = [], np.empty((0, 3))
+    for nodes in _bodies(skeleton.graph):
+        found, of_node = _found_among(skeleton.part(nodes))
+        row, number = np.nonzero(of_node)
+        entries.append((of_node[row, number], nodes[row], len(directions) + number))
+        directions = np.concatenate([directions, found])
+    if not len(directions):
+        return no_limbs(len(V))
+    share, row, number = (np.concatenate(values) for values in zip(*entries, strict=True))
+    size = len(skeleton.place) + 1, len(directions)  # the last one is no node
+    of_node = sp.csr_matrix((share, (row, number)), shape=size)
+    return Limbs(directions, _smoothed(of_node[skeleton.node], skin))
+
+
+def _bodies(graph):
+    """Yield the nodes (k,) of connected parts of the graph, of small ones together.
+
+    Distances between all nodes are asked for: of thousands of rings, only within each.
+    """
+    _, body = connected_components(graph, directed=False)
+    order, begin = np.argsort(body, kind="stable"), 0
+    for end in np.cumsum(np.bincount(body)):
+        if end - begin >= TOGETHER or end == len(order):
+            yield np.sort(order[begin:end])
+            begin = end
+
+
+def _found_among(skeleton):
+    """Return the directions (s,3) of the limbs of a Skeleton, and shares (m,s) of its nodes."""
     direction, confidence, width, distance = _measured(skeleton)
     piece, directions = _pieces(skeleton.graph, direction, confidence, width)
     if len(directions):
         piece, directions = _without_short(piece, directions, skeleton, width, distance)
         piece = _without_trunks(piece, len(directions), skeleton.graph, width)
         piece, directions = _cut(piece, directions, skeleton, confidence)
-    if not len(directions):
-        return no_limbs(len(V))
     shares = np.zeros((len(piece), len(directions)))
+    if not len(directions):
+        return directions, shares
     is_limb = piece >= 0
     shares[is_limb, piece[is_limb]] = confidence[is_limb]
     kernel = np.exp(-((distance / (BLUR * width[:, None])) ** 2))
     shares = kernel @ shares / kernel.sum(axis=1)[:, None]
     shares[shares < 0.01] = 0.0
-    return Limbs(directions, _smoothed(shares, skeleton.node, skin))
+    return directions, shares
 
 
 def skeleton_of(V, skin, links, part):
@@ -292,11 +328,10 @@ def _tangents(places, number, share, count, axis):
     return tangents
 
 
-def _smoothed(of_node, node, skin):
-    """Return the shares (n,s) of the vertices from those of their nodes, without steps."""
+def _smoothed(shares, skin):
+    """Return shares (n,s) without steps from vertex to vertex."""
     count = np.diff(skin.indptr)
     means = skin.matrix(np.repeat(1.0 / count, count))
-    shares = sp.csr_matrix(np.vstack([of_node, np.zeros(of_node.shape[1])]))[node]
     for _ in range(SMOOTHINGS):
         shares = means @ shares
     return shares

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from solver.contacts import overlaps
 from solver.contacts.crossings import CrossingTriangles, Watched, crossings
+from solver.mesh import overlaps
 
 
 def soup(count, size, spread=0.3, seed=0):

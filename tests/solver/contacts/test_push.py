@@ -39,3 +39,23 @@ def test_the_best_step_counts_not_the_last(steps):
     assert len(seen) == push.STEPS
     np.testing.assert_array_equal(best, seen[1])
     assert np.abs(best - seen[-1]).max() > 0.0
+
+
+def test_many_that_do_not_come_apart_are_given_up_soon(monkeypatch):
+    """Of a heap of coins, 4,000 pairs crossed after 15 steps, and after 40."""
+    V, F = shapes.blob(2)
+    pairs = np.array([[k, k + 160] for k in range(push.MANY + 20)])
+    steps = []
+
+    class Watched:
+        def __init__(self, *_):
+            pass
+
+        def crossings(self, _):
+            steps.append(len(pairs))
+            return pairs
+
+    monkeypatch.setattr(push, "Watched", Watched)
+    counts, is_free = lambda pairs: np.ones(len(pairs), bool), np.ones(len(V), bool)
+    push.pushed(V, V + 0.0, F, pairs, counts, is_free, lambda _: None)
+    assert len(steps) == push.PATIENCE

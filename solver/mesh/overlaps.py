@@ -24,11 +24,13 @@ _BLOCK = 1 << 16  # boxes that are compared at once
 _ALL_AXES = np.uint8(7)
 
 
-def blocks_of_overlaps(low, high):
+def blocks_of_overlaps(low, high, is_asking=None):
     """Yield boxes that lie side by side in the cells of the octree.
 
     low, high : (m,3) float arrays
         Corners of the boxes, from 0 to 1.
+    is_asking : (m,) bool array, optional
+        Only pairs of one of these and one of the others are found.
 
     Yields
     ------
@@ -43,7 +45,7 @@ def blocks_of_overlaps(low, high):
         at = 0
         while at < len(start):
             stop = max(int(np.searchsorted(end, start[at] + _BLOCK, "right")), at + 1)
-            yield _compared(low, high, cells, start[at], end[at:stop])
+            yield _compared(low, high, is_asking, cells, start[at], end[at:stop])
             at = stop
 
 
@@ -173,11 +175,12 @@ def _split(cells, low, high):
     return halves.chosen(~is_stuck[of_parent]), cells.chosen(is_stuck)
 
 
-def _compared(low, high, cells, begin, ends):
+def _compared(low, high, is_asking, cells, begin, ends):
     """Compare the boxes of consecutive cells, which begin at `begin` and end at `ends` (c,)."""
     entries = slice(begin, ends[-1])
     box, shift = cells.box[entries], BITS - cells.level
     low, high = low[:, box], high[:, box]
+    asks = None if is_asking is None else is_asking[box]
     # Of all cells in which two boxes lie, one has the larger of their lower ends on each axis.
     is_low = (low >> shift) == cells.corner[:, entries]
     lows = is_low[0].astype(np.uint8) | is_low[1].astype(np.uint8) * 2 | is_low[2] * np.uint8(4)
@@ -191,6 +194,8 @@ def _compared(low, high, cells, begin, ends):
         here, there = slice(0, size), slice(by, size + by)
         is_pair = left[here] > by
         is_pair &= (lows[here] | lows[there]) == _ALL_AXES
+        if asks is not None:
+            is_pair &= asks[here] != asks[there]
         for below, above in zip(low, high, strict=True):
             is_pair &= below[here] <= above[there]
             is_pair &= below[there] <= above[here]
