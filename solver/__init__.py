@@ -47,11 +47,11 @@ if TYPE_CHECKING:
     from .pieces.reflection import Reflection as Reflection
     from .pieces.reflection import flip as flip
     from .pose import Pose as Pose
+    from .preparation import rest_mesh as rest_mesh
     from .progress import Progress as Progress
     from .proxy.options import PAPER as PAPER
     from .proxy.options import ProxyOptions as ProxyOptions
     from .rest import RestMesh as RestMesh
-    from .rest import rest_mesh as rest_mesh
     from .result import Result as Result
     from .rotation_fit import svd_rotations as svd_rotations
     from .runner import Run as Run

@@ -11,8 +11,8 @@ from .limbs import KnownLimbs
 from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
+from .preparation import rest_mesh
 from .proxy import PAPER, ProxyOptions
-from .rest import rest_mesh
 from .result import Result
 from .runner import OnIteration, run
 from .setup import Setup

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that is computed once per mesh, regardless of cubeness, orientation and pins."""
+"""What is known of a mesh, regardless of cubeness, orientation and pins."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -9,30 +8,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import details
-from .aliases import BoolArray, Faces, FloatArray, IntArray
+from .aliases import BoolArray, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
 from .contacts.crossings import CrossingTriangles
-from .inputs import instance, real_numbers, whole_numbers
+from .inputs import real_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings, without_shells
-from .memory import check_memory
-from .mesh.cotangents import cotangents
 from .mesh.face_graph import FaceGraph
-from .mesh.mesh_checks import check_mesh
 from .mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
-from .mesh.topology import Topology, topology
+from .mesh.topology import Topology
 from .mesh.triangles import Triangles
 from .mesh.unit_box import UnitBox
-from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links, surface_of
+from .proxy import InputMap, Links, ProxyOptions, no_links
 from .proxy.boxes import box_frames
-from .proxy.cavities import cavity_links
-from .proxy.creases import cubic_shares, smoothness
-from .proxy.flat_sides import stiffness
 from .proxy.nearest import Nearest
-from .proxy.neighbours import neighbour_links
 from .proxy.samples import extents
 from .proxy.sheets import extrusions, planar_sheets
-from .proxy.thickness import outward_sign, thickness_links
+from .proxy.thickness import outward_sign
 from .values import Value
 
 LIGHT = 0.01
@@ -184,9 +176,11 @@ class RestMesh(Value):
         if options == now:
             return self
         changed = replace(self, options=options)
-        if self.to_other_side is None and _needs_other_side(options):
+        if self.to_other_side is None and options.needs_thickness:
+            from .preparation import links_within
+
             triangles, part = Triangles(self.V, self.F), self.topology.part
-            found = _links_within(triangles, self.normals, self.areas, part)
+            found = links_within(triangles, self.normals, self.areas, part)
             changed = replace(changed, to_other_side=found[0], across_cavities=found[1])
         if options.solidity != now.solidity:
             matrices = changed.skin.with_links(self.V, changed.links)
@@ -361,6 +355,8 @@ class RestMesh(Value):
         if contracted is None:
             return None
         V, F, cluster = contracted
+        from .preparation import rest_mesh
+
         coarse = rest_mesh(V, F)
         at = cluster if coarse.input_map.order is None else coarse.place[1][cluster]
         return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
@@ -384,114 +380,3 @@ class Coarsening(Value):
     rest: RestMesh
     cluster: IntArray
     """(n,) int vertex of the coarser mesh into which each vertex was merged"""
-
-
-def rest_mesh(
-    V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER, faces: ArrayLike | None = None
-) -> RestMesh:
-    """Build the RestMesh of a mesh.
-
-    Parameters
-    ----------
-    V : (N,3) numpy array
-        Rest positions, in any unit.
-    F : (m,3) numpy int array, or faces with more corners
-        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
-    proxy : ProxyOptions
-        How to prepare the surface; by default nothing is done, as in the paper.
-    faces : (m,) numpy int array, optional
-        The face of a coarser mesh that each triangle is a piece of: *Crispness* gives it one side.
-
-    Returns
-    -------
-    RestMesh
-
-    Raises
-    ------
-    CubicCraftError
-        The mesh is invalid, or needs more memory than is free.
-
-    See Also
-    --------
-    Setup : The next step, for a set of pinned vertices.
-
-    Notes
-    -----
-    The weights are the cotangents of Pinkall and Polthier, "Computing Discrete Minimal Surfaces and
-    Their Conjugates", Experimental Mathematics 2(1), 1993.
-
-    Examples
-    --------
-    A coarse ball is solved as it is, or on a finer copy, as the extension does:
-
-    >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import ProxyOptions, rest_mesh
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
-    (700, True)
-    """
-    input_positions, F = check_mesh(V, F)
-    instance(proxy, "proxy", ProxyOptions)
-    given = F.copy()  # it may be the caller's
-    check_memory(len(input_positions), len(F))
-    faces = None if faces is None else whole_numbers(faces, "faces")
-    surface = surface_of(input_positions, F, proxy, faces)
-    V, F = surface.V, surface.F
-    triangles = Triangles(V, F)
-    areas, normals = areas_and_normals(V, F, triangles.measures)
-    C = cotangents(V, F)
-    parts = topology(F, len(V))
-    with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
-        to_neighbours, search = no_links(), None
-        if _needs_other_side(proxy):
-            search = beside.submit(_links_within, triangles, normals, areas, parts.part)
-        if proxy.together:
-            to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
-        smooth, shares = np.ones(len(V)), np.ones(len(V))
-        is_flat = np.zeros(len(V), dtype=bool)
-        if proxy.refine:
-            smooth = smoothness(F, C, triangles.measures, len(V))
-            shares = cubic_shares(triangles, smooth, areas)
-            factors = stiffness(triangles, parts.part)
-            is_flat[F[factors < 1.0]] = True
-            is_sheet = planar_sheets(V, F, parts.part)[parts.part]
-            factors = np.where(is_sheet[F[:, 0]], LIGHT * factors, factors)
-            ends = is_sheet[to_neighbours.vertices] & (to_neighbours.coefficients != 0.0)
-            to_neighbours = to_neighbours.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
-            C = C * factors[:, None]
-        skin = spokes_and_rims(V, F, C, triangles.edges)
-        to_other_side, across_cavities = search.result() if search else (None, None)
-    rest = RestMesh(
-        input_positions,
-        surface.input_map,
-        surface.box,
-        V,
-        parts.linked(to_neighbours.pairs()),
-        areas,
-        normals,
-        is_flat,
-        smooth,
-        shares,
-        to_neighbours,
-        to_other_side,
-        across_cavities,
-        proxy,
-        C,
-        skin,
-        skin,
-    )
-    matrices = skin.with_links(V, rest.links)
-    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
-
-
-def _links_within(*surface):
-    """Return the Links to the other side of parts, and across their cavities."""
-    return thickness_links(*surface), cavity_links(*surface)
-
-
-def _needs_other_side(options):
-    return options.solidity > 0.0 or options.detail > 0.0 or options.keep_pose

@@ -3,7 +3,7 @@
 
 import time
 
-from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest, rest_mesh
+from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, preparation, rest_mesh
 from solver import Run as SlicedRun
 
 from .machine import peak_memory
@@ -16,7 +16,10 @@ SETTINGS = {
     "paper": {"proxy": PAPER, "keep_rotation": False},
     "defaults": {"proxy": ProxyOptions(), "keep_rotation": True},
 }
-LINKS = {"neighbours": (rest, "neighbour_links"), "other side": (rest, "thickness_links")}
+LINKS = {
+    "neighbours": (preparation, "neighbour_links"),
+    "other side": (preparation, "links_within"),
+}
 """what looks for links, side by side"""
 SLICE = 0.02
 """seconds that Live computes in a tick, the last phase of the solver on top"""

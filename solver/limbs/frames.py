@@ -6,8 +6,8 @@ from numpy.typing import ArrayLike
 
 from ..aliases import Faces, FloatArray
 from ..options import SolverOptions
+from ..preparation import rest_mesh
 from ..proxy.options import ProxyOptions
-from ..rest import rest_mesh
 from ..setup import Setup
 from ..styles.style import Style
 from ..stylization import Stylization

@@ -245,8 +245,8 @@ def join_pieces(
 
 def _rest(pieces, proxy, earlier):
     """Build the RestMesh, or reuse an earlier one of the same shapes with its links."""
+    from ..preparation import rest_mesh
     from ..proxy.options import PAPER
-    from ..rest import rest_mesh
 
     proxy = proxy or PAPER
     for other in earlier:

@@ -54,6 +54,11 @@ class ProxyOptions:
         for name in ("together", "refine", "keep_pose", "keep_apart"):
             switch(getattr(self, name), name)
 
+    @property
+    def needs_thickness(self) -> bool:
+        """Whether the other side of each part has to be found."""
+        return self.solidity > 0.0 or self.detail > 0.0 or self.keep_pose
+
 
 PAPER = ProxyOptions(
     solidity=0.0, together=False, refine=False, keep_pose=False, detail=0.0, keep_apart=False

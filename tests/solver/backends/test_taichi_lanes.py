@@ -11,7 +11,7 @@ import pytest
 import shapes
 from engine_marks import needs_taichi
 
-from solver.rest import rest_mesh
+from solver.preparation import rest_mesh
 from solver.styles.admm import AdmmOptions
 from solver.styles.cube import CUBE
 

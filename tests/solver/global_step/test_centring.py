@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from solver.global_step.centring import Centring
-from solver.rest import rest_mesh
+from solver.preparation import rest_mesh
 
 
 @pytest.mark.parametrize("floats", [[True, False], [False, True], [True, True]])

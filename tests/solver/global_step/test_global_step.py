@@ -7,7 +7,7 @@ import shapes
 
 from solver import CubicCraftError, Setup
 from solver.global_step.step import GlobalStep
-from solver.rest import rest_mesh
+from solver.preparation import rest_mesh
 
 NO_PINS = np.array([], int)
 

@@ -13,7 +13,7 @@ from solver.mesh.cotangents import MAX_COTANGENT, cotangents
 from solver.mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from solver.mesh.topology import topology
 from solver.mesh.unit_box import unit_box
-from solver.rest import rest_mesh
+from solver.preparation import rest_mesh
 
 RIGHT = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
 ONE = np.array([[0, 1, 2]])

@@ -8,7 +8,7 @@ from engine_marks import needs_engine
 from tight_admm import TIGHT
 
 from solver.backends import local_step_class
-from solver.rest import rest_mesh
+from solver.preparation import rest_mesh
 from solver.rotation_fit import svd_rotations
 from solver.styles import admm
 from solver.styles.active_set import active_set_rotations

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prepare a mesh: all that is computed once, regardless of cubeness, orientation and pins."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .aliases import Faces
+from .inputs import instance, whole_numbers
+from .memory import check_memory
+from .mesh.cotangents import cotangents
+from .mesh.mesh_checks import check_mesh
+from .mesh.rest_measures import areas_and_normals
+from .mesh.spokes_and_rims import spokes_and_rims
+from .mesh.topology import topology
+from .mesh.triangles import Triangles
+from .proxy import PAPER, Links, ProxyOptions, no_links, surface_of
+from .proxy.cavities import cavity_links
+from .proxy.creases import cubic_shares, smoothness
+from .proxy.flat_sides import stiffness
+from .proxy.neighbours import neighbour_links
+from .proxy.sheets import planar_sheets
+from .proxy.thickness import thickness_links
+from .rest import LIGHT, RestMesh
+
+
+def rest_mesh(
+    V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER, faces: ArrayLike | None = None
+) -> RestMesh:
+    """Build the RestMesh of a mesh.
+
+    Parameters
+    ----------
+    V : (N,3) numpy array
+        Rest positions, in any unit.
+    F : (m,3) numpy int array, or faces with more corners
+        Triangles. Polygons (m,s), or rows of any length, are split into triangles.
+    proxy : ProxyOptions
+        How to prepare the surface; by default nothing is done, as in the paper.
+    faces : (m,) numpy int array, optional
+        The face of a coarser mesh that each triangle is a piece of: *Crispness* gives it one side.
+
+    Returns
+    -------
+    RestMesh
+
+    Raises
+    ------
+    CubicCraftError
+        The mesh is invalid, or needs more memory than is free.
+
+    See Also
+    --------
+    Setup : The next step, for a set of pinned vertices.
+
+    Notes
+    -----
+    The weights are the cotangents of Pinkall and Polthier, "Computing Discrete Minimal Surfaces and
+    Their Conjugates", Experimental Mathematics 2(1), 1993.
+
+    Examples
+    --------
+    A coarse ball is solved as it is, or on a finer copy, as the extension does:
+
+    >>> import numpy as np
+    >>> from scipy.spatial import ConvexHull
+    >>> from solver import ProxyOptions, rest_mesh
+    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
+    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
+    >>> F = ConvexHull(V).simplices
+    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
+    (700, True)
+    """
+    input_positions, F = check_mesh(V, F)
+    instance(proxy, "proxy", ProxyOptions)
+    given = F.copy()  # it may be the caller's
+    check_memory(len(input_positions), len(F))
+    faces = None if faces is None else whole_numbers(faces, "faces")
+    surface = surface_of(input_positions, F, proxy, faces)
+    V, F = surface.V, surface.F
+    triangles = Triangles(V, F)
+    areas, normals = areas_and_normals(V, F, triangles.measures)
+    C = cotangents(V, F)
+    parts = topology(F, len(V))
+    with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
+        to_neighbours, search = no_links(), None
+        if proxy.needs_thickness:
+            search = beside.submit(links_within, triangles, normals, areas, parts.part)
+        if proxy.together:
+            to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
+        smooth, shares = np.ones(len(V)), np.ones(len(V))
+        is_flat = np.zeros(len(V), dtype=bool)
+        if proxy.refine:
+            smooth = smoothness(F, C, triangles.measures, len(V))
+            shares = cubic_shares(triangles, smooth, areas)
+            factors = stiffness(triangles, parts.part)
+            is_flat[F[factors < 1.0]] = True
+            is_sheet = planar_sheets(V, F, parts.part)[parts.part]
+            factors = np.where(is_sheet[F[:, 0]], LIGHT * factors, factors)
+            ends = is_sheet[to_neighbours.vertices] & (to_neighbours.coefficients != 0.0)
+            to_neighbours = to_neighbours.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
+            C = C * factors[:, None]
+        skin = spokes_and_rims(V, F, C, triangles.edges)
+        to_other_side, across_cavities = search.result() if search else (None, None)
+    rest = RestMesh(
+        input_positions,
+        surface.input_map,
+        surface.box,
+        V,
+        parts.linked(to_neighbours.pairs()),
+        areas,
+        normals,
+        is_flat,
+        smooth,
+        shares,
+        to_neighbours,
+        to_other_side,
+        across_cavities,
+        proxy,
+        C,
+        skin,
+        skin,
+    )
+    matrices = skin.with_links(V, rest.links)
+    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
+
+
+def links_within(*surface: Any) -> tuple[Links, Links]:
+    """Return the Links to the other side of parts, and across their cavities."""
+    return thickness_links(*surface), cavity_links(*surface)
