@@ -68,7 +68,7 @@ class Bake:
     Raises
     ------
     CubicCraftError
-        There are no frames, a source has keyframes that cannot be used, or the
+        There are no frames, a source is not evaluated or has keyframes that cannot be used, or the
         format or the folder cannot be used.
 
     Attributes
@@ -101,7 +101,7 @@ class Bake:
         self._begin = time.perf_counter()
         self._scene = bpy.context.scene
         self._frame = self._scene.frame_current, self._scene.frame_subframe
-        self._hidden = [source for source in sources if not source.visible_get()]
+        self._hidden = [source for source in sources if source.hide_get()]
         for source in self._hidden:  # or it would not be evaluated
             source.hide_set(False)
         try:
@@ -113,6 +113,11 @@ class Bake:
     def _check_sources(self):
         """Refuse before the first frame what would go wrong in a later one."""
         for source in self._sources:
+            if not source.visible_get():  # Blender does not evaluate it
+                raise CubicCraftError(
+                    f'"{source.name}" or its collection is disabled or excluded; enable it, so that'
+                    " its frames can be seen"
+                )
             animated = {} if self._options.is_process else animated_settings(source)
             refused = [animated[name] for name in OF_ALL_FRAMES if name in animated]
             if refused:

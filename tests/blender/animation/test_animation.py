@@ -468,3 +468,26 @@ def test_a_point_cache_that_was_cut_off_is_refused(part, tmp_path):
         path.write_bytes(content)
         with pytest.raises(Exception, match=words):
             cache.read_point_cache(path)
+
+
+@pytest.mark.parametrize("way", ["exclude", "hide_viewport"])
+def test_an_original_that_blender_does_not_evaluate_is_refused_first(
+    extension, bending, tmp_path, way
+):
+    scene, kept = bpy.context.scene, bpy.data.collections.new("Kept")
+    scene.frame_end = 2
+    assert bake(tmp_path) == {"FINISHED"}
+    first, cubic = (tmp_path / "Ball.pc2").read_bytes(), bpy.context.object
+    scene.collection.children.link(kept)
+    kept.objects.link(bending)
+    scene.collection.objects.unlink(bending)
+    collection = bpy.context.view_layer.layer_collection.children["Kept"]
+    setattr(collection, way, True)
+    select(cubic)
+    with pytest.raises(RuntimeError, match='"Ball" or its collection is disabled or excluded'):
+        bake(tmp_path)
+    assert bpy.context.object == cubic and (tmp_path / "Ball.pc2").read_bytes() == first
+    setattr(collection, way, False)
+    bpy.context.view_layer.update()
+    assert bake(tmp_path) == {"FINISHED"}
+    assert (tmp_path / "Ball.pc2").read_bytes() == first
