@@ -58,7 +58,8 @@ class Animated:
     ) -> Settings:
         """Return the settings in this frame, a share of the way from others or the original.
 
-        A pose is not symmetric, even if the character is, so there is no symmetry.
+        A pose is not symmetric, even if the character is, so there is no symmetry. Where Keep Apart
+        begins to take effect, surfaces would jump.
         """
         owner = self.source if self.source.type == "MESH" else self.new
         before = None if start is None else start.settings_for(owner)
@@ -66,6 +67,7 @@ class Animated:
             on_the_way(before, overrides.settings_for(owner), share),
             symmetry=(False, False, False),
             keep_symmetric=False,
+            keep_apart=False,
             result="MESH",
             with_modifiers=False,
             start="HERE",
@@ -100,10 +102,8 @@ class AnimatedGroup:
     ):
         self.objects = objects
         self._overrides, self._start = overrides, start
-        members = [
-            read_member(one.new, one.settings(overrides), rigged=one.source) for one in objects
-        ]
-        self._first = pipeline.prepare(members)
+        self._first = pipeline.prepare([self._in_first_pose(one) for one in objects])
+        self._unposed = self._first
         self._is_process = is_process
         self._sequence = self._continued(None)
         self.moment = ""
@@ -206,9 +206,9 @@ class AnimatedGroup:
             An object has another number of vertices than in the first frame, or has a setting that
             is invalid.
         """
-        members, moment = self._read(share)
+        unposed, members, moment = self._read(share)
         if self._last is None or moment != self.moment or is_again:
-            self._last = yield from self._solve(members)
+            self._last = yield from self._solve(unposed, members)
             self.moment = moment
         return self._last
 
@@ -220,17 +220,17 @@ class AnimatedGroup:
         CubicCraftError
             As `solve`.
         """
-        return self._read(1.0)[1]
+        return self._read(1.0)[-1]
 
     def _read(self, share):
-        members = [
-            self._posed(one, first, share)
-            for one, first in zip(self.objects, self._first.pieces, strict=True)
-        ]
-        return members, _digest([_moment(member) for member in members])
+        known = zip(self.objects, self._unposed.pieces, strict=True)
+        unposed = [self._in_first_pose(one, member, share) for one, member in known]
+        members = list(map(self._posed, self.objects, unposed))
+        return unposed, members, _digest([_moment(member) for member in members])
 
-    def _solve(self, members):
-        posed = self._first.posed(placed(members))
+    def _solve(self, unposed, members):
+        self._unposed = pipeline.prepare(unposed, [self._unposed])
+        posed = self._unposed.posed(placed(members))
         sequence, settings = self._sequence, pipeline.settings_of_all(posed)
         is_first = sequence.state is None
         try:
@@ -257,7 +257,19 @@ class AnimatedGroup:
             *(np.concatenate(parts, axis=1) for parts in zip(*frames, strict=True))
         )
 
-    def _posed(self, one: Animated, first: Member, share: float) -> Member:
+    def _in_first_pose(
+        self, one: Animated, known: Member | None = None, share: float = 1.0
+    ) -> Member:
+        """Return an object as Cubify would read it in the first frame, with the present settings.
+
+        The bones are there in any case, as they can be read in that pose only.
+        """
+        settings = one.settings(self._overrides, share, self._start)
+        read = replace(settings, keep_pose=known is None)
+        found = read_member(one.new, read, known, rigged=one.source)
+        return replace(found, settings=settings, bones=known.bones if known else found.bones)
+
+    def _posed(self, one: Animated, first: Member) -> Member:
         points, corners = mesh_bridge.read_evaluated_points(one.source)
         if len(points) != first.vertices or corners != one.corners:
             raise CubicCraftError(
@@ -266,23 +278,16 @@ class AnimatedGroup:
             )
         if not np.isfinite(points).all():
             raise CubicCraftError(f'"{one.source.name}" has positions that are not finite')
-        settings = one.settings(self._overrides, share, self._start)
+        settings, bones = first.settings, None
         alone, in_world = placements(one.source, settings, is_posed=True)
         if len(self.objects) > 1 and in_world is None:
             raise CubicCraftError(
                 f'"{one.source.name}" is scaled flat, and cannot be kept together'
             )
+        if settings.keep_pose and first.bones is not None:
+            bones = first.bones.in_pose(read_pose(one.source, first.bones.places))
         shape = ShapeRead(points, first.shape.triangles)
-        bones = first.bones and first.bones.in_pose(read_pose(one.source, first.bones.places))
-        return replace(
-            first,
-            shape=shape,
-            settings=settings,
-            handles=settings.handles,
-            alone=alone,
-            in_world=in_world,
-            bones=bones,
-        )
+        return replace(first, shape=shape, alone=alone, in_world=in_world, bones=bones)
 
 
 def _moment(member: Member):

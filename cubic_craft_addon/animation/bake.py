@@ -31,6 +31,7 @@ from .places import Places
 from .playback import play, shown, stretch
 from .point_cache import new_point_cache
 from .recording import Recording
+from .sources import OF_ALL_FRAMES, animated_settings
 
 _SAVED_EVERY = 10.0  # seconds
 _ASKED_EVERY = 0.5  # seconds, while another bake has the files
@@ -67,7 +68,8 @@ class Bake:
     Raises
     ------
     CubicCraftError
-        There are no frames, or the format or the folder cannot be used.
+        There are no frames, a source is not evaluated or has keyframes that cannot be used, or the
+        format or the folder cannot be used.
 
     Attributes
     ----------
@@ -99,9 +101,30 @@ class Bake:
         self._begin = time.perf_counter()
         self._scene = bpy.context.scene
         self._frame = self._scene.frame_current, self._scene.frame_subframe
-        self._hidden = [source for source in sources if not source.visible_get()]
+        self._hidden = [source for source in sources if source.hide_get()]
         for source in self._hidden:  # or it would not be evaluated
             source.hide_set(False)
+        try:
+            self._check_sources()
+        except CubicCraftError:
+            self._restore_scene()
+            raise
+
+    def _check_sources(self):
+        """Refuse before the first frame what would go wrong in a later one."""
+        for source in self._sources:
+            if not source.visible_get():  # Blender does not evaluate it
+                raise CubicCraftError(
+                    f'"{source.name}" or its collection is disabled or excluded; enable it, so that'
+                    " its frames can be seen"
+                )
+            animated = {} if self._options.is_process else animated_settings(source)
+            refused = [animated[name] for name in OF_ALL_FRAMES if name in animated]
+            if refused:
+                raise CubicCraftError(
+                    f'"{source.name}": {" and ".join(refused)} cannot be animated, as the same'
+                    " vertices are solved in all frames; remove the keyframes or drivers"
+                )
 
     # -- solving -----------------------------------------------------------------------------------
 

@@ -1,28 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The section "Animation" of the panel."""
 
-import re
 from typing import Any
 
 import bpy
 
 from .. import live
-from ..environment.curves import animated_paths
-from ..object_properties import PROPERTY, object_properties
 from ..screen.text_fit import draw_wrapped
 from ..ui import job_progress
 from .properties import bake_properties, source_of
+from .sources import animated_settings
 
 SECTION = "CUBIC_CRAFT_PT_animation"
 _BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
 
 
-_SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
-
-
 def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None:
     """Say that a change of the frame does not move the mesh, if settings are animated."""
-    names = animated_settings(obj)
+    names = animated_settings(obj).values()
     if not names or source_of(obj) != obj:
         return
     column = layout.box().column()
@@ -32,14 +27,6 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
     row = column.row()
     row.enabled = live.current() is None
     job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
-
-
-def animated_settings(obj: bpy.types.Object) -> list[str]:
-    """Return the labels of the settings that keyframes or drivers change."""
-    found = (_SETTING.match(path) for path in animated_paths(obj))
-    known = object_properties(obj).bl_rna.properties
-    names = (known[match[1]].name for match in found if match and match[1] in known)
-    return list(dict.fromkeys(names))
 
 
 def draw(layout, obj):

@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings with which the objects of an animation are cubified."""
 
+import re
 from collections.abc import Sequence
 
 import bpy
 
-from ..object_properties import has_properties, object_properties
+from ..environment.curves import animated_paths
+from ..object_properties import PROPERTY, has_properties, object_properties
 from ..settings.overrides import OF_EACH_OBJECT, SettingsOverrides, asked_for, values_of
 from ..settings.values import Settings
+
+OF_ALL_FRAMES = ("together", "refine")
+"""settings that determine which vertices are solved, which a sequence of frames has in common"""
+_SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
 
 
 class OfSources:
@@ -38,3 +44,10 @@ def overrides_of(
         values = {name: value for name, value in values.items() if name not in OF_EACH_OBJECT}
     pointers = {name: getattr(properties, name) for name in asked_for(values)}
     return SettingsOverrides(values if is_for_all else {}, pointers)
+
+
+def animated_settings(obj: bpy.types.Object) -> dict[str, str]:
+    """Return the settings that keyframes or drivers change: their names, and the labels of them."""
+    found = (_SETTING.match(path) for path in animated_paths(obj))
+    known = object_properties(obj).bl_rna.properties
+    return {match[1]: known[match[1]].name for match in found if match and match[1] in known}

@@ -12,7 +12,7 @@ import pytest
 import bpy  # isort: skip
 from mathutils import Matrix  # isort: skip
 from rig import FRAMES, bending_ball, flatness, read_pc2, shown  # isort: skip
-from scene import add_monkey, select  # isort: skip
+from scene import select  # isort: skip
 
 SUFFIXES = (".pc2", ".abc", ".usdc")
 
@@ -145,58 +145,6 @@ def test_what_is_at_rest_is_the_same_in_all_frames_bit_for_bit(extension, bendin
     assert np.abs(cached[0] - shown(bending, 1)).max() > 0.1
 
 
-def test_settings_may_be_animated(extension, bending, tmp_path):
-    bending.modifiers.clear()
-    for frame, cubeness in ((1, 0.0), (FRAMES, 0.4)):
-        bending.cubic_craft.cubeness = cubeness
-        bending.cubic_craft.keyframe_insert("cubeness", frame=frame)
-    bake(tmp_path)
-    moved = np.abs(read_pc2(tmp_path / "Ball.pc2") - shown(bending, 1)).max(axis=(1, 2))
-    assert moved[0] < 0.05 and moved[-1] > 0.15
-    assert (np.diff(moved) > 0.0).all()
-
-
-def test_animated_settings_of_the_active_object_count_for_all(extension, bending, tmp_path):
-    other = add_monkey("Other")
-    for frame, cubeness in ((1, 0.0), (FRAMES, 0.4)):
-        bending.cubic_craft.cubeness = cubeness
-        bending.cubic_craft.keyframe_insert("cubeness", frame=frame)
-    other.cubic_craft.cubeness = 1.0
-    select(bending, other)
-    bpy.context.scene.frame_set(FRAMES)
-    bake(tmp_path)
-    moved = np.abs(read_pc2(tmp_path / "Other.pc2") - shown(other, 1)).max(axis=(1, 2))
-    assert moved[0] < 0.01 and moved[-1] > 0.1
-
-
-@pytest.mark.parametrize("way", ["key", "driver", "track", "region"])
-def test_the_panel_names_the_settings_that_are_animated(part, empty_file, way):
-    panel = part("animation.panel")
-    obj = add_monkey()
-    obj.keyframe_insert("location", frame=1)
-    obj.driver_add("scale")
-    assert panel.animated_settings(obj) == []
-    settings = obj.cubic_craft
-    if way == "driver":
-        obj.driver_add("cubic_craft.max_iterations")
-        assert panel.animated_settings(obj) == ["Max Iterations"]
-        return
-    if way == "region":
-        settings.regions.add().keyframe_insert("cubeness", frame=1)
-        assert panel.animated_settings(obj) == ["Regions"]
-        return
-    settings.keyframe_insert("cubeness", frame=1)
-    settings.keyframe_insert("orientation", frame=1)
-    if way == "track":
-        strips, action = obj.animation_data.nla_tracks.new().strips, obj.animation_data.action
-        slot = getattr(obj.animation_data, "action_slot", None)
-        strip = strips.new("All", 1, action)
-        if slot is not None:
-            strip.action_slot = slot
-        obj.animation_data.action = None
-    assert panel.animated_settings(obj) == ["Cubeness", "Orientation"]
-
-
 def test_what_is_pinned_stays_with_the_animation(extension, bending, tmp_path):
     low = [v.index for v in bending.data.vertices if v.co.z < -0.7]
     group = bending.vertex_groups.new(name="Pinned")
@@ -297,9 +245,13 @@ def test_a_text_that_grows_is_baked(extension, empty_file, tmp_path):
     np.testing.assert_allclose(depths, [0.1, 0.2666, 0.4333, 0.6], atol=0.06)
 
 
+@pytest.mark.parametrize("is_keyed", [False, True])
 def test_a_stopped_bake_keeps_its_frames_and_continues_bit_for_bit(
-    extension, bending, bakes, tmp_path
+    extension, bending, bakes, tmp_path, is_keyed
 ):
+    if is_keyed:
+        for frame, bending.cubic_craft.solidity in ((1, 0.0), (FRAMES, 1.0)):
+            bending.cubic_craft.keyframe_insert("solidity", frame=frame)
     whole, parts = tmp_path / "whole", tmp_path / "parts"
     bake(whole)
     work = bakes(parts, bending)
@@ -516,3 +468,26 @@ def test_a_point_cache_that_was_cut_off_is_refused(part, tmp_path):
         path.write_bytes(content)
         with pytest.raises(Exception, match=words):
             cache.read_point_cache(path)
+
+
+@pytest.mark.parametrize("way", ["exclude", "hide_viewport"])
+def test_an_original_that_blender_does_not_evaluate_is_refused_first(
+    extension, bending, tmp_path, way
+):
+    scene, kept = bpy.context.scene, bpy.data.collections.new("Kept")
+    scene.frame_end = 2
+    assert bake(tmp_path) == {"FINISHED"}
+    first, cubic = (tmp_path / "Ball.pc2").read_bytes(), bpy.context.object
+    scene.collection.children.link(kept)
+    kept.objects.link(bending)
+    scene.collection.objects.unlink(bending)
+    collection = bpy.context.view_layer.layer_collection.children["Kept"]
+    setattr(collection, way, True)
+    select(cubic)
+    with pytest.raises(RuntimeError, match='"Ball" or its collection is disabled or excluded'):
+        bake(tmp_path)
+    assert bpy.context.object == cubic and (tmp_path / "Ball.pc2").read_bytes() == first
+    setattr(collection, way, False)
+    bpy.context.view_layer.update()
+    assert bake(tmp_path) == {"FINISHED"}
+    assert (tmp_path / "Ball.pc2").read_bytes() == first

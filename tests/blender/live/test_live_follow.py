@@ -354,6 +354,43 @@ def test_the_timeline_is_followed(live, follow):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.parametrize(
+    ("owner", "name", "values"),
+    [
+        ("regions", "cubeness", (0.0, 1.0)),
+        ("handles", "is_cubic", (True, False)),
+        ("handles", "threshold", (0.9, 0.3)),
+    ],
+)
+@pytest.mark.parametrize("is_moving", [True, False])
+def test_settings_that_the_timeline_changes_are_followed(
+    live, follow, owner, name, values, is_moving
+):
+    obj = add_box()
+    push_in(obj)
+    group = obj.vertex_groups.new(name="Upper")
+    for vertex in obj.data.vertices:
+        group.add([vertex.index], min(max(0.5 + vertex.co.z, 0.0), 1.0), "REPLACE")
+    region = obj.cubic_craft.regions.add()
+    region.group = "Upper"
+    bpy.ops.cubic_craft.handle_add(group="Upper")
+    keyed = getattr(obj.cubic_craft, owner)[0]
+    key = obj.data.shape_keys.key_blocks["Pushed"]
+    for frame, value in zip((1, 10), values, strict=True):
+        setattr(keyed, name, value)
+        keyed.keyframe_insert(name, frame=frame)
+        key.value = frame / 10 if is_moving else 0.5
+        key.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(1)
+    session = tick_to_rest(follow(obj, with_modifiers=True))
+    shown = bits(follower_of(obj))
+    bpy.context.scene.frame_set(10)
+    tick_to_rest(session)
+    assert bits(follower_of(obj)) != shown
+    confirm(live, session)
+    check_same_as_new_object(obj, follower_of(obj))
+
+
 def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
     obj = add_box()
     session = tick_to_rest(follow(obj))
