@@ -112,10 +112,16 @@ def test_the_manifest_asks_for_files_only():
 
 
 def _called(path):
-    """Return the names of all functions and methods that a file calls."""
+    """Return the names of all functions that a file calls, but those of Blender's lists."""
     calls = [
         n.func
         for n in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(n, ast.Call)
     ]
-    return {getattr(f, "attr", getattr(f, "id", "")) for f in calls}
+    of_lists = [f for f in calls if isinstance(f, ast.Attribute) and _is_list(f.value)]
+    return {getattr(f, "attr", getattr(f, "id", "")) for f in calls if f not in of_lists}
+
+
+def _is_list(value):
+    """Return whether this is what objects are linked to, and unlinked from."""
+    return isinstance(value, ast.Attribute) and value.attr == "objects"
