@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .aliases import Faces
+from .errors import CubicCraftError
 from .inputs import instance, whole_numbers
 from .memory import check_memory
 from .mesh.cotangents import cotangents
@@ -79,7 +80,10 @@ def rest_mesh(
     instance(proxy, "proxy", ProxyOptions)
     given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
-    faces = None if faces is None else whole_numbers(faces, "faces")
+    if faces is not None:
+        faces = whole_numbers(faces, "faces")
+        if faces.shape != (len(F),):
+            raise CubicCraftError(f"faces must have the shape ({len(F)},), not {faces.shape}")
     surface = surface_of(input_positions, F, proxy, faces)
     V, F = surface.V, surface.F
     triangles = Triangles(V, F)

@@ -122,6 +122,8 @@ class RestMesh(Value):
         """(n,) bool, the vertices of planar sheets among other parts, see `proxy/sheets.py`."""
         if not self.options.refine:
             return np.zeros(len(self.V), dtype=bool)
+        if self.unposed is not None:  # a flag that begins to wave stays one
+            return self.unposed.is_sheet
         return planar_sheets(self.V, self.F, self.topology.part)[self.topology.part]
 
     @property

@@ -111,6 +111,8 @@ class Job:
             twin = next((other for other in self._tasks if _is_twin(other, group)), None)
             if twin is not None:
                 group[0].solution = twin.solution
+                if twin.uid in self._shapes:
+                    self._shapes[group[0].uid] = self._shapes[twin.uid]
                 continue
             for step in self._solve(group):
                 texts = tuple(which + text for text in step.texts)
@@ -131,7 +133,7 @@ class Job:
             task.solution = run.solution_of(task.uid)
             member = run.member_of(task.uid)
             if member is not None:
-                self._shapes[task.mesh.session_uid] = member.shape
+                self._shapes[task.uid] = member.shape
         run.forget()
 
     @property
@@ -206,7 +208,7 @@ class Job:
         if task.uid in self._joined:
             is_same = now.key_in_world == task.key_in_world
         shape = read_shape(task.obj, task.settings.start)
-        if is_same and shape.is_like(self._shapes[task.mesh.session_uid]):
+        if is_same and shape.is_like(self._shapes[task.uid]):
             return ""
         return f'"{task.obj.name}" was changed while Cubify ran; click Cubify again'
 

@@ -177,9 +177,11 @@ def _in_object_mode(obj):
     mode = obj.mode if obj == bpy.context.view_layer.objects.active else "OBJECT"
     if mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-    yield
-    if mode != "OBJECT":
-        bpy.ops.object.mode_set(mode=mode)
+    try:
+        yield
+    finally:
+        if mode != "OBJECT":
+            bpy.ops.object.mode_set(mode=mode)
 
 
 def _remove(obj):

@@ -51,6 +51,11 @@ class Member(Piece):
     in_world: Placement | None
     """None if it cannot be solved with others"""
 
+    @property
+    def is_symmetric_by_itself(self) -> bool:
+        """Whether its halves are kept alike although that was not asked for."""
+        return self.whole.matching is not None and not any(self.settings.symmetry)
+
     def with_cubeness(self, cubeness: float) -> Member:
         """Return the same with another cubeness, but for its regions."""
         settings = replace(self.settings, cubeness=cubeness)

@@ -50,5 +50,13 @@ def _has_other_rest(obj: bpy.types.Object, size: float) -> bool:
     before = mesh_bridge.moved_as_a_whole(mesh_bridge.mesh_of(obj), np.reshape(then, (-1, 3)))
     if before is None:
         return False
-    away = np.linalg.norm(before - np.reshape(places.ends, (-1, 3)), axis=1)
+    away = np.linalg.norm(_apart(before, np.reshape(places.ends, (-1, 3))), axis=1)
     return bool(away.max() > _SAME * size)
+
+
+def _apart(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Return offsets (k,3) of points, but for a rotation and a shift: a rig may be moved."""
+    one, other = before - before.mean(axis=0), after - after.mean(axis=0)
+    U, _, Vt = np.linalg.svd(one.T @ other)
+    U[:, -1] *= np.sign(np.linalg.det(U @ Vt))
+    return one @ U @ Vt - other

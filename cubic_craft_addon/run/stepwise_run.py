@@ -110,6 +110,8 @@ class StepwiseRun:
         members = []
         for member in self.problem.pieces:
             original = originals.get(member.uid, member.shape.original)
+            if member.is_symmetric_by_itself and not member.whole.suits(original):
+                return False
             members.append(replace(member, shape=replace(member.shape, original=original)))
         posed = self.problem.posed(members)
         if not self.problem.setup.serves(posed.setup):

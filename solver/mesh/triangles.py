@@ -47,10 +47,15 @@ class Triangles:
 
 def distinct(F):
     """Return the triangles with three different corners, one of each set of corners."""
-    F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
-    corners = np.sort(F.astype(np.int64), axis=1)
+    return F[distinct_rows(F)]
+
+
+def distinct_rows(F):
+    """Return which triangles (k,) have three different corners, one of each set of corners."""
+    rows = np.flatnonzero((F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0]))
+    corners = np.sort(F[rows].astype(np.int64), axis=1)
     order = np.lexsort(corners.T[::-1])
     ordered = corners[order]
-    is_new = np.ones(len(F), dtype=bool)
+    is_new = np.ones(len(rows), dtype=bool)
     is_new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    return F[np.sort(order[is_new])]
+    return rows[np.sort(order[is_new])]

@@ -35,6 +35,9 @@ def is_own_image(
     And a direction (3,), where it is solved.
     """
     turn = _placed(reflection, placement)
+    linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
+    if np.abs(linear @ np.linalg.inv(placement.linear) - turn).max() > _ALIKE:
+        return False  # a stretch aslant to the plane leaves nothing that is symmetric
     if direction is not None and np.abs(turn @ direction - direction).max() > _ALIKE:
         return False
     return _look_alike(turn, placement)

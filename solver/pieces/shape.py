@@ -15,6 +15,7 @@ from .whole import Whole
 
 LEAST_MATCHING = 0.99
 """share of the vertices that must have mirror images in a shape that is symmetric"""
+_KEPT = 8  # wholes of one shape
 _NEARLY = 0.02  # of the extent: difference of the distances of the bounding box's sides
 
 
@@ -45,6 +46,8 @@ class Shape:
         given = tuple(reflections), tuple(symmetry)
         key = (*given, cage is None)
         if key not in self._wholes:
+            while len(self._wholes) >= _KEPT:  # the object of a Mirror modifier may be dragged
+                del self._wholes[next(iter(self._wholes))]
             own = self.original, self.triangles, *given
             self._wholes[key] = Whole(*own) if cage is None else Subdivided(*own, cage)
         return self._wholes[key]

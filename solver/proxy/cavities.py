@@ -60,12 +60,14 @@ def _across(V, normals, areas, part):
 def _enclosed(places, of, V, part):
     """Return the share (k,) of directions in which the part `of` (k,) is seen from places (k,3)."""
     shares = np.zeros(len(places))
-    for number in np.unique(of):
-        points = V[part == number]
+    by_part = np.argsort(part, kind="stable")
+    bounds = np.searchsorted(part[by_part], [np.unique(of), np.unique(of) + 1])
+    for number, start, end in zip(np.unique(of), *bounds, strict=True):
+        points = V[by_part[start:end]]
         points = points[:: -(-len(points) // SAMPLES)]
         rows = np.flatnonzero(of == number)
-        for start in range(0, len(rows), _AT_ONCE):
-            asked = rows[start : start + _AT_ONCE]
+        for first in range(0, len(rows), _AT_ONCE):
+            asked = rows[first : first + _AT_ONCE]
             cell = _directions(points - places[asked, None])
             is_seen = np.zeros((len(asked), 6 * _CELLS**2), dtype=bool)
             is_seen[np.arange(len(asked))[:, None], cell] = True

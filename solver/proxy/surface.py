@@ -7,6 +7,7 @@ import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
+from ..mesh.triangles import distinct_rows
 from ..mesh.unit_box import UnitBox, unit_box
 from ..mesh.vertex_order import vertex_order
 from .input_map import InputMap
@@ -43,7 +44,10 @@ def surface_of(V, F, options, faces=None):
     group, first = np.arange(len(used)), np.arange(len(used))
     count, part = components(F, len(at)) if options.together or options.refine else (0, None)
     if options.together:
-        group, first, F = _welded(at, F, part)
+        group, first, welded = _welded(at, F, part)
+        if faces is not None and len(welded) < len(F):
+            faces = faces[distinct_rows(group[F])]
+        F = welded
         if len(first) < len(at):
             at = at[first]
             count, part = components(F, len(at))
@@ -51,11 +55,11 @@ def surface_of(V, F, options, faces=None):
         extent = working_extent(at, F, part)
         at, box = at / extent, replace(box, size=extent * box.size)
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
-    whole, count_of_triangles = None, len(F)  # welding may have removed some
+    whole = None
     if options.refine:
         at, F, parents, rounds, whole = refine(at, F, longest_edges(at, F, part)[part], count)
     whole = whole if len(parents) else None
-    if faces is not None and len(faces) == count_of_triangles:
+    if faces is not None:
         whole = faces if whole is None else faces[whole]
     of_input = np.full(len(V), -1)
     of_input[used] = group

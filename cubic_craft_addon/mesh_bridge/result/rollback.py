@@ -5,7 +5,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 
+from ..access.arrays import corner_vertices
 from ..access.attributes import add_attribute, our_attributes, read_attribute, remove_attribute
 from ..access.note import read_note, write_note
 from ..access.shapes import read_shapes, write_shapes
@@ -42,15 +44,22 @@ def carry_result(mesh: bpy.types.Mesh, other: bpy.types.Mesh) -> bool:
 
     Returns
     -------
-    Whether it could be done: not if it has other vertices, or lacks a shape key.
+    Whether it could be done: not if it has other vertices or faces, or lacks a shape key.
     """
     state = _State(mesh)
     there = other.shape_keys.key_blocks.keys() if other.shape_keys is not None else ()
-    if len(mesh.vertices) != len(other.vertices) or not state.shapes.keys.keys() <= set(there):
+    if len(mesh.vertices) != len(other.vertices) or not _has_faces_of(mesh, other):
+        return False
+    if not state.shapes.keys.keys() <= set(there):
         return False
     state.mesh = other
     state.put_back()
     return True
+
+
+def _has_faces_of(mesh, other):
+    is_like = np.array_equal(corner_vertices(mesh), corner_vertices(other))
+    return is_like and len(mesh.polygons) == len(other.polygons)
 
 
 class _State:

@@ -54,13 +54,28 @@ def test_it_is_symmetric_about_the_axes_about_which_it_is():
 
 @pytest.mark.parametrize(
     "why",
-    ["aslant", "beside", "form", "turned", "moved", "pinned", "map", "detail", "asked", "one ear"],
+    [
+        "aslant",
+        "sheared",
+        "beside",
+        "form",
+        "turned",
+        "moved",
+        "pinned",
+        "map",
+        "detail",
+        "asked",
+        "one ear",
+    ],
 )
 def test_it_is_not_where_something_is_not_symmetric(why):
     V, _ = ears()
     right = V[:, 0] > 0.5
     options = {
         "aslant": {"V": V @ rotation(z=0.3)},
+        "sheared": {
+            "matrix": np.array([[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        },
         "beside": {"V": V + [0.5, 0.0, 0.0]},
         "form": {"style": Style(0.4, rotation(x=0.7, z=0.3), form=tetrahedron())},
         "turned": {"style": Style(0.4, rotation(z=0.3))},
@@ -76,6 +91,15 @@ def test_it_is_not_where_something_is_not_symmetric(why):
     }[why]
     asked = [[0.0, 1.0, 0.0]] if why == "asked" else []
     assert np.abs(axes_of(**options)).tolist() == asked
+
+
+def test_it_is_told_whether_it_is_symmetric_at_other_places_too():
+    V, F = ears()
+    whole = with_own_symmetry(piece_of(V, F)).whole
+    assert whole.suits(1.1 * V)
+    one_sided = V.copy()
+    one_sided[V[:, 0].argmax()] += [0.2, 0.0, 0.0]
+    assert not whole.suits(one_sided)
 
 
 def test_what_stands_on_a_floor_is_symmetric_about_upright_planes():

@@ -107,6 +107,16 @@ def test_leaves_do_not_turn_a_trunk():
     assert abs(U[:, 2].min() - alone[:, 2].min()) < 0.01 * np.ptp(alone[:, 2])
 
 
+def test_a_flag_that_begins_to_wave_stays_a_sheet():
+    flag = ground(1.0, shapes.rotation(90, 0, 0))
+    W, G = proxy_shapes.joined(figure(), (flag[0] + [1.5, 0, 1.5], flag[1]))
+    rest = rest_mesh(W, G, ProxyOptions())
+    waving = W + 0.1 * np.sin(8.0 * W[:, :1]) * [0.0, 1.0, 0.0]
+    posed = rest.posed(waving)
+    assert rest.is_sheet.any()
+    np.testing.assert_array_equal(posed.is_sheet, rest.is_sheet)
+
+
 def degrees(V, U):
     """Return by how much U (n,3) is turned from V (n,3)."""
     Q = best_rotation(V, U, np.ones(len(V)))

@@ -63,6 +63,22 @@ def test_coincident_sheets_become_one():
     assert len(first) == len(V) and len(welded) == len(F)
 
 
+def test_faces_are_known_where_triangles_collapse():
+    V, F = shapes.blob(3)
+    W, G = proxy_shapes.joined(
+        (V, F), (np.array([[2.0, 0, 0], [2, 0, 0], [2, 1, 0], [3, 0, 0]]), [[0, 1, 2], [0, 2, 3]])
+    )
+    faces = np.arange(len(G)) // 2
+    rest = rest_mesh(W, G, ProxyOptions(), faces=faces)
+    assert rest.whole is not None
+    middles = rest.box.from_unit(rest.V[rest.F].mean(axis=1))
+    given = W[G].mean(axis=1)
+    nearest = np.array([np.linalg.norm(given - m, axis=1).argmin() for m in middles[::97]])
+    assert (faces[nearest] == rest.whole[::97]).mean() > 0.7
+    with pytest.raises(CubicCraftError, match="faces must have the shape"):
+        rest_mesh(W, G, ProxyOptions(), faces=faces[1:])
+
+
 @pytest.mark.parametrize("turn", [0, 21, 63])
 def test_a_box_is_split_into_short_edges_and_keeps_its_shape(turn):
     V, F = proxy_shapes.box((1, 0.5, 0.2), turn)
