@@ -12,12 +12,8 @@ from ..presets import panel as presets_panel
 from ..read.cages import subdivision_of
 from . import job_progress as job_panel
 
-# Modifiers whose result differs much from the mesh, and those for which it does on coarse meshes.
+# Modifiers whose result differs much from the mesh.
 _MAKING = {"ARRAY", "BOOLEAN", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY", "WIREFRAME"}
-_ROUNDING = {
-    "SUBSURF": lambda subsurf: subsurf.levels > 0 and subsurf.subdivision_type != "SIMPLE",
-    "BEVEL": lambda bevel: True,
-}
 _COARSE = 2000  # vertices
 MAIN = 1.5
 """height of the button to click, in those of others"""
@@ -40,6 +36,13 @@ class Hint:
     """whether the cubic mesh itself will not look cubic"""
 
 
+def _rounds(modifier):
+    """Return whether what is seen of a coarse mesh is much rounder; a bevel leaves sides flat."""
+    if not isinstance(modifier, bpy.types.SubsurfModifier):
+        return False
+    return modifier.levels > 0 and modifier.subdivision_type != "SIMPLE"
+
+
 def hint_for(obj: bpy.types.Object) -> Hint | None:
     """Return what the visible mesh of an object makes of the cubic one; None if little."""
     covers = mesh_bridge.covers(obj)
@@ -48,11 +51,9 @@ def hint_for(obj: bpy.types.Object) -> Hint | None:
     shown = [each for each in obj.modifiers if each.show_viewport]
     if len(mesh_bridge.mesh_of(obj).vertices) < _COARSE:
         is_fitted = object_properties(obj).refine == "AUTO" and subdivision_of(obj) is not None
-        for modifier in shown:
-            if is_fitted and modifier.type == "SUBSURF":
-                continue
-            if modifier.type in _ROUNDING and _ROUNDING[modifier.type](modifier):
-                return Hint(f"{modifier.name} will round it again", is_needed=True)
+        rounding = next((each for each in shown if _rounds(each)), None)
+        if rounding is not None and not is_fitted:
+            return Hint(f"{rounding.name} will round it again", is_needed=True)
     if any(each.type in _MAKING and not _only_shades(each) for each in shown):
         return Hint("Modifiers are ignored", is_needed=False)
     return None

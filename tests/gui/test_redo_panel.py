@@ -100,11 +100,11 @@ def what_is_no_mesh():
 
 
 def what_is_under_modifiers():
-    """Click what the panel offers for a cube under a Subdivision Surface."""
+    """Click what the panel offers for a row of cubes."""
 
     def add():
         bpy.ops.mesh.primitive_cube_add()
-        bpy.ops.object.modifier_add(type="SUBSURF")
+        bpy.ops.object.modifier_add(type="ARRAY")
 
     yield from start_anew(add)
     yield from gui.screenshot("hint.png")
