@@ -28,7 +28,7 @@ from .proxy.thickness import outward_sign
 from .values import Value
 
 LIGHT = 0.01
-"""how much planar sheets count in the place and the rotation of what they hang on"""
+"""weight of planar sheets in place and rotation of what they hang on, in stiffness and links"""
 _OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness")
 """cached properties that links change nothing in"""
 

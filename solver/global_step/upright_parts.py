@@ -104,10 +104,9 @@ def _large_parts(rest, is_free):
     return groups
 
 
-def _centroid(areas, P):
+def _centroid(weights, P):
     """Return the centroid (3,), which is to stay where it is."""
-    weight = areas + 1e-300
-    return weighted_sum(weight / weight.sum(), P)
+    return weighted_sum(weights / weights.sum(), P)
 
 
 def _inverse(pulls, ways):

@@ -35,18 +35,22 @@ def is_own_image(
     And a direction (3,), where it is solved.
     """
     turn = _placed(reflection, placement)
-    linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
-    if np.abs(linear @ np.linalg.inv(placement.linear) - turn).max() > _ALIKE:
+    if np.abs(_mapped(reflection, placement) - turn).max() > _ALIKE:
         return False  # a stretch aslant to the plane leaves nothing that is symmetric
     if direction is not None and np.abs(turn @ direction - direction).max() > _ALIKE:
         return False
     return _look_alike(turn, placement)
 
 
-def _placed(reflection, placement):
-    """Return the map (3,3) of a reflection of the object where it is solved, without a stretch."""
+def _mapped(reflection, placement):
+    """Return the map (3,3) of a reflection of the object where it is solved."""
     linear = placement.linear @ np.reshape(reflection.linear, (3, 3))
-    U, _, Vt = np.linalg.svd(linear @ np.linalg.inv(placement.linear))
+    return linear @ np.linalg.inv(placement.linear)
+
+
+def _placed(reflection, placement):
+    """Return the same without a stretch."""
+    U, _, Vt = np.linalg.svd(_mapped(reflection, placement))
     return U @ Vt
 
 

@@ -3,7 +3,6 @@
 """By hand: a half under a Mirror modifier, Symmetry, Keep on Floor, and Hold the Rest."""
 # Window: 1280x1200
 
-import bmesh
 import bpy
 import guidrive as gui
 import live_scene as scene
@@ -33,15 +32,7 @@ def half():
     scene.add_monkey()
     obj = bpy.context.object
     with gui.in_region():
-        bm = bmesh.new()
-        bm.from_mesh(obj.data)
-        geometry = [*bm.verts, *bm.edges, *bm.faces]
-        bmesh.ops.bisect_plane(
-            bm, geom=geometry, plane_co=(0, 0, 0), plane_no=(1, 0, 0), clear_outer=True
-        )
-        bm.to_mesh(obj.data)
-        bm.free()
-        obj.modifiers.new("Mirror", "MIRROR")
+        scene.halve(obj)
         bpy.ops.ed.undo_push(message="Halve it")
     scene.show_front()
     before = points()

@@ -337,13 +337,7 @@ def test_what_modifiers_show_is_followed(live, follow, change):
     check_same_as_new_object(obj, follower_of(obj))
 
 
-def test_the_timeline_is_followed(live, follow):
-    obj = add_box()
-    push_in(obj)
-    key = obj.data.shape_keys.key_blocks["Pushed"]
-    for frame in (1, 10):
-        key.value = frame / 10
-        key.keyframe_insert("value", frame=frame)
+def check_the_timeline_is_followed(live, follow, obj):
     bpy.context.scene.frame_set(1)
     session = tick_to_rest(follow(obj, with_modifiers=True))
     shown = bits(follower_of(obj))
@@ -352,6 +346,16 @@ def test_the_timeline_is_followed(live, follow):
     assert bits(follower_of(obj)) != shown
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_the_timeline_is_followed(live, follow):
+    obj = add_box()
+    push_in(obj)
+    key = obj.data.shape_keys.key_blocks["Pushed"]
+    for frame in (1, 10):
+        key.value = frame / 10
+        key.keyframe_insert("value", frame=frame)
+    check_the_timeline_is_followed(live, follow, obj)
 
 
 @pytest.mark.parametrize(
@@ -381,14 +385,7 @@ def test_settings_that_the_timeline_changes_are_followed(
         keyed.keyframe_insert(name, frame=frame)
         key.value = frame / 10 if is_moving else 0.5
         key.keyframe_insert("value", frame=frame)
-    bpy.context.scene.frame_set(1)
-    session = tick_to_rest(follow(obj, with_modifiers=True))
-    shown = bits(follower_of(obj))
-    bpy.context.scene.frame_set(10)
-    tick_to_rest(session)
-    assert bits(follower_of(obj)) != shown
-    confirm(live, session)
-    check_same_as_new_object(obj, follower_of(obj))
+    check_the_timeline_is_followed(live, follow, obj)
 
 
 def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
