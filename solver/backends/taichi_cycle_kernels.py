@@ -8,6 +8,8 @@ four of them are read at once, which takes half the time of three. Sums run in a
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
+from types import SimpleNamespace
+
 from .engine import ti
 
 
@@ -81,3 +83,39 @@ def make_cycle(level_count):
                 X[i] += of_b[k] * rest + of_ab[k] * row(A_indptr, A_indices, A_data, residual, i)
 
     return cycle
+
+
+def make_refining_kernels():
+    """Return the kernels that come between V-cycles in a row, and after the last."""
+    vec = ti.types.vector(4, ti.f32)
+    values = ti.types.ndarray(dtype=ti.f32, ndim=1)
+    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
+    vectors = ti.types.ndarray(dtype=vec, ndim=1)
+
+    @ti.kernel
+    def add(
+        indptr: integers,
+        indices: integers,
+        data: values,
+        B: vectors,
+        X: vectors,
+        total: vectors,
+        count: ti.i32,
+        weight: ti.f32,
+    ):
+        """Add a correction to the sum; leave in B what it leaves to the next cycle."""
+        for i in range(count):
+            image = vec(0.0)
+            for entry in range(indptr[i], indptr[i + 1]):
+                image += data[entry] * X[indices[entry]]
+            B[i] -= weight * image
+            total[i] += weight * X[i]
+
+    @ti.kernel
+    def together(X: vectors, total: vectors, count: ti.i32, weight: ti.f32, factor: ti.f32):
+        """Set X to the sum of all corrections, and the sum to zero."""
+        for i in range(count):
+            X[i] = factor * (total[i] + weight * X[i])
+            total[i] = vec(0.0)
+
+    return SimpleNamespace(add=add, together=together)

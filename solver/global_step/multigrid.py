@@ -7,7 +7,8 @@ aggregation (Vanek, Mandel and Brezina, 1996) is near enough to the inverse that
 about a third more steps, and its set-up takes time and memory in proportion to the mesh, which is
 less than the Cholesky factorization takes of large ones (figures: `docs/benchmarks_explained.md`).
 
-With Taichi the cycle runs in its kernels on all cores.
+With Taichi the cycle runs in its kernels on all cores; on a GPU two in a row, see
+`backends/taichi_cycle.py`.
 """
 
 from functools import cached_property

@@ -5,9 +5,13 @@ import numpy as np
 import pytest
 import shapes
 from devices import by_device
+from engine_marks import needs_engine
 from optional_marks import needs
 
 from solver import Setup, rest_mesh, stylize
+from solver.backends.arrays import HostArrays
+from solver.backends.taichi_cycle import TaichiCycle
+from solver.backends.taichi_runtime import start
 from solver.global_step import step as module
 from solver.global_step.multigrid import Multigrid
 
@@ -49,6 +53,29 @@ def test_cycles_converge_to_the_solution(name, coarsest, monkeypatch):
     assert (np.diff(errors)[falling[1:]] < 0.0).all()  # as descent needs it
     # Triangles without area leave two vertices all but rigidly tied, which smoothing does not see.
     assert errors[-1] < (0.5 if name == "broken" else 1e-3) * errors[0]
+
+
+@needs_engine
+def test_two_cycles_leave_less_and_never_go_too_far(monkeypatch):
+    # Descent needs a matrix above the Laplacian: X B, the square of X by that matrix, is no less
+    # than its square by the Laplacian.
+    monkeypatch.setattr("solver.global_step.multigrid._COARSEST", 20)
+    L, is_held = laplacian(*shapes.blob(4))
+    start("cpu")
+    multigrid = Multigrid(L, module.decoupled(L, is_held), np.flatnonzero(is_held))
+    A = multigrid.levels[0].A.astype(float)
+    left = []
+    for cycles in (1, 2):
+        cycle = TaichiCycle(multigrid, HostArrays(), cycles)
+        error = np.random.default_rng(2).normal(size=(len(is_held), 3))
+        for _ in range(30):
+            cycle.B[: len(error), :3] = B = A @ (error / np.linalg.norm(error))
+            cycle.run()
+            X = cycle.X[: len(B), :3].astype(float)
+            assert (X * B).sum() >= (X * (A @ X)).sum() * (1 - 1e-5)
+            error = error / np.linalg.norm(error) - X
+        left.append(np.linalg.norm(error))  # of what is left longest
+    assert left[1] < left[0] ** 2
 
 
 @pytest.mark.thorough(2)
