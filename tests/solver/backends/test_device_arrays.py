@@ -126,7 +126,7 @@ def _kernel_class():
     return import_module(name).Kernel
 
 
-def test_an_iteration_runs_nine_kernels_and_exchanges_less_than_a_kilobyte(monkeypatch, on_a_device):
+def test_an_iteration_runs_nine_kernels_and_exchanges_few_bytes(monkeypatch, on_a_device):
     on_a_device()
     V, F = shapes.sphere(5)
     state = Stylization(Setup(rest_mesh(V, F)), 0.5, options=SolverOptions(device=here.device))
