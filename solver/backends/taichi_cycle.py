@@ -12,7 +12,7 @@ ON_PROCESSOR, ON_DEVICE = 1, 2
 factorization. Two cost a GPU little, which waits for launches rather than for arithmetic; the
 processor is as soon at the end with either."""
 _LEAST = 0.3
-"""of the spectrum of V-cycle times matrix, whose greatest is 1, the part that several treat alike"""
+"""Several treat alike what V-cycle times matrix takes to between this and 1, its greatest."""
 
 
 def chebyshev_weights(cycles):
