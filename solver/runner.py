@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from numpy.typing import ArrayLike
 
-from .aliases import FloatArray, IntArray
+from .aliases import FloatArray
 from .coarse_to_fine.start import (
     MAX_ITERATIONS,
     TOLERANCE,
@@ -320,7 +320,7 @@ class Run:
         else:
             self.reason = self._end
 
-    def harden(self, before: IntArray | None = None) -> None:
+    def harden(self, before: FloatArray | None = None) -> None:
         """Make the sides of the soft shape flat; `before` as of `Stylization.hardened`.
 
         A Run does so itself, but for one of a `FrameSequence`, which goes on when it is told to.

@@ -193,7 +193,7 @@ class Stylization(Stored):
             other._motion.step(still, still, other.options.keep_rotation)
         return other
 
-    def hardened(self, before: IntArray | None = None) -> "Stylization":
+    def hardened(self, before: FloatArray | None = None) -> "Stylization":
         """Return a Stylization that goes on from the present, soft shape with flat sides.
 
         Its positions are between that shape and the hard one, as far as the crispness says; its
@@ -201,8 +201,8 @@ class Stylization(Stored):
 
         Parameters
         ----------
-        before : (m,) int array, optional
-            The sides of the triangles in the frame of an animation before, `hardening.side`.
+        before : (m,3) array, optional
+            What triangles faced in the frame of an animation before, `hardening.facing`.
         """
         other = copy(self)
         other.hardening = hardening_of(self, before)

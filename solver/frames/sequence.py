@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..aliases import FloatArray, IntArray
+from ..aliases import FloatArray
 from ..rest import RestMesh
 from ..result import Result
 from ..rotation_fit import fit_rotations, orthonormalize
@@ -76,8 +76,8 @@ class SequenceState(NamedTuple):
     """(n,3) the result in the unit box"""
     rotations: FloatArray
     """(n,3,3)"""
-    sides: IntArray = np.empty(0, np.int32)
-    """(m,) int, the sides that triangles had, see `hardening`; empty if none were made flat"""
+    facing: FloatArray = np.empty((0, 3))
+    """(m,3) what triangles faced, see `hardening`; empty if none were made flat"""
 
     def __eq__(self, other: object) -> bool:
         return type(other) is SequenceState and all(map(is_same, self, other))
@@ -205,7 +205,7 @@ class FrameSequence:
                     yield
         if stylization.style.is_hardened:
             # a mesh that does not move ends as it does alone
-            before = self.state.sides if self.state is not None and self._forgotten else None
+            before = self.state.facing if self.state is not None and self._forgotten else None
             run.harden(before if before is not None and len(before) else None)
             while run.reason is None:
                 yield
@@ -219,8 +219,8 @@ class FrameSequence:
 
     def _state_of(self, run):
         soft, hardening = run.soft, run.stylization.hardening
-        sides = np.empty(0, np.int32) if hardening is None else hardening.side.astype(np.int32)
-        state = soft.positions.copy(), soft.rotations.copy(), sides
+        facing = np.empty((0, 3)) if hardening is None else hardening.facing
+        state = soft.positions.copy(), soft.rotations.copy(), facing
         return SequenceState(soft.rest.V, self._turns, *state)
 
     def _start(self, stylization):

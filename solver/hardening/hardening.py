@@ -42,6 +42,7 @@ class Hardening:
         How far the vertices go from there to the hard shape, from 0 to 1.
     target : Target
     side : (m,) int array
+    facing : (m,3) array
         As `sides_of` returns them.
     """
 
@@ -51,6 +52,7 @@ class Hardening:
     crispness: FloatArray
     target: Target
     side: IntArray
+    facing: FloatArray
 
     def with_crispness(self, style, rest):
         """Return the same with the crispness of another SolvedStyle."""
@@ -97,8 +99,8 @@ def hardening_of(stylization, before=None):
     Parameters
     ----------
     stylization : Stylization
-    before : (m,) int array, optional
-        The sides of triangles in the frame of an animation before.
+    before : (m,3) array, optional
+        What triangles faced in the frame of an animation before, see `sides_of`.
     """
     style, rest = stylization.style, stylization.rest
     F, base = rest.F, base_of(stylization.setup)
@@ -108,7 +110,7 @@ def hardening_of(stylization, before=None):
     is_free |= rest.is_sheet[F[:, 0]]
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
-    side, directions = sides_of(
+    side, facing, directions = sides_of(
         base.graph,
         np.einsum("mij,mj->mi", _at_faces(R, F), normals),
         _at_faces(frames, F),
@@ -129,7 +131,7 @@ def hardening_of(stylization, before=None):
         stylization.impose(soft)
     heights = strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
-    return Hardening(solved, soft, R, crispness, target, side)
+    return Hardening(solved, soft, R, crispness, target, side, facing)
 
 
 def _crispness_of(style, rest):

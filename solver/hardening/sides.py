@@ -36,6 +36,8 @@ LEANING = np.cos(np.radians(20.0)), np.cos(np.radians(10.0))
 """of the angles from which on a side keeps its direction, and up to which it is put straight"""
 STEADY = 0.3
 """by how much the side that a triangle had in the frame before costs less"""
+SAME = np.cos(np.radians(25.0))
+"""of the greatest angle between a side and that which it follows, of another form"""
 
 TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
 """by axis: of sides that cost the same, mirror images take mirror images, whatever the rounding"""
@@ -67,13 +69,16 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
     whole : (m,) int array, optional
         The triangle of the artist's mesh, or the face of a cage, that each one is a piece of.
         Pieces have one side, so that no edge of the mesh cuts across the border of two.
-    before : (m,) int array, optional
-        The sides in the frame of an animation before.
+    before : (m,3) array, optional
+        What the triangles faced in the frame of an animation before, as `facing`: another form has
+        other sides, of which the nearest follows.
 
     Returns
     -------
     side : (m,) int array
         Number of a direction of the form, or `NO_SIDE`.
+    facing : (m,3) array
+        The direction of that side in the frame of the form; 0 for `NO_SIDE`.
     directions : (m,3) array
         Unit normals that the triangles of a side face.
     """
@@ -81,19 +86,30 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
     local = np.einsum("mij,mj->mi", frames, normals)
     costs = _costs(local, parted, form_of)
     if before is not None:
-        had = np.flatnonzero((before >= 0) & (before < costs.shape[1] - 1))
-        costs[had, before[had]] -= STEADY
+        _keep_near(costs, before, parted, form_of)
     is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
     is_followed &= ~is_free[graph.other]
     group = _groups(graph, whole, form_of)
     side = _of_groups(graph, costs, is_followed, group)
     side[is_free | (side == costs.shape[1] - 1)] = NO_SIDE
-    faced = np.zeros_like(local)
+    facing = np.zeros_like(local)
     for number, (flat, _) in enumerate(parted):
         rows = (form_of == number) & (side >= 0)
-        faced[rows] = flat[side[rows]]
-    faced = _leaning(graph, local, side, faced, form_of)
-    return side, np.einsum("mji,mj->mi", frames, faced)
+        facing[rows] = flat[side[rows]]
+    leaning = _leaning(graph, local, side, facing, form_of)
+    return side, facing, np.einsum("mji,mj->mi", frames, leaning)
+
+
+def _keep_near(costs, before, forms, form_of):
+    """Let the side cost less that is next to what a triangle faced before (m,3)."""
+    for number, (flat, _) in enumerate(forms):
+        if not len(flat):
+            continue
+        rows = np.flatnonzero((form_of == number) & before.any(axis=1))
+        cosines = before[rows] @ flat.T
+        nearest = cosines.argmax(axis=1)
+        is_near = cosines.max(axis=1) > SAME
+        costs[rows[is_near], nearest[is_near]] -= STEADY
 
 
 def _groups(graph, whole, form_of):
