@@ -120,7 +120,7 @@ def test_the_round_part_of_a_form_stays_round(name):
 
 @pytest.mark.parametrize("sides", [(3, 6), (6, 4)])
 def test_sides_of_another_form_follow_the_nearest_only(sides):
-    """As in an animation whose form is keyed: the number of a side says nothing of the next form."""
+    """As where a form is keyed: the number of a side says nothing of the next form."""
     V, F = shapes.sphere(4)
     before, soft = (soft_of(state(prism(count), 1.0, V, F)) for count in sides)
     alone = soft.hardened().hardening
