@@ -3,8 +3,6 @@
 """A Cubify that takes long: watched, cancelled in every way, and brought to its end."""
 
 import importlib
-import tempfile
-from pathlib import Path
 
 import bpy
 import guidrive as gui
@@ -101,14 +99,8 @@ def by_closed_window(original):
 
 
 def brought_to_its_end(original):
-    """Save while it runs; then the redo panel, and one step to undo."""
+    """Then the redo panel, and one step to undo."""
     yield from start(is_slow=False)
-    with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "saved.blend")
-        with gui.in_region():
-            bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
-        with bpy.data.libraries.load(path) as (there, _):
-            assert scene.NAME in there.objects
     yield from gui.wait_until(is_over, what="the end")
     first = scene.positions()
     assert first != original and "numpy" in scene.settings().status

@@ -82,13 +82,6 @@ def test():
     goes_on()
     yield from scene.wait_idle_with(lambda: scene.positions() == shape, "the first shape")
 
-    # A stroke while it still computes.
-    slider = yield from scene.cubeness_slider()
-    yield from gui.drag_slider(slider, 0.8, 0.6)
-    yield from stroke((-0.7, -1, 0.7), (-0.7, -1, 0.0))
-    set_brush(0.0)
-    yield from stroke((0, -1, 0.9), (0, -1, -0.8))
-    goes_on()
     painted = weights()
     yield from scene.end_by("RET")
     assert weights() == painted and bpy.context.mode == "PAINT_WEIGHT"
