@@ -25,32 +25,23 @@ FOLDER = pathlib.Path(os.environ.get("BENCH_FOLDER", "/share"))
 
 
 class Stopwatch:
-    """Times every tick of a session, and the ticks from a change until it is seen."""
+    """Times every tick of a session, and the ticks from a change until an object shows it."""
 
-    def __init__(self, session):
+    def __init__(self, session, name):
         self.ticks, self.delays = [], []
-        self._since = None
+        self._name, self._since = name, None
         self._tick, session.tick = session.tick, self.tick
-        self._show, session._show = session._show, self.show
-        self._is_seen = False
 
     def changed(self):
         self._since = self._since or 0.0
 
-    def show(self, objects):
-        name = next(iter(objects.values())).name
-        before = scene.positions(name)
-        self._show(objects)
-        self._is_seen = scene.positions(name) != before
-
     def tick(self, context):
-        begin = time.perf_counter()
-        self._is_seen = False
+        before, begin = scene.positions(self._name), time.perf_counter()
         self._tick(context)
         self.ticks.append(time.perf_counter() - begin)
         if self._since is not None:
             self._since += self.ticks[-1]
-            if self._is_seen:
+            if scene.positions(self._name) != before:
                 self.delays.append(self._since)
                 self._since = None
 
@@ -88,7 +79,7 @@ def measure(path, cuts=0):
     yield from scene.start_live()
     yield from scene.wait_idle()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
-    watch = Stopwatch(scene.live().current())
+    watch = Stopwatch(scene.live().current(), name)
     properties = bpy.context.window_manager.cubic_craft_live
     last, begin = properties.cubeness, time.monotonic()
     ends = 0.2, 0.8
