@@ -23,8 +23,8 @@ SOURCES := __init__.py blender_manifest.toml \
 
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
-	test-hostile test-reliability test-gpu test-gui test-walk test-package test-package-gui lint typecheck \
-	build package upload repository release lock wheel test-wheel test-site bench bench-quick bench-live example-pictures films docs-images clean has-py313
+	test-hostile test-reliability test-gpu test-gui test-walk test-package lint typecheck \
+	build package upload repository release lock wheel test-wheel bench bench-quick bench-live example-pictures films docs-images clean has-py313
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -130,15 +130,13 @@ test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path fo
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
 
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
-	SEEDS="$(SEEDS)" ACTIONS="$(ACTIONS)" tests/gui/walks.sh $(ZIP)
+	for seed in $(or $(SEEDS),1 2 3 4 5); do TESTS=test_random_walk WALK_SEED=$$seed \
+		WALK_ACTIONS=$(or $(ACTIONS),500) tests/gui/run.sh $(ZIP) build/walks/$$seed || exit 1; done
 
 test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64
 	CUBIC_CRAFT_BARE_PYTHONS="$(BARE:=/bin/python)" \
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages/test_installed.py
-
-test-package-gui: package ## Packages and repository in real Blender windows
-	tests/gui/packages.sh $(GUI_OPTIONS) dist/packages
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(PYTHON) -m venv $(VENV)-bare-$*
@@ -159,6 +157,7 @@ $(ZIP): $(VENV)/.done $(SOURCES)
 
 package: setup $(ZIP) ## One zip for each platform and Python that brings its wheels, in dist/packages
 	$(PY) scripts/package build $(ZIP) $(ARGS)
+	cd dist/packages && sha256sum cubic_craft-* >SHA256SUMS
 
 upload: setup $(ZIP) ## Those for the extensions platform, in dist/upload
 	$(PY) scripts/package upload $(ZIP)
@@ -170,7 +169,7 @@ release: package wheel ## All that is published of a version, with checksums, in
 	rm -rf dist/release
 	mkdir dist/release
 	cp dist/packages/cubic_craft-* dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz dist/release
-	$(PY) scripts/package checksums dist/release
+	cd dist/release && sha256sum cubic_craft-* >SHA256SUMS
 
 wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in dist
 	rm -f dist/cubic_craft-*.whl dist/cubic_craft-*.tar.gz
@@ -195,8 +194,19 @@ test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, i
 	$(call test_library,oldest,$(PYTHON),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
 
+# Of each lock: a platform, a Python, and the oldest NumPy of a Blender that has it. The solver needs the
+# same on all platforms but Arm, so one lock is for Python 3.11 and 3.13 everywhere.
+define write_lock
+echo numpy==$(4) | $(PY) -m uv pip compile --quiet --upgrade --no-header --no-annotate --generate-hashes \
+	--only-binary :all: --no-emit-package numpy --python-platform $(2)-manylinux_2_28 --python-version $(3) \
+	--constraints - requirements/solver.txt --output-file requirements/$(1).lock
+endef
+
 lock: setup ## Choose the wheels of the packages anew: requirements/wheels*.lock
-	$(PY) scripts/package lock
+	$(PY) $(PIP) uv==0.13.9
+	$(call write_lock,wheels,x86_64,3.11,1.24.3)
+	$(call write_lock,wheels_linux-x64_python3.14,x86_64,3.14,2.3.4)
+	$(call write_lock,wheels_linux-arm64_python3.14,aarch64,3.14,2.3.4)
 
 bench: setup ## Side by side with other programs; writes docs/benchmarks.md
 	$(PY) $(PIP) -r requirements/bench.txt
@@ -211,9 +221,6 @@ bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_liv
 
 docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; SITE_URL=where it will lie
 	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
-
-test-site: setup docs ## The site in Chromium, if there is one; pictures in build/site_pictures
-	$(PY) $(PYTEST) tests/site
 
 $(VENV)-docs/.done: requirements/docs.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }

@@ -16,7 +16,7 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 
 from benchmark import page, plots  # noqa: E402
 from benchmark.best_energies import BestEnergies, keep_lower_energies  # noqa: E402
-from benchmark.suite import FULL, PARTS, QUICK, measure, renew_best_energies  # noqa: E402
+from benchmark.suite import FULL, PARTS, QUICK, measure  # noqa: E402
 from benchmark.targets import targets  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
@@ -40,19 +40,6 @@ def arguments():
         type=Path,
         help="folder of the page and its images; default docs if all is measured, else build/bench",
     )
-    parser.add_argument(
-        "--find-best",
-        type=float,
-        metavar="SECONDS",
-        help="measure nothing, but look for lower energies, so long in each of two descents",
-    )
-    parser.add_argument(
-        "--only",
-        nargs="+",
-        default=[],
-        metavar="CASE",
-        help="with --find-best: cases that begin so, such as bunny or 'bunny 6172 0.4'",
-    )
     return parser.parse_args()
 
 
@@ -62,12 +49,8 @@ def main():
     plan = QUICK if options.quick else FULL
     given = {"runs": options.runs, "max_vertices": options.max_vertices}
     plan = plan._replace(**{name: value for name, value in given.items() if value})
-    say = partial(print, flush=True)
-    if options.find_best:
-        renew_best_energies(plan, options.meshes, options.find_best, options.only, say)
-        return
     is_all = plan == FULL and set(options.parts) == set(PARTS)
-    results = measure(plan, options.meshes, options.parts, say)
+    results = measure(plan, options.meshes, options.parts, partial(print, flush=True))
     file = BUILD / ("results.json" if is_all else "results-part.json")
     file.write_text(json.dumps(results), encoding="utf-8")
     if is_all:

@@ -1,26 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What artists get by default beside the paper's energy; `earlier.py` has that of the prototype."""
+"""What artists get by default beside the paper's energy."""
 
 import time
 
-from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, preparation, rest_mesh
+from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh
 from solver import Run as SlicedRun
 
-from .machine import peak_memory
 from .meshes import read
-from .our_solver import load_kernels, over, solve
-from .phases import WhileAnyRuns
-from .race import LONG_ITERATIONS, LONG_SECONDS, LONG_TOLERANCE
+from .our_solver import load_kernels, solve
 
 SETTINGS = {
     "paper": {"proxy": PAPER, "keep_rotation": False},
     "defaults": {"proxy": ProxyOptions(), "keep_rotation": True},
 }
-LINKS = {
-    "neighbours": (preparation, "neighbour_links"),
-    "other side": (preparation, "links_within"),
-}
-"""what looks for links, side by side"""
 SLICE = 0.02
 """seconds that Live computes in a tick, the last phase of the solver on top"""
 DRAGGED = 0.3
@@ -35,30 +27,20 @@ def side_by_side(path, cubeness, runs):
     Returns
     -------
     dict
-        The runs of each, by name, and ``bounds``: by name, the energy at rest and the lowest, also
-        of a run that goes on beyond the stop. Each of the settings has an energy of its own.
+        The runs of each, by name, with the number of vertices that are ``solved``, which is not
+        that of the mesh where it is refined or welded; and ``bounds``: by name, the energy at rest
+        and the lowest. Each of the settings has an energy of its own.
     """
     V, F = read(path)
     load_kernels()
     for settings in SETTINGS.values():  # imports, and cold caches
         solve(V, F, cubeness, max_iterations=3, **settings)
-    finding_links = WhileAnyRuns(LINKS)
     results = {name: [] for name in SETTINGS}
     for _ in range(runs):
         for name in SETTINGS:
-            results[name].append(_figures(V, F, cubeness, name, finding_links))
-    bounds = {name: _bounds(V, F, cubeness, name, runs) for name, runs in results.items()}
-    return results | {"bounds": bounds}
-
-
-def alone(path, cubeness, name):
-    """Run one of `SETTINGS`, as the first of its process; return its memory too."""
-    load_kernels()
-    finding_links = WhileAnyRuns(LINKS)
-    with peak_memory() as memory:
-        figures = _figures(*read(path), cubeness, name, finding_links)
-    del figures["curve"]
-    return figures | memory
+            run = solve(V, F, cubeness, **SETTINGS[name])
+            results[name].append(run.figures | {"solved": len(run.setup.rest.V)})
+    return results | {"bounds": {name: _bounds(runs) for name, runs in results.items()}}
 
 
 def ticks(path, cubeness):
@@ -86,23 +68,6 @@ def ticks(path, cubeness):
     return seconds
 
 
-def _figures(V, F, cubeness, name, finding_links):
-    """Return the figures of a run, seconds of finding ``links``, and ``solved``.
-
-    ``solved`` is the number of vertices that are solved: more than are given where a mesh is
-    refined, fewer where it is welded.
-    """
-    finding_links.seconds = 0.0
-    run = solve(V, F, cubeness, **SETTINGS[name])
-    return run.figures | {
-        "links": finding_links.seconds,
-        "solved": len(run.setup.rest.V),
-    }
-
-
-def _bounds(V, F, cubeness, name, runs):
-    """Return the energy at rest and the lowest one that these runs or a long one have seen."""
-    stop = {"max_iterations": LONG_ITERATIONS, "tolerance": LONG_TOLERANCE}
-    long = solve(V, F, cubeness, over(LONG_SECONDS), **SETTINGS[name], **stop).figures
-    seen = [energy for run in (*runs, long) for _, energy in run["curve"]]
+def _bounds(runs):
+    seen = [energy for run in runs for _, energy in run["curve"]]
     return max(seen), min(seen)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the solver under a clock, and judge shapes, whoever made them."""
 
-import math
 import time
 from dataclasses import dataclass
 
@@ -28,35 +27,24 @@ class TimedRun:
     """seconds until the first iteration begins (``setup``) and in all, ``iterations``, ``reason``,
     and the ``curve``: [seconds since the beginning, energy] after each iteration"""
 
-    def figures_without_curve(self):
-        """Return all figures but the ``curve``."""
-        return {name: value for name, value in self.figures.items() if name != "curve"}
-
 
 def solve(
     V,
     F,
     cubeness,
-    is_over=None,
-    is_accelerated=True,
     proxy=PAPER,
     keep_rotation=False,
-    device="auto",
     **stop,
 ):
     """Stylize a mesh and return the TimedRun; unless settings are given, as in the paper.
 
     The energy noted after an iteration is that of the shape that its local step looked at, so it
-    lags behind by one iteration. `is_over` may end the run early: it is given seconds and
-    energy. What is in `stop` goes to `solver.run`.
+    lags behind by one iteration. What is in `stop` goes to `solver.run`.
     """
     curve = []
-    is_over = is_over or over(LIMIT_SECONDS)
     begin = time.perf_counter()
     setup = Setup(rest_mesh(V, F, proxy))
-    options = SolverOptions(
-        device=device, is_accelerated=is_accelerated, keep_rotation=keep_rotation
-    )
+    options = SolverOptions(keep_rotation=keep_rotation)
     stylization = Stylization(setup, cubeness, options=options)
     begin += stylization.compile_seconds
     setup_seconds = time.perf_counter() - begin
@@ -64,17 +52,12 @@ def solve(
     def note(state):
         seconds = time.perf_counter() - begin
         curve.append([seconds, state.energy.total])
-        return is_over(seconds, state.energy.total)
+        return seconds > LIMIT_SECONDS
 
     result = run(stylization, on_iteration=note, **stop)
     figures = {"setup": setup_seconds, "seconds": time.perf_counter() - begin, "curve": curve}
     figures |= {"iterations": result.iterations, "reason": result.reason}
     return TimedRun(setup, result.positions, figures)
-
-
-def over(seconds, energy=-math.inf):
-    """Return an `is_over` for `solve`: after these seconds, or once down at this energy."""
-    return lambda elapsed, reached: elapsed > seconds or reached <= energy
 
 
 def energy_of(setup, cubeness, positions):

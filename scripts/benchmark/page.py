@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of results: tables and what their columns are. What they mean is told in `EXPLAINED`."""
 
-from . import race, suite, tables
+from . import suite, tables
 from .solver_alone import CUBENESS, ITERATIONS
 from .summary import FIT_FROM, fit, median_of, milliseconds_per_iteration
 from .targets import targets
@@ -17,7 +17,7 @@ def page(results):
 
 Written by `make bench`, side by side on one machine. [What the tables mean, and what bounds the
 times]({EXPLAINED}) has a page of its own. Rows are *as in the paper* unless they name the
-defaults. Runs of each program: {results["runs"]}, of which the median counts; one of the peers
+defaults. Runs of each program: {results["runs"]}, of which the median counts; one of PyMeshLab
 from {suite.LARGE:,} vertices on, and in the scaling run from {suite.LARGE_SCALING:,} on.
 
 {results["machine"]}
@@ -31,22 +31,14 @@ from {suite.LARGE:,} vertices on, and in the scaling run from {suite.LARGE_SCALI
 def _sections(results):
     """Give heading, caption and rows of each."""
     race_results = results["race"]
-    by_plain = [case for case in race_results if case["plain"]]
     by_pymeshlab = [case for case in race_results if case["pymeshlab"]]
     made = [
         ("## Ten iterations", _TEN, map(tables.ten_iterations, results["ten"])),
         ("## To the best shape", _GAPS, map(tables.gaps, race_results)),
-        ("### Beside the plain iteration", _PLAIN, map(tables.plain, by_plain)),
         ("### Beside PyMeshLab", _PYMESHLAB, map(tables.pymeshlab, by_pymeshlab)),
-        ("## Where the time goes, and memory", _PHASES, map(tables.phases, results["phases"])),
         ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
         ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
-        ("### To the shape of the defaults", _LINKED, tables.gaps_of_defaults(results["defaults"])),
-        ("### Memory of the largest", _MEMORY, tables.memory_of_defaults(results["defaults"])),
-        ("## Without Taichi", _NUMPY, map(tables.without_taichi, results["numpy"])),
-        ("## More cores", _CORES, map(tables.cores, results["cores"])),
-        ("## From start to first result", _STARTUP, tables.startup(results["startup"])),
-        ("### The first click", _CLICK, tables.first_clicks(results["startup"])),
+        ("### To the shape of the defaults", _LINKED, map(tables.linked, results["defaults"])),
         ("## Targets", _TARGETS, targets(results)),
     ]
     return [(heading, caption, list(rows)) for heading, caption, rows in made]
@@ -57,43 +49,21 @@ _TEN = f"""\
 of the paper are its Table 1, from other hardware: an NVIDIA RTX 3050 Ti, and for the CPU the
 program of Liu and Jacobson on an AMD R9 5900HS."""
 _GAPS = f"""\
-As in the paper. A time in brackets is of a run that goes on beyond our own stop; a dash: not
-reached.
+As in the paper. A dash: not reached before our own stop.
 
 ![Gap over time]({GAPS_IMAGE})"""
-_PLAIN = f"""\
-As in the paper, too, without acceleration (`is_accelerated=False`), left at a gap
-of {100 * race.PLAIN_GAP:g} %, after {race.PLAIN_ITERATIONS} iterations or
-{race.PLAIN_SECONDS:g} seconds. "Times sooner there": how many times sooner ours is as low as the
-plain one where it is left."""
 _PYMESHLAB = """\
 PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop; ours as in the paper.
 "Ours as low" is when ours reaches the energy at which PyMeshLab ends; "times faster" compares both
 at their own stop. Cases that are not listed would take it minutes."""
-_PHASES = """\
-One run to our own stop, as in the paper: phases of set-up, then those of an iteration, the mean of
-all but the first. Peak memory is that of the whole process; "for the run" is what it takes above
-Python, the libraries and the kernels."""
 _DEFAULTS = """\
-The artist's defaults beside the paper's settings and beside the prototype (commit 9c85a9d),
-which had no others; each to its own stop. They are judged by the geometric mean over all meshes
-of more than 2,000 vertices, the large ones at three values of cubeness: how many iterations a
-single case takes is to a good part luck. "Ticks per second" is how often Live
-could show a coarse mesh anew, without what Blender takes to draw."""
+The artist's defaults beside the paper's settings, each to its own stop. They are judged by the
+geometric mean over all meshes of more than 2,000 vertices, the large ones at three values of
+cubeness: how many iterations a single case takes is to a good part luck. "Ticks per second" is how
+often Live could show a coarse mesh anew, without what Blender takes to draw."""
 _LINKED = """\
 The defaults have an energy of their own, with links. Gaps of either energy, between rest and the
-lowest that any of the runs or a long one has seen, as in the paper and with the defaults."""
-_MEMORY = "With the settings of the paper and with the defaults, each run in a process of its own."
-_NUMPY = """\
-The artist's defaults beside those without Taichi, as in a Blender that has none and no Quadrants;
-not as in the paper. Each to its own stop."""
-_CORES = """\
-An iteration as in the paper, in processes that may use one core and all of them. "Not parallel" is
-Amdahl's share s, by which the time on n cores is s + (1 - s) / n of that on one."""
-_STARTUP = "Fresh processes, with the files in the system's cache and the compiled kernels on disk."
-_CLICK = """\
-In the window, what the first run needs is loaded piece by piece while the panel is seen for the
-first time. "Never before": no kernel has been compiled on this machine."""
+lowest that any of the runs has seen, as in the paper and with the defaults."""
 _TARGETS = "What was to be reached, and whether this run has."
 
 

@@ -9,11 +9,11 @@ from .summary import FIT_FROM, fit, gap_of, median_of, seconds_to_fitted_gap
 PANELS = (("bunny", 0.2), ("horse", 0.4), ("armadillo", 0.2))
 """cases with a panel; where none of them has been measured, the first three are shown"""
 LOWEST_GAP = 3e-4
-OURS, PLAIN, PEER, LINE = "tab:blue", "tab:orange", "tab:red", "tab:gray"
+OURS, STOP, PEER, LINE = "tab:blue", "tab:orange", "tab:red", "tab:gray"
 
 
 def plot_gaps(cases, path):
-    """Draw the gap over time of ours and the plain iteration, and where PyMeshLab ends."""
+    """Draw the gap over time of ours, and where PyMeshLab ends."""
     chosen = [case for case in cases if (case["mesh"], case["cubeness"]) in PANELS] or cases[:3]
     figure = Figure(figsize=(3.2 * len(chosen) + 0.6, 3.8), layout="constrained")
     panels = figure.subplots(1, len(chosen), sharey=True, squeeze=False)[0]
@@ -34,10 +34,8 @@ def _plot_case(axes, case):
     def percent(energy):
         return 100 * max(gap_of(case, energy), LOWEST_GAP / 10)
 
-    for program, label, colour in (("ours", "CubicCraft", OURS), ("plain", "plain", PLAIN)):
-        if case[program]:
-            curve = [(s, percent(energy)) for s, energy in case[program][0]["curve"]]
-            axes.loglog(*zip(*curve, strict=True), color=colour, label=label)
+    curve = [(s, percent(energy)) for s, energy in case["ours"][0]["curve"]]
+    axes.loglog(*zip(*curve, strict=True), color=OURS, label="CubicCraft")
     if case["pymeshlab"]:
         seconds, energy = (median_of(case, "pymeshlab", name) for name in ("seconds", "energy"))
         axes.loglog([seconds], [percent(energy)], "o", color=PEER, label="PyMeshLab ends")
@@ -69,7 +67,7 @@ def plot_scaling(cases, path):
     if times:
         axes.loglog(*zip(*times, strict=True), "o", color=OURS, label="to gap 1 %")
     stops = [(case["vertices"], median_of(case, "ours", "seconds")) for case in cases]
-    axes.loglog(*zip(*stops, strict=True), "^", color=PLAIN, label="to our stop", markersize=5)
+    axes.loglog(*zip(*stops, strict=True), "^", color=STOP, label="to our stop", markersize=5)
     power, factor = fit(cases)
     if power is not None:
         ends = [FIT_FROM, times[-1][0]]

@@ -59,9 +59,9 @@ def median_of(case, program, figure):
     return median(run[figure] for run in case[program])
 
 
-def times_as_long(case, program="defaults", beside="paper"):
-    """Return how many times as long the runs of a program take as those of another."""
-    return median_of(case, program, "seconds") / median_of(case, beside, "seconds")
+def times_as_long(case):
+    """Return how many times as long runs with the defaults take as those of the paper."""
+    return median_of(case, "defaults", "seconds") / median_of(case, "paper", "seconds")
 
 
 def times_as_long_to(case, gap):

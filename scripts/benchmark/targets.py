@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmark is to show, and whether it does, in rows as in `tables`."""
 
-from collections import defaultdict
 from statistics import geometric_mean, median
 
 from .solver_alone import PAPER_SECONDS
@@ -36,8 +35,6 @@ def targets(results):
         *_beside_the_paper(results["ten"]),
         *_scaling(results["scaling"]),
         *_defaults(results["defaults"]),
-        *_without_taichi(results["numpy"]),
-        *_startup(results["startup"]),
     ]
 
 
@@ -53,7 +50,7 @@ def _to_gaps(cases):
     for case in cases:
         name = case["mesh"], case["cubeness"]
         for gap, bound in GAP_BOUNDS.get(name, {}).items():
-            seconds = seconds_to_gap(case, "ours", gap) or seconds_to_gap(case, "long", gap)
+            seconds = seconds_to_gap(case, "ours", gap)
             yield target(f"{name[0]} {name[1]}, seconds to gap {100 * gap:g} %", seconds, bound)
 
 
@@ -89,46 +86,15 @@ def _scaling(cases):
 
 
 def _defaults(cases):
-    judged = [case for case in cases if not case["ticks"] and case["vertices"] not in MILLION]
+    judged = [case for case in cases if not case["ticks"]]
     if judged:
         name = "with the defaults, times as long as in the paper, over all meshes"
         yield target(f"{name}, to our stop", geometric_mean(map(times_as_long, judged)), 1.5)
         to_gap = [ratio for case in judged if (ratio := times_as_long_to(case, 0.01))]
         yield target(f"{name}, to gap 1 %", geometric_mean(to_gap) if to_gap else None, 1.5)
-    by_mesh = defaultdict(list)
     for case in cases:
-        by_mesh[case["mesh"], case["vertices"]].append(case)
-    for of_mesh in by_mesh.values():
-        case = of_mesh[0]
-        name = f"{case['mesh']}, with the defaults"
-        if case["vertices"] in FIFTY_THOUSAND:
-            links = median(median_of(case, "defaults", "links") for case in of_mesh)
-            yield target(f"{name}, seconds of finding links", links, 0.3)
         if case["ticks"]:
-            yield target(
-                f"{name}, seconds to our stop", median_of(case, "defaults", "seconds"), 0.5
-            )
+            name = f"{case['mesh']}, with the defaults"
+            seconds = median_of(case, "defaults", "seconds")
+            yield target(f"{name}, seconds to our stop", seconds, 0.5)
             yield target(f"{name}, ticks of Live per second", ticks_per_second(case), least=10)
-        if case["vertices"] in MILLION:
-            peak = case["defaults"][0]["peak"]
-            yield target("1 M vertices, with the defaults, peak memory in GB", peak / 1e9, 4)
-
-
-def _without_taichi(cases):
-    for case in cases:
-        if case["vertices"] >= min(FIFTY_THOUSAND):
-            ratio = times_as_long(case, "numpy", "taichi")
-            name = f"{case['mesh']}, {case['vertices']:,} vertices"
-            yield target(f"{name}, times as long without Taichi", ratio, 4)
-
-
-def _startup(results):
-    for programs in results:
-        monkey, bpy = median(programs["monkey"]), median(programs["bpy"])
-        yield target("seconds to the first result on the monkey", monkey, 2.5)
-        yield target("of it ours", monkey - bpy, 1.5)
-        never, again = (
-            median(run["click"] for run in programs["clicks"][name]) for name in ("never", "again")
-        )
-        yield target("seconds of the first click ever, after loading ahead", never, 1.0)
-        yield target("seconds of the first click after a restart, after loading ahead", again, 0.6)

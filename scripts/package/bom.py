@@ -3,66 +3,48 @@
 # pyright: reportCallIssue=false
 # The decorators of the library hide the parameters of its classes.
 
-from cyclonedx.model import HashAlgorithm, HashType, Property
+import hashlib
+
+from cyclonedx.model import HashAlgorithm, HashType
 from cyclonedx.model.bom import Bom
 from cyclonedx.model.component import Component, ComponentType
-from cyclonedx.model.contact import OrganizationalEntity
 from cyclonedx.model.license import LicenseExpression
 from cyclonedx.output.json import JsonV1Dot6
 from packageurl import PackageURL
 
-from .wheel import requirement_name
 
-
-def bill_of_materials(package, manifest, wheels, credits):
-    """Return it as JSON text: the extension, each wheel with its hash, and what needs what.
+def bill_of_materials(manifest, wheels, credits):
+    """Return it as JSON text: the extension, and each wheel with its hash.
 
     Parameters
     ----------
-    package
-        The platform and the Python.
     manifest
         The manifest of the extension, a dictionary.
     wheels, credits
-        What is bundled, and the licence of each.
+        The paths of what is bundled, and the licence of each.
     """
-    licences = {entry.name: entry for entry in credits}
     root = Component(
         name=manifest["id"],
         version=manifest["version"],
         type=ComponentType.APPLICATION,
-        bom_ref=manifest["id"],
         licenses=[LicenseExpression(manifest["license"][0].removeprefix("SPDX:"))],
-        supplier=OrganizationalEntity(name=manifest["maintainer"]),
-        properties=[Property(name="blender:platform", value=package.platform.name)],
     )
-    bom = Bom()
+    parts = [_component(*each) for each in zip(wheels, credits, strict=True)]
+    bom = Bom(components=parts)
     bom.metadata.component = root
-    parts = {wheel: _component(wheel, licences[wheel.name]) for wheel in wheels}
-    for part in parts.values():
-        bom.components.add(part)
-    bom.register_dependency(root, parts.values())
-    for wheel, part in parts.items():
-        bom.register_dependency(part, _needed(package, wheel, parts))
+    bom.register_dependency(root, parts)
     return JsonV1Dot6(bom).output_as_string(indent=2)
 
 
-def _component(wheel, entry):
+def _component(path, entry):
+    content = hashlib.sha256(path.read_bytes()).hexdigest()
     return Component(
-        name=wheel.name,
-        version=wheel.version,
+        name=entry.name,
+        version=entry.version,
         type=ComponentType.LIBRARY,
-        bom_ref=wheel.file_name,
-        purl=PackageURL("pypi", None, wheel.name, wheel.version, {"file_name": wheel.file_name}),
-        hashes=[HashType(alg=HashAlgorithm.SHA_256, content=wheel.sha256)],
+        bom_ref=path.name,
+        purl=PackageURL("pypi", None, entry.name, entry.version, {"file_name": path.name}),
+        hashes=[HashType(alg=HashAlgorithm.SHA_256, content=content)],
         licenses=[LicenseExpression(entry.licence)],
         copyright="\n".join(entry.copyrights),
-        properties=[Property(name="cubic_craft:inside", value=line) for line in entry.inside],
     )
-
-
-def _needed(package, wheel, parts):
-    """Return the components that the wheel requires."""
-    required = wheel.requirements(package.platform, package.python)
-    names = {requirement_name(requirement) for requirement in required}
-    return [part for other, part in parts.items() if other.name in names]

@@ -3,7 +3,6 @@
 
 import shutil
 import tempfile
-import tomllib
 import zipfile
 from pathlib import Path
 
@@ -11,17 +10,15 @@ import tomlkit
 from build_extension import build
 
 from .bom import bill_of_materials
-from .check import BILL, check
 from .fetch import fetch
-from .inside import check_inside
-from .locked import REQUIREMENTS
+from .targets import SIZE_LIMIT_BYTES
 from .third_party import write_third_party
-from .wheel import Wheel
 
 MANIFEST = "blender_manifest.toml"
+BILL = "sbom.cdx.json"
 
 
-def build_package(package, plain, output, cache, version=None):
+def build_package(package, plain, output, is_upload=False):
     """Build a package, with its bill of materials beside it.
 
     Parameters
@@ -30,54 +27,45 @@ def build_package(package, plain, output, cache, version=None):
         What is wanted.
     plain : Path
         The zip of the extension without wheels.
-    output, cache : Path
-        Folders of the zips and of the wheels.
-    version : str, optional
-        Stands in the manifest in place of that of the extension.
+    output : Path
+        Folder of the zips.
+    is_upload : bool
+        Whether the version is that for the extensions platform.
 
     Returns
     -------
     Path
-        The zip, checked.
+        The zip.
 
     Raises
     ------
     SystemExit
-        The zip does not hold what it promises.
+        Blender's tool refuses it, or it is too large for the extensions platform.
     """
-    paths = fetch(package.platform, package.python, cache, REQUIREMENTS / package.lock)
     with tempfile.TemporaryDirectory(prefix="cubic_craft_package_") as folder:
         source = Path(folder)
         with zipfile.ZipFile(plain) as archive:
             archive.extractall(source)
-        manifest = _complete(source, package, paths, version)
+        wheels = fetch(package, source / "wheels")
+        manifest = _complete(source, package, wheels, is_upload)
         target = output / package.file_name(manifest["version"])
         build(target, source)
         shutil.copy(source / BILL, target.with_suffix(".cdx.json"))
-    problems = check(target, package)
-    if problems:
-        raise SystemExit("\n".join([f"{target.name} is not what it promises:", *problems]))
+    if target.stat().st_size >= SIZE_LIMIT_BYTES:
+        raise SystemExit(f"{target.name} has {SIZE_LIMIT_BYTES:,} bytes or more")
     return target
 
 
-def _complete(source, package, paths, version):
+def _complete(source, package, wheels, is_upload):
     """Add to the extension in a folder what the package has beside it; return its manifest."""
-    (source / "wheels").mkdir()
-    for path in paths:
-        shutil.copy(path, source / "wheels" / path.name)
-    wheels = [Wheel.of_path(path) for path in paths]
     credits = write_third_party(source, wheels)
-    for path in paths:
-        check_inside(path, credits)
-    document = tomlkit.parse((source / MANIFEST).read_text())
-    document["version"] = version or document["version"]
-    document["copyright"].extend(sorted({c for entry in credits for c in entry.copyrights}))
-    document["platforms"] = [package.platform.name]
-    document["wheels"] = [f"./wheels/{path.name}" for path in paths]
-    document.update(package.blender_versions())
-    text = tomlkit.dumps(document)
-    (source / MANIFEST).write_text(text)
-    manifest = tomllib.loads(text)
-    bill = bill_of_materials(package, manifest, wheels, credits)
-    (source / BILL).write_text(bill)
-    return manifest
+    manifest = tomlkit.parse((source / MANIFEST).read_text())
+    if is_upload:
+        manifest["version"] = package.uploaded_version(manifest["version"])
+    manifest["copyright"].extend(sorted({c for entry in credits for c in entry.copyrights}))
+    manifest["platforms"] = [package.platform.name]
+    manifest["wheels"] = [f"./wheels/{path.name}" for path in wheels]
+    manifest.update(package.blender_versions())
+    (source / MANIFEST).write_text(tomlkit.dumps(manifest))
+    (source / BILL).write_text(bill_of_materials(manifest.unwrap(), wheels, credits))
+    return manifest.unwrap()

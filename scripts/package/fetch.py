@@ -1,43 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Get the locked wheels: from the cache, or else by pip, which checks the hashes."""
+"""Get the locked wheels of another platform by pip, which checks their hashes and keeps them."""
 
-from . import pip
-from .locked import read_lock
-from .wheel import Wheel
+import subprocess
+import sys
 
 
-def fetch(platform, python, cache, lock):
-    """Return the path of each wheel of a lock (Path) for this platform and Python.
-
-    What is in the cache is used only with the locked hash, so a file cut short is fetched again.
+def fetch(package, folder):
+    """Download the wheels of a Package into a folder (Path); return their paths, by name.
 
     Raises
     ------
     SystemExit
-        Something could not be downloaded, or has another hash.
+        Something could not be downloaded, or has another hash. pip has said what.
     """
-    folder = cache / f"{platform.name}-python{python}"
-    locked = read_lock(lock)
-    found = _cached(folder, locked)
-    if len(found) < len(locked):
-        options = ["--no-deps", "--require-hashes", f"--dest={folder}", "-r", lock]
-        pip.run("download", platform, python, *options)
-        found = _cached(folder, locked)
-    missing = locked.keys() - found
-    if missing:
-        raise SystemExit(f"pip has not brought {', '.join(sorted(missing))} as locked")
-    return [found[name] for name in sorted(locked)]
-
-
-def _cached(folder, locked):
-    found = {}
-    for path in sorted(folder.glob("*.whl")):
-        try:
-            wheel = Wheel.of_path(path)
-        except Exception:  # cut short or damaged: whatever it is, pip gets it again
-            path.unlink()
-            continue
-        version, hashes = locked.get(wheel.name, (None, ()))
-        if wheel.sha256 in hashes and wheel.version == version:
-            found[wheel.name] = path
-    return found
+    command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check"]
+    command += ["--no-deps", "--require-hashes", "--only-binary=:all:", "--implementation=cp"]
+    command += [f"--python-version={package.python}", "-r", package.lock, f"--dest={folder}"]
+    command += [f"--platform={tag}" for tag in package.platform.wheel_tags]
+    if subprocess.run(list(map(str, command)), check=False).returncode:
+        raise SystemExit(f"no wheels for {package.platform.name}, Python {package.python}")
+    return sorted(folder.glob("*.whl"))

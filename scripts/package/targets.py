@@ -2,21 +2,14 @@
 """What the packages promise: on which platforms and for which Pythons they work."""
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from packaging import tags
 
+REQUIREMENTS = Path(__file__).resolve().parents[2] / "requirements"
 PYTHONS = ("3.11", "3.13")  # of Blender 4.2 to 5.0, and from 5.1 on
 NEWEST_PYTHON = "3.14"  # of distributions; with Quadrants, as Taichi has no wheels for it
 NEW_PYTHON_BLENDER = "5.1.0"  # the first with the second of them, where Blender brings Python
-
-# A wheel must work with each. Python 3.11: Blender 4.2, 4.4 to 5.0. Python 3.13: Debian 13, 5.1.
-# Python 3.14: the oldest that Quadrants takes, and Debian's.
-NUMPY_OF_BLENDER = {
-    "3.11": ("1.24.3", "1.26.4"),
-    "3.13": ("2.2.4", "2.3.4"),
-    "3.14": ("2.3.4", "2.4.6"),
-}
-
 SIZE_LIMIT_BYTES = 200_000_000  # what the extensions platform takes at most
 
 
@@ -31,69 +24,23 @@ class Platform:
 
     name: str
     wheel_tags: tuple[str, ...]
-    sys_platform: str
-    system: str
-    machine: str
     brings_python: bool = True
     pythons: tuple[str, ...] = PYTHONS
 
-    def markers(self, python):
-        """Return what the markers of dependencies are evaluated with."""
-        return {
-            "sys_platform": self.sys_platform,
-            "platform_system": self.system,
-            "platform_machine": self.machine,
-            "os_name": "nt" if self.system == "Windows" else "posix",
-            "platform_python_implementation": "CPython",
-            "implementation_name": "cpython",
-            "python_version": python,
-            "python_full_version": f"{python}.0",
-            "extra": "",
-        }
-
-    def tags(self, python):
-        """Return the tags of the wheels that this Python can import there."""
-        version = tuple(map(int, python.split(".")))
-        interpreter = "cp" + python.replace(".", "")
-        native = tags.cpython_tags(version, platforms=self.wheel_tags)
-        return {*native, *tags.compatible_tags(version, interpreter, self.wheel_tags)}
-
 
 # Blender itself needs glibc 2.28; SciPy has no wheel for an Apple processor before macOS 12.
-def _manylinux(machine):
+def _linux(name, machine, pythons):
     newer = (f"manylinux_2_{minor}_{machine}" for minor in range(28, 16, -1))
-    return *newer, f"manylinux2014_{machine}"
+    return Platform(name, (*newer, f"manylinux2014_{machine}"), False, pythons)
 
 
 PLATFORMS = {
     platform.name: platform
     for platform in (
-        Platform("windows-x64", ("win_amd64",), "win32", "Windows", "AMD64"),
-        Platform(
-            "macos-arm64",
-            tuple(tags.mac_platforms((12, 0), "arm64")),
-            "darwin",
-            "Darwin",
-            "arm64",
-        ),
-        Platform(
-            "linux-x64",
-            _manylinux("x86_64"),
-            "linux",
-            "Linux",
-            "x86_64",
-            brings_python=False,
-            pythons=(*PYTHONS, NEWEST_PYTHON),
-        ),
-        Platform(
-            "linux-arm64",
-            _manylinux("aarch64"),
-            "linux",
-            "Linux",
-            "aarch64",
-            brings_python=False,
-            pythons=(NEWEST_PYTHON,),
-        ),
+        Platform("windows-x64", ("win_amd64",)),
+        Platform("macos-arm64", tuple(tags.mac_platforms((12, 0), "arm64"))),
+        _linux("linux-x64", "x86_64", (*PYTHONS, NEWEST_PYTHON)),
+        _linux("linux-arm64", "aarch64", (NEWEST_PYTHON,)),
     )
 }
 
@@ -132,15 +79,31 @@ class Package:
             return {"blender_version_max": NEW_PYTHON_BLENDER}  # the first that it is not for
         return {"blender_version_min": NEW_PYTHON_BLENDER}
 
+    def uploaded_version(self, release):
+        """Return the version that it is uploaded as: the release, or the number after it.
+
+        On the extensions platform, a version has one file for each platform. As two Pythons do not
+        fit into one file, each range of Blender versions has a version of its own.
+
+        Raises
+        ------
+        SystemExit
+            The last number of the release is odd: that is for newer Blenders of the one before.
+        """
+        major, minor, patch = map(int, release.split("."))
+        if patch % len(PYTHONS):
+            raise SystemExit(
+                f"{release} cannot be uploaded: the last number of a release is even, as the odd "
+                "one after it is the same release for newer Blenders"
+            )
+        return f"{major}.{minor}.{patch + PYTHONS.index(self.python)}"
+
     @property
     def lock(self):
-        """Return the name of the file that locks its wheels.
-
-        Each package for the newest Python has its own: on Arm, some of what it needs has no wheel.
-        """
+        """Return the path of the file that locks its wheels, which ``make lock`` writes."""
         if self.python == NEWEST_PYTHON:
-            return f"wheels_{self.platform.name}_python{self.python}.lock"
-        return "wheels.lock"
+            return REQUIREMENTS / f"wheels_{self.platform.name}_python{self.python}.lock"
+        return REQUIREMENTS / "wheels.lock"
 
 
 def packages_for(platform):
@@ -155,9 +118,3 @@ def packages_to_upload():
     """
     platforms = [replace(PLATFORMS[name], brings_python=True) for name in UPLOADED]
     return [Package(platform, python) for python in PYTHONS for platform in platforms]
-
-
-def all_packages():
-    """Return all packages that there can be."""
-    ours = [package for platform in PLATFORMS.values() for package in packages_for(platform)]
-    return list(dict.fromkeys([*ours, *packages_to_upload()]))

@@ -3,10 +3,14 @@
 
 import re
 import tomllib
+import zipfile
 from dataclasses import dataclass
-from pathlib import Path
+from email.message import Message
+from email.parser import BytesParser
+from pathlib import Path, PurePosixPath
 
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
+from packaging.utils import parse_wheel_filename
 
 ADDITIONS = Path(__file__).with_name("licences")
 
@@ -19,6 +23,7 @@ _COPYRIGHT = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _NOT_A_NAME = re.compile(r"<[^>]*>|\bAll\s+rights(\s+reserved)?\.?", re.IGNORECASE)
+_TEXT = re.compile(r"\.dist-info/.*(licen[cs]e|copying|notice|authors)[^/]*$", re.IGNORECASE)
 
 _HEAD = """\
 # Third-party software in this package
@@ -37,42 +42,43 @@ class Credit:
     version: str
     licence: str
     copyrights: list[str]
-    homepage: str
     inside: list[str]
     texts: dict[str, str]
 
 
-def credit(wheel):
-    """Collect what is known of a wheel's licence.
+def credit(path):
+    """Collect what is known of the licence of a wheel (Path).
 
     Raises
     ------
     ValueError
         Its licence, its text or its copyright is not known; see ``licences/additions.toml``.
     """
+    name, version, *_ = parse_wheel_filename(path.name)
     additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())
-    added = additions.get(wheel.name, {})
-    texts = dict(wheel.licences)
-    for part, file_name in additions["texts"].items():
-        if any(part in file for file in wheel.files):
-            texts[file_name] = (ADDITIONS / file_name).read_text()
-    if not wheel.licences and (ADDITIONS / f"{wheel.name}.txt").exists():
-        texts["LICENSE.txt"] = (ADDITIONS / f"{wheel.name}.txt").read_text()
-    if not texts:
-        raise ValueError(f"{wheel.file_name} has no licence text")
-    whole = "\n".join(wheel.licences.values() or texts.values())
+    with zipfile.ZipFile(path) as wheel:
+        files = wheel.namelist()
+        own = {
+            PurePosixPath(f).name: wheel.read(f).decode("utf-8", "replace")
+            for f in files
+            if _TEXT.search(f)
+        }
+        (information,) = (f for f in files if re.fullmatch(r"[^/]+\.dist-info/METADATA", f))
+        metadata = BytesParser().parsebytes(wheel.read(information))
+    if not own and (ADDITIONS / f"{name}.txt").exists():
+        own = {"LICENSE.txt": (ADDITIONS / f"{name}.txt").read_text()}
+    added = additions.get(name, {})
+    whole = "\n".join(own.values())
     copyrights = [*added.get("copyright", []), *copyright_lines(whole)]
     if not copyrights:
-        raise ValueError(f"{wheel.file_name} does not say whose copyright it is")
-    return Credit(
-        name=wheel.name,
-        version=wheel.version,
-        licence=_licence(wheel, whole),
-        copyrights=copyrights,
-        homepage=_homepage(wheel.metadata),
-        inside=added.get("inside", []),
-        texts=texts,
-    )
+        raise ValueError(f"{path.name} has no licence text that says whose copyright it is")
+    theirs = {
+        file_name: (ADDITIONS / file_name).read_text()
+        for part, file_name in additions["texts"].items()
+        if any(part in file for file in files)
+    }
+    licence = _licence(metadata, whole)
+    return Credit(name, str(version), licence, copyrights, added.get("inside", []), own | theirs)
 
 
 def copyright_lines(text):
@@ -89,8 +95,8 @@ def copyright_lines(text):
 
 
 def write_third_party(folder, wheels):
-    """Write THIRD_PARTY.md and the texts into the folder of the extension; return the credits."""
-    credits = [credit(wheel) for wheel in sorted(wheels, key=lambda wheel: wheel.file_name)]
+    """Write THIRD_PARTY.md and the texts of wheels (Paths) into a folder; return the credits."""
+    credits = [credit(path) for path in wheels]
     lines = [_HEAD]
     for entry in credits:
         for name, text in entry.texts.items():
@@ -99,17 +105,16 @@ def write_third_party(folder, wheels):
             target.write_text(text)
         lines += [f"\n## {entry.name} {entry.version}\n", f"- Licence: {entry.licence}"]
         lines += [f"- Copyright {line}" for line in entry.copyrights]
-        lines += [f"- {entry.homepage}"] if entry.homepage else []
         lines += [f"- Inside it: {line}" for line in entry.inside]
     (folder / "THIRD_PARTY.md").write_text("\n".join(lines) + "\n")
     return credits
 
 
-def _licence(wheel, text):
+def _licence(metadata: Message, text):
     """Return the licence as an SPDX expression."""
-    classifiers = wheel.metadata.get_all("Classifier", [])
+    classifiers = metadata.get_all("Classifier", [])
     named = [c.rpartition(" :: ")[2] for c in classifiers if c.startswith("License ::")]
-    stated = [wheel.metadata[field] for field in ("License-Expression", "License")]
+    stated = [metadata[field] for field in ("License-Expression", "License")]
     for candidate in [*stated, *(_SPDX.get(name) for name in named)]:
         try:
             return canonicalize_license_expression(candidate or "")
@@ -118,10 +123,4 @@ def _licence(wheel, text):
     if "BSD License" in named:  # the classifier does not say which; the third clause does
         third = re.search(r"endorse\s+or\s+promote", text)
         return "BSD-3-Clause" if third else "BSD-2-Clause"
-    raise ValueError(f"the licence of {wheel.file_name} is not known")
-
-
-def _homepage(metadata):
-    urls = [url.split(",", 1) for url in metadata.get_all("Project-URL", [])]
-    pages = {label.strip().lower(): url.strip() for label, url in urls}
-    return metadata["Home-page"] or pages.get("homepage") or pages.get("source") or ""
+    raise ValueError(f"the licence of {metadata['Name']} is not known")

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Put meshes as artists have them through Cubify and print what became of them.
 
-survey.py [CASE or FILE ...] [--cubeness C ...] [--paper] [--pictures FOLDER] [--extension FOLDER]
+survey.py [CASE or FILE ...] [--cubeness C ...] [--paper] [--pictures FOLDER]
 
 Without names all cases are done. A case is a name of `art_cases.CASES`; a file .obj, .ply or .glb.
 """
 
 import argparse
 import contextlib
-import importlib.util
 import io
 import sys
 from functools import partial
@@ -22,6 +21,8 @@ import measures  # noqa: E402
 import survey_pictures  # noqa: E402
 from art_cases import CASES, PAPER, Case, cubified  # noqa: E402
 from art_objects import unpainted  # noqa: E402
+
+from cubic_craft import registered  # noqa: E402
 
 COLUMNS = (
     # heading, width
@@ -42,33 +43,17 @@ COLUMNS = (
     ("crossings", 12),
     ("seconds", 8),
 )
-SURVEYED = "surveyed_cubic_craft"
-"""package, as the pictures are those of this tree"""
 IMPORTERS = {".obj": "obj_import", ".ply": "ply_import"}
 
 
 def main():
     """Print a row for each case and cubeness."""
     options = _arguments()
-    with registered(options.extension):
+    with registered():
         print(_line([heading for heading, _ in COLUMNS]))
         for name in options.cases or CASES:
             for cubeness in options.cubeness:
                 _survey(name, cubeness, options)
-
-
-@contextlib.contextmanager
-def registered(root):
-    """Have the extension of a source tree in Blender for the block; it may be an older version."""
-    place = [str(root)]
-    spec = importlib.util.spec_from_file_location(
-        SURVEYED, root / "__init__.py", submodule_search_locations=place
-    )
-    package = sys.modules[SURVEYED] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(package)
-    package.register()
-    yield
-    package.unregister()
 
 
 def _arguments():
@@ -82,7 +67,6 @@ def _arguments():
         "--set", nargs="+", default=[], metavar="NAME=VALUE", help="of the operator"
     )
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="before and after, as PNG")
-    parser.add_argument("--extension", type=Path, default=ROOT, help="source tree of the extension")
     options = parser.parse_args()
     for name in options.cases:
         if name not in CASES and not Path(name).is_file():

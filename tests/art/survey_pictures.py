@@ -24,40 +24,29 @@ SAMPLES = 8
 
 def render(objects, outcome, path: Path):
     """Write a picture of the objects at rest and as they are now."""
-    rest, after = outcome.rest, outcome.after
-    shown = [("before", objects, rest, "clay", rest.V), ("after", objects, after, "teal", rest.V)]
-    render_row(shown, path, RESOLUTION)
-
-
-def render_row(shown, path: Path, resolution):
-    """Write a picture of objects side by side.
-
-    Parameters
-    ----------
-    shown : list of (label, objects, Surface, finish, V)
-        The surface is that of the objects; V (n,3) says how large they are, for the scale.
-    path
-    resolution : (width, height)
-    """
     scene = scene_for_gallery()
+    size = extent_of(outcome.rest.V)
     groups = [
         Group(
             label,
             _copies(objects, surface, scene),
             [Matrix()] * len(objects),
             surface.V,
-            extent_of(V),
+            size,
             finish,
         )
-        for label, objects, surface, finish, V in shown
+        for label, surface, finish in (
+            ("before", outcome.rest, "clay"),
+            ("after", outcome.after, "teal"),
+        )
     ]
     bpy.context.view_layer.update()
-    gallery = arrange(groups, scene, resolution)
-    furnish(gallery, resolution[0] / resolution[1])
+    gallery = arrange(groups, scene, RESOLUTION)
+    furnish(gallery, RESOLUTION[0] / RESOLUTION[1])
     path.parent.mkdir(parents=True, exist_ok=True)
     options = Namespace(
         engine="cycles",
-        resolution=resolution,
+        resolution=RESOLUTION,
         samples=SAMPLES,
         threads=0,
         turntable=0,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The hooks of the site that need no MkDocs; `tests/site` sees what they build."""
+"""The hooks of the site that need no MkDocs."""
 
 import struct
 import sys

@@ -2,16 +2,14 @@
 """How long the ticks of Live take; run by scripts/benchmark_live.py.
 
 For a coarse monkey and each mesh in /share it drags the slider for ten seconds. It writes what each
-tick took, how long each change took to be seen, and how many iterations were done, to
-/share/ticks.json; and how long it took in ticks until a new object has followed what was moved on
-its original, to /share/strokes.json. Blender's own drawing is not part of the ticks.
+tick took, and how long each change took in ticks to be seen, to /share/ticks.json; and how long
+until a new object has followed what was moved on its original, to /share/strokes.json. What Blender
+itself draws is not part of the ticks.
 """
 
-import importlib
 import json
 import os
 import pathlib
-import sys
 import time
 
 import bmesh
@@ -27,55 +25,25 @@ FOLDER = pathlib.Path(os.environ.get("BENCH_FOLDER", "/share"))
 
 
 class Stopwatch:
-    """Times every tick of a session, and what passes from a change until it is seen.
+    """Times every tick of a session, and the ticks from a change until an object shows it."""
 
-    A delay is counted twice: with what Blender does between the ticks (drawing in software, here),
-    and as the sum of the ticks alone.
-    """
-
-    def __init__(self, session):
-        self.ticks, self.delays, self.delays_of_ticks = [], [], []
-        self._session, self._changed_at, self._ticks_since = session, None, 0.0
+    def __init__(self, session, name):
+        self.ticks, self.delays = [], []
+        self._name, self._since = name, None
         self._tick, session.tick = session.tick, self.tick
-        self._show, session._show = session._show, self.show
-        self._is_seen = False
 
     def changed(self):
-        if self._changed_at is None:
-            self._changed_at, self._ticks_since = time.perf_counter(), 0.0
-
-    def show(self, objects):
-        before = scene.positions(next(iter(objects.values())).name)
-        self._show(objects)
-        self._is_seen = scene.positions(next(iter(objects.values())).name) != before
+        self._since = self._since or 0.0
 
     def tick(self, context):
-        begin = time.perf_counter()
-        self._is_seen = False
+        before, begin = scene.positions(self._name), time.perf_counter()
         self._tick(context)
-        end = time.perf_counter()
-        self.ticks.append(end - begin)
-        self._ticks_since += end - begin
-        if self._is_seen and self._changed_at is not None:
-            self.delays.append(end - self._changed_at)
-            self.delays_of_ticks.append(self._ticks_since)
-            self._changed_at = None
-
-
-class Counter:
-    """Counts the iterations of the extension's solver."""
-
-    def __init__(self):
-        # The extension imports it at its first use, which is later.
-        [package] = [name for name in sys.modules if name.endswith(".cubic_craft.solver")]
-        solver = importlib.import_module(f"{package}.stylization").Stylization
-        self.iterations = 0
-        self._global_step = solver.global_step
-        solver.global_step = lambda stylization: self.count(stylization)
-
-    def count(self, stylization):
-        self.iterations += 1
-        self._global_step(stylization)
+        self.ticks.append(time.perf_counter() - begin)
+        if self._since is not None:
+            self._since += self.ticks[-1]
+            if scene.positions(self._name) != before:
+                self.delays.append(self._since)
+                self._since = None
 
 
 def load(path, cuts):
@@ -103,7 +71,7 @@ def load(path, cuts):
     return obj
 
 
-def measure(path, counter, cuts=0):
+def measure(path, cuts=0):
     obj = load(path, cuts)
     name, vertices = obj.name, len(obj.data.vertices)
     yield from gui.wait_redraw()
@@ -111,10 +79,9 @@ def measure(path, counter, cuts=0):
     yield from scene.start_live()
     yield from scene.wait_idle()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
-    watch = Stopwatch(scene.live().current())
+    watch = Stopwatch(scene.live().current(), name)
     properties = bpy.context.window_manager.cubic_craft_live
     last, begin = properties.cubeness, time.monotonic()
-    counter.iterations = 0
     ends = 0.2, 0.8
     while time.monotonic() - begin < SECONDS:
         drag = gui.drag(slider.at(ends[0]), slider.at(ends[1]), steps=24)
@@ -124,7 +91,6 @@ def measure(path, counter, cuts=0):
                 last = properties.cubeness
                 watch.changed()
             yield turn
-    done = counter.iterations
     seconds = time.monotonic() - begin
     yield from gui.screenshot(f"{name}.png")
     yield from scene.press("ESC")
@@ -134,10 +100,7 @@ def measure(path, counter, cuts=0):
         "vertices": vertices,
         "ticks": watch.ticks,
         "seconds": seconds,
-        "iterations_per_second": done / seconds,
-        "iterations_per_second_of_ticks": done / sum(watch.ticks),
         "delays": watch.delays,
-        "delays_of_ticks": watch.delays_of_ticks,
     }
 
 
@@ -202,12 +165,12 @@ def follow(path, mode, cuts):
 
 def test():
     gui.simplify_viewport()
-    rows, counter = [], Counter()
+    rows = []
     paths = sorted([*FOLDER.glob("*.obj"), *FOLDER.glob("*.ply")])
     for path in (1, *(paths or (2, 3))):  # the first is coarse, and is refined
-        rows.append((yield from measure(path, counter)))
+        rows.append((yield from measure(path)))
     if paths:
-        rows.append((yield from measure(paths[-1], counter, cuts=1)))  # a large one
+        rows.append((yield from measure(paths[-1], cuts=1)))  # a large one
     (FOLDER / "ticks.json").write_text(json.dumps(rows))
     strokes = []
     for mode in ("OBJECT", "EDIT"):

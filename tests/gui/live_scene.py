@@ -5,7 +5,6 @@ import contextlib
 import dataclasses
 import importlib
 
-import bmesh
 import bpy
 import guidrive as gui
 import numpy as np
@@ -58,29 +57,6 @@ def add_monkey(levels=0, is_refined=False):
         if not is_refined:
             settings(bpy.context.object.name).refine = "OFF"
         bpy.ops.ed.undo_push(message="Add the monkey")
-
-
-def halve(obj):
-    """Keep the half of an object at negative X, and mirror it by a modifier, which is returned."""
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    geometry = [*bm.verts, *bm.edges, *bm.faces]
-    bmesh.ops.bisect_plane(
-        bm, geom=geometry, plane_co=(0, 0, 0), plane_no=(1, 0, 0), clear_outer=True
-    )
-    bm.to_mesh(obj.data)
-    bm.free()
-    return obj.modifiers.new("Mirror", "MIRROR")
-
-
-def share_facing_axes(degrees):
-    """Return the share of the visible area of the monkey that faces an axis within an angle."""
-    mesh = bpy.data.objects[NAME].evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    normals, areas = np.empty(3 * len(mesh.polygons)), np.empty(len(mesh.polygons))
-    mesh.polygons.foreach_get("normal", normals)
-    mesh.polygons.foreach_get("area", areas)
-    facing = np.abs(normals.reshape(-1, 3)).max(axis=1) > np.cos(np.radians(degrees))
-    return areas[facing].sum() / areas.sum()
 
 
 def show_front():

@@ -7,6 +7,7 @@
 # With BLENDER set, that Blender is used in place of Debian's; else this needs root on Debian.
 # --if-possible: where the tests cannot run, say so and succeed (exit code 0 in place of 2).
 # TESTS is a pattern of names, such as "test_live*" (default: all).
+# WALK_SEED and WALK_ACTIONS choose another walk of test_random_walk.py (make test-walk).
 # EXPECT_DEVICE, if set, is the solver backend the tests insist on; Debian's suites have a default.
 # Exit codes: 0 all passed, 1 something failed, 2 wrong options or cannot run here.
 set -uo pipefail
@@ -53,7 +54,9 @@ run_script() {
         "$HERE/kit/run_with_blender.sh" -u "$user" "$@" -d "$folder" "$script"
     else
         "$HERE/kit/run_in_gui.sh" -s "$suite" -p -u "$user" "$@" -d "$folder" -r "$HERE/.." \
-            -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" "$script"
+            -v "EXPECT_DEVICE=${EXPECT_DEVICE:-$(expected_device "$suite")}" \
+            -v "WALK_SEED=${WALK_SEED:-1}" -v "WALK_ACTIONS=${WALK_ACTIONS:-40}" \
+            -t $((1800 + 10 * ${WALK_ACTIONS:-0})) "$script"
     fi
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: trixie
-"""Cubify Animation by a click: watched, stopped by Esc, continued, played back, and undone."""
+"""Cubify Animation by a click: watched, stopped by Esc, continued, and undone."""
 # Window: 1000x1400
 
 import importlib
@@ -56,15 +56,6 @@ def cached(folder):
     return np.frombuffer(data, "<f4", offset=32).reshape(-1, 3)
 
 
-def seen():
-    """Return the visible positions of the baked object in this frame."""
-    obj = bpy.data.objects[CUBIC]
-    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    values = np.empty((len(mesh.vertices), 3), np.float32)
-    mesh.vertices.foreach_get("co", values.ravel())
-    return values
-
-
 def stopped(folder):
     """Start, wait for some frames, and press Esc: they are kept."""
     make_slow(True)
@@ -106,13 +97,7 @@ def test():
         lambda: is_over() and [path.name for path in folder.iterdir()] == [f"{scene.NAME}.pc2"],
         what="the whole animation",
     )
-    frames = cached(folder).reshape(FRAMES, -1, 3)
-    for frame in (1, FRAMES):
-        bpy.context.scene.frame_set(frame)
-        assert np.allclose(seen(), frames[frame - 1], atol=1e-6), f"frame {frame} is not played"
-    yield from gui.wait_redraw()
-    yield from gui.screenshot("played.png")
-    assert bpy.ops.cubic_craft.bake_animation.poll()
+    assert len(cached(folder)) == FRAMES * len(bpy.data.objects[CUBIC].data.vertices)
     assert scene.positions() == before, "the original mesh was changed"
     scene.check_clean()
 
@@ -120,38 +105,6 @@ def test():
         yield from gui.undo()
     assert CUBIC not in bpy.data.objects and not bpy.data.objects[scene.NAME].hide_get()
     assert scene.positions() == before
-    yield from process_from_other_settings(folder, before)
-
-
-def process_from_other_settings(folder, original):
-    """Pick an object with other settings in the panel, and bake the way from these."""
-    monkey = bpy.data.objects[scene.NAME]
-    model = bpy.data.objects.new("A Model", monkey.data.copy())  # the first in the list
-    bpy.context.collection.objects.link(model)
-    model.hide_set(True)
-    model.cubic_craft.form, model.cubic_craft.cubeness = "OCTAHEDRON", 1.0
-    model.cubic_craft.refine = scene.settings().refine
-    bpy.context.scene.cubic_craft_animation.folder = str(folder)  # undone as well
-    yield from gui.wait_redraw("UI")
-    yield from gui.click((yield from gui.find_button("cubic_craft_animation.process_from")))
-    yield 0.5
-    yield from gui.screenshot("list.png")
-    yield from gui.keys("DOWN_ARROW", "RET")
-    chosen = bpy.context.scene.cubic_craft_animation
-    yield from gui.wait_until(lambda: chosen.process_from is not None, what="the object")
-    assert chosen.process_from.name == "A Model"
-    yield from gui.click((yield from gui.find_button("cubic_craft.bake_process")))
-    path = folder / f"{scene.NAME}.process.pc2"
-    yield from gui.wait_until(lambda: is_over() and path.exists(), what="the process")
-    bpy.context.scene.frame_set(1)
-    yield from gui.wait_redraw()
-    yield from gui.screenshot("process_first.png")
-    first = seen()
-    bpy.context.scene.frame_set(FRAMES)
-    yield from gui.wait_redraw()
-    yield from gui.screenshot("process_last.png")
-    assert np.abs(seen() - first).max() > 0.1, "nothing moves"
-    assert scene.positions() == original
 
 
 gui.run(test)

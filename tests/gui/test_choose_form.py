@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: sid
-"""Cubify by the search, choose a form by hand, follow an edited object, flatten the sides."""
+"""Cubify by the search, choose a form by hand, flatten the sides."""
 
-import bpy
 import guidrive as gui
 import live_scene as scene
 
@@ -14,20 +13,6 @@ def choose(steps):
     yield 0.5
     yield from gui.keys(*["DOWN_ARROW"] * steps, "RET")
     yield from gui.wait_until(lambda: scene.settings().form != before, what="another form")
-
-
-def add_form_object():
-    """Add a cone beside the monkey, which stays active."""
-    monkey = bpy.data.objects[scene.NAME]
-    with gui.in_region():
-        bpy.ops.mesh.primitive_cone_add(vertices=5, location=(0.0, 3.0, 0.0))
-        cone = bpy.context.object
-        cone.name = "Gem"
-        cone.select_set(False)
-        monkey.select_set(True)
-        bpy.context.view_layer.objects.active = monkey
-        bpy.ops.ed.undo_push(message="Add the cone")
-    return cone
 
 
 def by_search(original):
@@ -60,28 +45,6 @@ def by_click(original):
     yield from gui.wait_until(lambda: scene.positions() == original, what="Restore")
 
 
-def in_live(original):
-    add_form_object()
-    yield from scene.start_live()
-    yield from scene.wait_idle()
-    settings = scene.live().live_properties()
-    before = scene.positions()
-    settings.form_object = "Gem"
-    settings.form = "OBJECT"
-    yield from scene.wait_idle_with(lambda: scene.positions() != before, "the form of the object")
-    yield from gui.screenshot("object.png")
-    before = scene.positions()
-    gem = bpy.data.objects["Gem"].data
-    for vertex in gem.vertices:
-        vertex.co.z *= 2.5 if vertex.co.z > 0.5 else 1.0
-    gem.update()
-    yield from scene.wait_idle_with(lambda: scene.positions() != before, "the edited form")
-    yield from gui.screenshot("edited.png")
-    yield from scene.end_by("RET")
-    assert scene.settings().form_object.name == "Gem" and scene.positions() != original
-    scene.check_bits_of_cubify()
-
-
 def test():
     gui.simplify_viewport()
     gui.area().spaces.active.overlay.show_overlays = True
@@ -89,7 +52,7 @@ def test():
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()
-    for moment in (by_search, by_click, in_live):
+    for moment in (by_search, by_click):
         gui.log(moment.__name__)
         yield from moment(original)
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """The command of the installed extension, ``blender -c cubic_craft``: no window is clicked on.
 
 Its processes share the user folder with this Blender, in which the extension is installed.

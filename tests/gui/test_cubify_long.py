@@ -3,8 +3,6 @@
 """A Cubify that takes long: watched, cancelled in every way, and brought to its end."""
 
 import importlib
-import tempfile
-from pathlib import Path
 
 import bpy
 import guidrive as gui
@@ -82,41 +80,6 @@ def by_button(original):
     yield from check_cancelled(original)
 
 
-def by_delete(original):
-    """Delete the object; undo brings it back as it was."""
-    yield from start()
-    yield from scene.press("X")
-    yield from gui.keys("RET")
-    yield from gui.wait_until(is_over, what="the end")
-    assert scene.NAME not in bpy.data.objects
-    yield from gui.undo()
-    yield from check_cancelled(original)
-
-
-def by_edit_mode(original):
-    """Tab."""
-    yield from start()
-    yield from scene.press("TAB")
-    yield from gui.wait_until(is_over, what="the end")
-    yield from scene.press("TAB")
-    yield from gui.wait_until(lambda: bpy.context.mode == "OBJECT", what="Object Mode")
-    yield from gui.undo()
-    yield from gui.undo()
-    yield from check_cancelled(original)
-
-
-def by_undo_of_a_menu(original):
-    """Undo a step from before, not by the key."""
-    with gui.in_region():
-        bpy.ops.transform.translate(value=(0, 0, 1))
-        bpy.ops.ed.undo_push(message="Move")
-    yield from start()
-    with gui.in_region():
-        bpy.ops.ed.undo()
-    yield from check_cancelled(original)
-    assert bpy.data.objects[scene.NAME].location.z == 0
-
-
 def by_closed_window(original):
     """Start it in a second window and close that."""
     make_slow(True)
@@ -136,14 +99,8 @@ def by_closed_window(original):
 
 
 def brought_to_its_end(original):
-    """Save while it runs; then the redo panel, and one step to undo."""
+    """Then the redo panel, and one step to undo."""
     yield from start(is_slow=False)
-    with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "saved.blend")
-        with gui.in_region():
-            bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
-        with bpy.data.libraries.load(path) as (there, _):
-            assert scene.NAME in there.objects
     yield from gui.wait_until(is_over, what="the end")
     first = scene.positions()
     assert first != original and "numpy" in scene.settings().status
@@ -164,23 +121,6 @@ def brought_to_its_end(original):
     assert scene.positions() == original
 
 
-def in_a_maximized_view(original):
-    """Ctrl-Space while it runs, and back."""
-    yield from start(is_slow=False)
-    yield from scene.press("CTRL+SPACE")
-    for _ in range(10):
-        yield
-    assert current() is not None
-    yield from gui.wait_until(is_over, what="the end")
-    assert scene.positions() != original
-    yield from gui.screenshot("maximized.png")
-    yield from scene.press("CTRL+SPACE")
-    for _ in range(10):
-        yield
-    yield from gui.undo()
-    yield from check_cancelled(original)
-
-
 def by_another_file():
     """Load one."""
     yield from start()
@@ -198,16 +138,7 @@ def test():
     scene.settings().device = "NUMPY"
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
-    for way in (
-        brought_to_its_end,
-        by_keys,
-        by_button,
-        by_delete,
-        by_edit_mode,
-        by_undo_of_a_menu,
-        by_closed_window,
-        in_a_maximized_view,
-    ):
+    for way in (brought_to_its_end, by_keys, by_button, by_closed_window):
         gui.log(way.__name__)
         yield from way(original)
         scene.settings().device = "NUMPY"

@@ -153,7 +153,7 @@ def move_turn_and_scale(ear):
 
 
 def give_up_drags(ear):
-    """Leave a drag by Esc, by the right button, and by Enter: none of them is for Live."""
+    """Leave a drag by Esc and by the right button: neither is for Live."""
     at_rest = scene.positions()
     for key in ("ESC", "RIGHTMOUSE"):
         yield from ear.press()
@@ -163,15 +163,6 @@ def give_up_drags(ear):
         gui.events().release("LEFTMOUSE")
         yield from scene.wait_idle()
         assert scene.positions() == at_rest, f"{key} has not brought the handle back"
-    yield from ear.press()
-    yield from ear.drag_to((0, -40))
-    yield from gui.keys("RET")
-    yield from gui.wait_until(lambda: not scene.live().current().is_dragged(), what="its end")
-    gui.events().release("LEFTMOUSE")
-    yield from scene.wait_idle()
-    assert scene.positions() != at_rest
-    yield from scene.press("CTRL+Z")
-    yield from scene.wait_idle_with(lambda: scene.positions() == at_rest, "the drag taken back")
 
 
 def take_back_and_confirm():

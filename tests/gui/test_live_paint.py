@@ -17,21 +17,9 @@ def weights():
 def stroke(start, end):
     """Paint from a point of the scene to another; wait until the shape has followed."""
     before, shape = weights(), scene.positions()
-    with gui.in_region():
-        has_brush = bpy.ops.paint.weight_paint.poll()
-    if has_brush:
-        yield from gui.drag(scene.screen_point(start), scene.screen_point(end))
-    else:  # Debian's Blender 4.3 has no brushes: what a stroke would do
-        obj = bpy.data.objects[scene.NAME]
-        near = [v.index for v in obj.data.vertices if abs(v.co.x - start[0]) < 0.3]
-        obj.vertex_groups[0].add(near, weight_of_brush(), "REPLACE")
-        obj.data.update()
-        with gui.in_region():
-            bpy.ops.ed.undo_push(message="Stroke")
+    yield from gui.drag(scene.screen_point(start), scene.screen_point(end))
     yield from gui.wait_until(lambda: weights() != before, what="other weights")
     yield from scene.wait_idle_with(lambda: scene.positions() != shape, "the shape of the stroke")
-    changed = sum(a != b for a, b in zip(weights(), before, strict=True))
-    gui.log(f"a stroke over {changed} vertices")
 
 
 def goes_on():
@@ -44,10 +32,6 @@ def brush_settings():
     tools = bpy.context.scene.tool_settings  # in Blender 5 each mode has its own
     own = getattr(tools.weight_paint, "unified_paint_settings", None)
     return own or tools.unified_paint_settings
-
-
-def weight_of_brush():
-    return brush_settings().weight
 
 
 def set_brush(weight):
@@ -98,13 +82,6 @@ def test():
     goes_on()
     yield from scene.wait_idle_with(lambda: scene.positions() == shape, "the first shape")
 
-    # A stroke while it still computes.
-    slider = yield from scene.cubeness_slider()
-    yield from gui.drag_slider(slider, 0.8, 0.6)
-    yield from stroke((-0.7, -1, 0.7), (-0.7, -1, 0.0))
-    set_brush(0.0)
-    yield from stroke((0, -1, 0.9), (0, -1, -0.8))
-    goes_on()
     painted = weights()
     yield from scene.end_by("RET")
     assert weights() == painted and bpy.context.mode == "PAINT_WEIGHT"
@@ -112,18 +89,6 @@ def test():
     assert confirmed != original
     yield from gui.screenshot("confirmed.png")
     scene.check_bits_of_cubify()
-
-    # Esc in this mode, after a stroke: the stroke stays, the shape goes back.
-    yield from scene.start_live()
-    yield from stroke((0.6, -1, 0.7), (0.6, -1, 0.0))
-    assert weights() != painted
-    painted = weights()
-    yield from scene.end_by("ESC")
-    assert weights() == painted and scene.positions() == confirmed
-    scene.check_clean()
-    with gui.in_region():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert scene.positions() == confirmed
 
 
 gui.run(test)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: sid
-"""Show the angles to the form by a click: a ball in bright colors, its cube in dark ones; Live.
+"""Show the angles to the form by a click: a ball in bright colors, its cube in dark ones.
 
 The pictures prove it: the surface is bright where it does not lie in a side of the form.
 """
@@ -84,27 +84,12 @@ def by_click(switch, original):
     yield from check("undone", is_shown=True)
 
 
-def in_live():
-    yield from scene.start_live()
-    yield from scene.wait_idle()
-    yield from check("live", is_shown=True, is_cubic=True)
-    yield from scene.end_by("ESC")
-    yield from check("cancelled", is_shown=True)
-
-
 def not_shown():
-    """Hide overlays, paint, and click on the switch again."""
+    """Hide overlays, and click on the switch again."""
     overlay = gui.area().spaces.active.overlay
     overlay.show_overlays = False
     yield from check("no_overlays", is_shown=False)
     overlay.show_overlays = True
-    with gui.in_region():
-        bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
-    pixels = yield from picture("weight_paint")
-    assert shares(pixels)[0] < FEW
-    with gui.in_region():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    yield from check("object_mode", is_shown=True)
     yield from gui.click((yield from gui.find_button("cubic_craft_angles")))  # perhaps scrolled
     yield from gui.wait_until(lambda: not bpy.context.window_manager.cubic_craft_angles)
     yield from check("off_again", is_shown=False)
@@ -117,7 +102,6 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     switch = yield from gui.find_button("cubic_craft_angles")
     yield from by_click(switch, original)
-    yield from in_live()
     yield from not_shown()
 
 

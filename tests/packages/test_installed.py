@@ -11,8 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from scripts.package.check import check
-
 PYTHONS = os.environ.get("CUBIC_CRAFT_BARE_PYTHONS", "").split()
 PACKAGES = Path(os.environ.get("CUBIC_CRAFT_PACKAGES", "."))
 SESSION = Path(__file__).with_name("session.py")
@@ -64,19 +62,3 @@ def test_from_installing_to_removing(tmp_path, python, no_network):
         print(done.stdout)
         assert "done in" in done.stdout, done.stdout + done.stderr
         assert "Traceback" not in done.stderr, done.stderr
-
-
-def test_what_has_been_built_is_good():
-    zips = sorted(PACKAGES.glob("*.zip"))
-    assert zips
-    assert {path.name: check(path) for path in zips} == {path.name: [] for path in zips}
-
-
-def test_the_other_python_is_refused(tmp_path):
-    """What a user reads who takes the wrong one."""
-    mine = package_for(PYTHONS[0])
-    other = next(p for p in PACKAGES.glob("*linux_x64-python3.14.zip")).resolve()
-    assert other != mine
-    done = run_session(PYTHONS[0], "first", other, tmp_path)
-    assert "This Python version (3.11) isn't compatible with (3.14)" in done.stdout + done.stderr
-    assert "done in" not in done.stdout

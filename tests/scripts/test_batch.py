@@ -2,6 +2,7 @@
 """A folder with sound and broken files: what is written, said and returned."""
 
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -10,9 +11,7 @@ import pytest
 from batch_kit import CUBE, MESHES, QUICK, batch, files_in, statuses
 from headless import headless
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "corpus"))
-from make_corpus import corpus
-
+CORPUS = Path(__file__).resolve().parents[1] / "corpus" / "files"
 SOUND = ("doubled_corners.ply", "loose.obj", "moebius.obj")
 BROKEN = ("cut.stl", "cut_faces.ply", "too_huge.obj")
 
@@ -23,7 +22,7 @@ def done(tmp_path_factory):
     folder = tmp_path_factory.mktemp("batch")
     (folder / "meshes" / "sub").mkdir(parents=True)
     for name in (*SOUND, *BROKEN):
-        (folder / "meshes" / name).write_bytes(corpus()[name])
+        shutil.copy(CORPUS / name, folder / "meshes" / name)
     (folder / "meshes" / "notes.txt").write_text("no mesh")
     (folder / "meshes" / "._loose.obj").write_text("what macOS puts beside a file")
     (folder / "meshes" / "sub" / "below.obj").write_text(CUBE)

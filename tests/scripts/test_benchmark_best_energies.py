@@ -40,7 +40,7 @@ def test_size_and_cubeness_are_told_apart(path):
     assert list(json.loads(path.read_text())) == keys
 
 
-def test_a_full_run_only_lowers_what_is_known(path):
+def test_a_full_run_keeps_what_is_lower_or_new(path):
     best = BestEnergies(path)
     best.offer("bunny", 6172, 0.2, energy=0.6, found_by="")
     best.offer("horse", 48485, 0.2, energy=0.3, found_by="")
@@ -53,7 +53,7 @@ def test_a_full_run_only_lowers_what_is_known(path):
     keep_lower_energies({"race": race, "scaling": [case("bunny", 1000, 0.5, None)]}, best)
     assert best.get("bunny", 6172, 0.2) == 0.5
     assert best.get("horse", 48485, 0.2) == 0.3
-    assert best.get("bunny", 1000, 0.2) is None
+    assert best.get("bunny", 1000, 0.2) == 0.5
 
 
 def test_book_in_the_repository_can_be_read():

@@ -11,7 +11,6 @@ from headless import headless, headless_shared
 CORPUS = Path(__file__).resolve().parents[1] / "corpus"
 sys.path.insert(0, str(CORPUS))
 from expected import DONE, REFUSED  # noqa: E402
-from make_corpus import corpus  # noqa: E402
 
 # In a process of their own, which might crash or speak at its end, one that is sound and one that
 # is broken for each importer; all others go through one Blender, which they must leave sound.
@@ -25,10 +24,8 @@ ARGUMENTS = (
 )
 
 
-def test_the_files_are_those_of_the_script():
-    written = {path.name: path.read_bytes() for path in (CORPUS / "files").iterdir()}
-    assert written == corpus()
-    assert sorted(written) == sorted(DONE | REFUSED)
+def test_each_file_is_known():
+    assert sorted(path.name for path in (CORPUS / "files").iterdir()) == sorted(DONE | REFUSED)
 
 
 def run(name, folder):

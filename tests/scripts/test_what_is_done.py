@@ -40,8 +40,7 @@ ALLOWED = {
     ("solver/memory.py", "ctypes"),  # asks Windows how much memory is free
     ("scripts/build_extension.py", "subprocess"),  # Blender's own tool
     ("scripts/benchmark_live.py", "subprocess"),
-    ("scripts/package/pip.py", "subprocess"),
-    ("scripts/package/lock.py", "urllib"),  # takes an address apart
+    ("scripts/package/fetch.py", "subprocess"),  # pip
 }
 WRITERS = {"write_text", "write_bytes", "open", "unlink", "rename"}
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Live looks at: the frame, weights, handles and settings that change under it."""
 
+import importlib
+
 import bpy
 import numpy as np
 import pytest
@@ -168,3 +170,19 @@ def test_auto_orient_turns_the_live_cube(live, begin):
     session.on(live.Event.CANCEL)
     bpy.ops.cubic_craft.auto_orient()
     assert tuple(obj.cubic_craft.orientation) == pytest.approx(found, abs=1e-6)
+
+
+def test_crispness_is_followed_without_another_run(live, begin, extension, monkeypatch):
+    solver = importlib.import_module(f"{extension.__name__}.solver").Stylization
+    step, steps = solver.global_step, []
+    monkeypatch.setattr(solver, "global_step", lambda *given: (steps.append(1), step(*given))[1])
+    obj = add_monkey()
+    session = tick_to_rest(begin(obj, crispness=0.2, refine="AUTO"))
+    before, of_run = bits(obj), len(steps)
+    live.live_properties().crispness = 0.9
+    tick_to_rest(session)
+    assert bits(obj) != before
+    assert len(steps) == of_run
+    confirm(live, session)
+    assert obj.cubic_craft.crispness == pytest.approx(0.9)
+    check_same_as_cubify(obj)

@@ -9,8 +9,7 @@
 #               (default: BLENDER_GUI_ROOT/share/SUITE)
 #     -r DIR    folder shown as /test, read-only; SCRIPT must lie in it (default: SCRIPT's folder)
 #     -u DIR    keep Blender's user folder (preferences, extensions) in DIR (default: a new one)
-#     -n        keep the network (default: the run has none)
-#     -g, -o, -t, -v, -x  as for run_with_blender.sh, which runs in the chroot
+#     -g, -t, -v  as for run_with_blender.sh, which runs in the chroot
 # Needs root. Exit codes: 0 passed, 1 failed; the others are listed in ../README.md.
 set -euo pipefail
 
@@ -64,8 +63,8 @@ enter() {
         "${OPTIONS[@]}" "$SCRIPT" "$@"
 }
 
-SUITE=trixie PYSITE='' SHARE='' TESTS='' USER_DIR='' NETWORK=--net EXTENSIONS=() OPTIONS=()
-while getopts s:e:pd:r:u:g:t:v:oxnh option; do
+SUITE=trixie PYSITE='' SHARE='' TESTS='' USER_DIR='' EXTENSIONS=() OPTIONS=()
+while getopts s:e:pd:r:u:g:t:v:h option; do
     case $option in
         s) SUITE=$OPTARG ;;
         e) EXTENSIONS+=("$(realpath -e "$OPTARG")") || exit 2 ;;
@@ -74,8 +73,6 @@ while getopts s:e:pd:r:u:g:t:v:oxnh option; do
         r) TESTS=$OPTARG ;;
         u) USER_DIR=$OPTARG ;;
         g | t | v) OPTIONS+=("-$option" "$OPTARG") ;;
-        o | x) OPTIONS+=("-$option") ;;
-        n) NETWORK= ;;
         h) usage; exit 0 ;;
         *) usage >&2; exit 2 ;;
     esac
@@ -111,6 +108,6 @@ SETTINGS=$(declare -p CHROOT SHADERS KIT TESTS SHARE USER_DIR PYSITE PYTHON EXTE
 export SETTINGS
 # Namespaces of its own: the mounts and processes end with the run, and it ends with this script.
 trap 'exit 130' INT
-setpriv --pdeathsig KILL unshare --mount --mount-proc --pid --ipc $NETWORK \
+setpriv --pdeathsig KILL unshare --mount --mount-proc --pid --ipc --net \
     --fork --kill-child bash -euc "$SETTINGS; enter \"\$@\"" enter "$@" &
 wait $!

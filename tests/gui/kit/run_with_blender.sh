@@ -9,8 +9,6 @@
 #     -g WxH    size of Blender's window (default 1000x700)
 #     -t SECS   time limit for Blender (default 1800)
 #     -v A=B    set this environment variable for Blender; may be given several times
-#     -o        let Blender go online, if its preferences do (default: its offline mode)
-#     -x        real X events (xdotool) in place of Blender's simulated ones; needs Xvfb
 # Environment: BLENDER is the executable (default: blender). Where neither DISPLAY nor
 # WAYLAND_DISPLAY is set, the window opens in an X server without a screen (Xvfb;
 # needs ImageMagick and xdotool, too, for screenshots).
@@ -24,8 +22,8 @@ die() {
     exit 2
 }
 
-SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=1800 REAL_EVENTS='' OFFLINE=(--offline-mode) EXTENSIONS=()
-while getopts e:d:u:g:t:v:oxh option; do
+SHARE=. USER_DIR='' SIZE=1000x700 LIMIT=1800 EXTENSIONS=()
+while getopts e:d:u:g:t:v:h option; do
     case $option in
         e) EXTENSIONS+=("$OPTARG") ;;
         d) SHARE=$OPTARG ;;
@@ -34,8 +32,6 @@ while getopts e:d:u:g:t:v:oxh option; do
         t) LIMIT=$OPTARG ;;
         v) [[ $OPTARG == [A-Za-z_]*=* ]] || die "-v $OPTARG: not NAME=VALUE"
            export "${OPTARG?}" ;;
-        o) OFFLINE=() ;;
-        x) REAL_EVENTS=1 ;;
         h) usage; exit 0 ;;
         *) usage >&2; exit 2 ;;
     esac
@@ -98,17 +94,13 @@ start_xvfb() {
 for extension in "${EXTENSIONS[@]}"; do
     install_extension "$extension"
 done
-if [ -n "$REAL_EVENTS" ] || [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
-    start_xvfb
-fi
-EVENTS=(--enable-event-simulate)
-[ -z "$REAL_EVENTS" ] || EVENTS=()
+[ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || start_xvfb
 
 IMPORT_PATH='import os, sys
 script = sys.argv[sys.argv.index("--python") + 1]
 sys.path[:0] = [os.path.dirname(script), os.environ["GUIDRIVE_KIT"]]'
-GUIDRIVE_KIT=$KIT TMPDIR=$WORK/tmp timeout --foreground -k 10 "$LIMIT" "$BLENDER" "${EVENTS[@]}" \
-    -noaudio "${OFFLINE[@]}" --window-geometry 0 0 "${SIZE%x*}" "${SIZE#*x}" \
+GUIDRIVE_KIT=$KIT TMPDIR=$WORK/tmp timeout --foreground -k 10 "$LIMIT" "$BLENDER" --enable-event-simulate \
+    -noaudio --offline-mode --window-geometry 0 0 "${SIZE%x*}" "${SIZE#*x}" \
     --python-exit-code 97 --python-expr "$IMPORT_PATH" --python "$SCRIPT" -- "$@" 2>&1
 code=$?
 if [ $code -ge 128 ]; then

@@ -46,7 +46,7 @@ def run(test, timeout=1740.0):
 
     def turn():
         nonlocal end_of_pause, turns
-        if bpy.app.use_event_simulate and (turns > 0 or time.monotonic() < end_of_pause):
+        if turns > 0 or time.monotonic() < end_of_pause:
             turns -= 1
             time.sleep(_SLEEP)
             return 0.0
@@ -62,7 +62,7 @@ def run(test, timeout=1740.0):
         else:
             end_of_pause = time.monotonic() + (pause or 0.0)
             turns = _TURNS if (pause or 0.0) >= _PAUSE else 0
-            return 0.0 if bpy.app.use_event_simulate else pause or 0.0  # 0: in the next turn
+            return 0.0  # in the next turn
         return None
 
     bpy.app.timers.register(turn, persistent=True)
