@@ -18,7 +18,6 @@ _OF_PYTHON = ("sys.modules", "sys.path")
 _EXPLAINED = {
     "engine.py": {"sys.setdlopenflags"},
     "elsewhere.py": {"sys.modules"},
-    "quick_compilation.py": {"inspect.getmodule", "module.TextWrapper"},
 }
 """what is replaced in a module of others for a time, by the file that says why"""
 

@@ -51,9 +51,9 @@ def test_code_that_a_reviewer_objects_to(problems, code, words):
 
 
 def test_what_is_explained_may_be_replaced_for_a_time_in_its_file_only(problems):
-    code = "import inspect\ninspect.getmodule = f"
-    assert problems({"solver/backends/quick_compilation.py": code}) == []
-    assert problems({"solver/backends/engine.py": code}) != []
+    code = "import sys\nsys.setdlopenflags = f"
+    assert problems({"solver/backends/engine.py": code}) == []
+    assert problems({"solver/backends/warmup.py": code}) != []
 
 
 def test_code_that_looks_like_it_and_is_not(problems):
