@@ -61,10 +61,23 @@ def on_phone(*pages):
     ],
 )
 def test_search_finds_from_the_disk_and_shows_the_guide_first(browse, words, page):
-    document = browse(f"{(SITE / 'index.html').as_uri()}?q={words}", "--dump-dom")
-    found = re.findall(r'<a href="([^"?#]*)[^"]*" class="md-search-result__link"', document)
+    found = search(browse, words)
     assert found, "the search finds nothing"
     assert found[0] == (SITE / page).as_uri()
+
+
+@pytest.mark.parametrize(
+    ("words", "page"),
+    [(".glb", "send_to.html"), ("--jobs", "batch.html"), ("pip", "library.html")],
+)
+def test_search_finds_endings_options_and_commands(browse, words, page):
+    assert (SITE / page).as_uri() in search(browse, words)
+
+
+def search(browse, words):
+    """Return the addresses of the pages that the search finds, the best first."""
+    document = browse(f"{(SITE / 'index.html').as_uri()}?q={quote(words)}", "--dump-dom")
+    return re.findall(r'<a href="([^"?#]*)[^"]*" class="md-search-result__link"', document)
 
 
 def test_no_page_is_wider_than_a_phone(browse):
