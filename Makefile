@@ -4,8 +4,9 @@
 find_python = $(shell for p in python$(1) python3 $(HOME)/.pyenv/versions/$(1)*/bin/python3; do \
 	$$p -c 'import sys; sys.exit(sys.version_info[:2] != tuple(map(int, "$(1)".split("."))))' \
 	2>/dev/null && echo $$p && break; done)
-PYTHON ?= $(call find_python,3.11)
-PYTHON313 ?= $(call find_python,3.13)
+# With 3.13, the newest Blender as a module; with 3.11, the newest that there is for it.
+PYTHON ?= $(or $(call find_python,3.13),$(PYTHON311))
+PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
@@ -15,16 +16,16 @@ PIP := -m pip install --quiet --disable-pip-version-check
 PYTEST := -m pytest -c tests/pytest.ini --rootdir tests -n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder --max-worker-restart 0 $(THOROUGH)
 # A thread each for matrices of NumPy and SciPy: more than there are cores wait for each other at full
 # speed. tests/solver/global_step/test_tall_products.py has several; so have windows.
-test-solver test-blender test-oldest test-py313 test-gpu test-wheel: export OPENBLAS_NUM_THREADS ?= 1
+test-solver test-blender test-oldest test-quadrants test-gpu test-wheel: export OPENBLAS_NUM_THREADS ?= 1
 ZIP := dist/cubic_craft.zip
 BARE := $(VENV)-bare-oldest $(VENV)-bare-newest
 SOURCES := __init__.py blender_manifest.toml \
 	$(shell find solver cubic_craft_addon operators -name "*.py" -o -name "*.png")
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-py313 \
+.PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-quadrants \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package lint typecheck \
-	build package upload repository release lock wheel test-wheel bench bench-quick bench-live example-pictures films docs-images clean has-py313
+	build package upload repository release lock wheel test-wheel bench bench-quick bench-live example-pictures films docs-images clean
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -32,8 +33,8 @@ help: ## Show this list
 setup: $(VENV)/.done ## Make the virtual environment .venv, with Blender as a Python module
 
 $(VENV)/.done: requirements/*.txt
-	@test -n "$(PYTHON)" || { echo "no Python 3.11 found, for which the bpy module is built;" \
-		"set it: make PYTHON=path/to/python3.11"; exit 1; }
+	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found, for which bpy modules are built;" \
+		"set it: make PYTHON=path/to/python3.13"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/package.txt \
 		-r requirements/blender-newest.txt
@@ -68,7 +69,7 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 # are enough to see another Blender, as many as there are kinds of results. Blender 4.2 crashes now and
 # then in its glTF exporter if a mesh was in Edit Mode in a file before, without any extension too
 # (docs/reliability.md): what exports has processes of its own.
-test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, in the oldest bpy that we support
+test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blender and Python, in the oldest that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 --ignore tests/blender/hostile \
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
 		$(patsubst %,--ignore-glob "*/test_%.py",assembly docs_examples edited faults flatten_facets floor \
@@ -77,31 +78,27 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on Blender's version, i
 		scenes symmetry up_to_date) --ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 3 tests/blender/send
+	$(VENV)-oldest/bin/python $(PYTEST) --few 2 -m "not thorough" $(WITH_KERNELS)
 
 $(VENV)-oldest/.done: requirements/*.txt
-	$(PYTHON) -m venv $(VENV)-oldest
+	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
+	$(PYTHON311) -m venv $(VENV)-oldest
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
-# What is compared many times over in the mathematics is no other in another Python, and slow. With
-# Quadrants in place of Taichi: Taichi runs in all other environments, and on this Python in a window.
-test-py313: $(VENV)-py313/.done ## The solver on Python 3.13 with NumPy 2 and Quadrants
-	$(VENV)-py313/bin/python $(PYTEST) --few 2 -m "not thorough" $(patsubst %,--ignore tests/solver/%, \
-		contacts proxy frames orientation global_step/test_holds.py global_step/test_upright_parts.py \
-		styles/test_forms.py styles/test_polytope.py \
-		$(patsubst %,test_%.py,acceleration moved normal_capture rotation_fit)) tests/solver
+WITH_KERNELS := $(addprefix tests/solver/,backends coarse_to_fine test_reference_meshes.py test_stylize.py)
 
-$(VENV)-py313/.done: requirements/*.txt
-	@test -n "$(PYTHON313)" || \
-		{ echo "no Python 3.13 found; set it: make PYTHON313=path"; exit 1; }
-	$(PYTHON313) -m venv $(VENV)-py313
-	$(VENV)-py313/bin/python $(PIP) -r requirements/dev.txt "numpy>=2" \
+# Taichi runs in all other environments, in windows too. What needs no kernel is the same with both.
+test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of Taichi
+	$(VENV)-quadrants/bin/python $(PYTEST) --few 2 -m "not thorough" $(WITH_KERNELS)
+
+$(VENV)-quadrants/.done: requirements/*.txt
+	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }
+	$(PYTHON) -m venv $(VENV)-quadrants
+	$(VENV)-quadrants/bin/python $(PIP) -r requirements/dev.txt \
 		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
-	$(VENV)-py313/bin/python -m pip uninstall --quiet --yes taichi
+	$(VENV)-quadrants/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
-
-has-py313:
-	@test -n "$(PYTHON313)"
 
 test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/reliability.md; hours
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_FAULTS=1 CUBIC_CRAFT_ROUNDS=1000 CUBIC_CRAFT_OBJECTS=1000 \
@@ -119,7 +116,7 @@ test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=ow
 		tests/solver/coarse_to_fine/test_coarse_start.py tests/solver/test_stylize.py tests/solver && \
 		CUBIC_CRAFT_ZIP=$(ZIP) $(PY) $(PYTEST) tests/blender/test_gpu.py'
 
-ENVIRONMENTS := $(foreach name,-oldest -docs -wheel -bare-oldest -bare-newest $(if $(PYTHON313),-py313),$(VENV)$(name)/.done)
+ENVIRONMENTS := $(foreach name,-oldest -docs -wheel -bare-oldest -bare-newest -quadrants,$(VENV)$(name)/.done)
 
 setup-all: $(ZIP) $(ENVIRONMENTS) setup-gui ## All that the tests need, ahead of them; side by side with -j
 
@@ -139,7 +136,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages/test_installed.py
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
-	$(PYTHON) -m venv $(VENV)-bare-$*
+	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv $(VENV)-bare-$*
 	$(VENV)-bare-$*/bin/python $(PIP) -r $<
 	@touch $@
 
@@ -176,7 +173,6 @@ wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in
 	$(VENV)-wheel/bin/python -m build --no-isolation --outdir dist
 
 $(VENV)-wheel/.done: requirements/wheel.txt
-	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
 	$(PYTHON) -m venv $(VENV)-wheel
 	$(VENV)-wheel/bin/python $(PIP) -r $<
 	@touch $@
@@ -191,8 +187,8 @@ endef
 NOTEBOOK := tests/library/test_library_notebook.py
 
 test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, its command and the notebook
-	$(call test_library,oldest,$(PYTHON),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
-	$(call test_library,newest,$(or $(PYTHON313),$(PYTHON)),newest,[fast],tests/library)
+	$(call test_library,oldest,$(PYTHON311),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
+	$(call test_library,newest,$(PYTHON),newest,[fast],tests/library)
 
 # Of each lock: a platform, a Python, and the oldest NumPy of a Blender that has it. The solver needs the
 # same on all platforms but Arm, so one lock is for Python 3.11 and 3.13 everywhere.
@@ -223,7 +219,6 @@ docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; 
 	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
 
 $(VENV)-docs/.done: requirements/docs.txt
-	@test -n "$(PYTHON)" || { echo "no Python 3.11 found; set it: make PYTHON=path"; exit 1; }
 	$(PYTHON) -m venv $(VENV)-docs
 	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
 	@touch $@

@@ -83,9 +83,18 @@ def _refers_to_others(modifier):
         if prop.type == "POINTER"
     ]
     if modifier.type == "NODES":
-        values += [modifier.get(key) for key in modifier.keys()]  # noqa: SIM118 - of a modifier
+        values += _given_to_nodes(modifier)
         values += _named_in(modifier.node_group)
     return any(isinstance(value, bpy.types.Object | bpy.types.Collection) for value in values)
+
+
+def _given_to_nodes(modifier):
+    """Return what the sockets of a node group get: before Blender 5.3, custom properties."""
+    if not hasattr(modifier, "properties"):
+        return [modifier.get(key) for key in modifier.keys()]  # noqa: SIM118 - of a modifier
+    sockets = modifier.properties.inputs
+    names = sockets.bl_rna.properties.keys() if sockets is not None else ()
+    return [getattr(getattr(sockets, name), "value", None) for name in names]
 
 
 def _named_in(tree):

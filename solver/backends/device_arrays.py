@@ -9,7 +9,6 @@ from ..errors import CubicCraftError
 from .engine import import_engine
 from .engine_choice import engine, started_program
 from .engine_lock import alone, check_not_forked, is_forked
-from .quick_compilation import quick_compilation
 
 
 class DeviceArrays:
@@ -41,16 +40,15 @@ class DeviceArrays:
         """Return an array with these values; see `HostArrays`."""
         if not len(values):  # of which the engine makes none, and which no kernel reads
             values = np.zeros((1, *values.shape[1:]), values.dtype)
-        with quick_compilation():
-            try:
-                array = _empty_like(values, of_numbers)
-                self._arrays.append(array)
-                array.from_numpy(values)
-            except RuntimeError as error:  # of which the engine makes no kinds
-                raise CubicCraftError(
-                    f"the GPU takes no more arrays ({str(error).strip().partition(chr(10))[0]});"
-                    " choose the device cpu, or take a smaller mesh"
-                ) from error
+        try:
+            array = _empty_like(values, of_numbers)
+            self._arrays.append(array)
+            array.from_numpy(values)
+        except RuntimeError as error:  # of which the engine makes no kinds
+            raise CubicCraftError(
+                f"the GPU takes no more arrays ({str(error).strip().partition(chr(10))[0]});"
+                " choose the device cpu, or take a smaller mesh"
+            ) from error
         return array
 
     @alone

@@ -11,7 +11,6 @@ from .engine import import_engine
 from .engine_choice import engine
 from .engine_lock import ForkedError, alone
 from .numpy_local_step import NumpyLocalStep
-from .quick_compilation import quick_compilation
 from .taichi_local_step import TaichiLocalStep
 
 _log = logging.getLogger(__name__)
@@ -65,9 +64,8 @@ def _taichi_local_step(device, precision, *arguments):
     try:
         import_engine()
         is_imported = True
-        with quick_compilation():
-            wanted = "gpu" if device == "gpu" else "cpu"
-            step = TaichiLocalStep(*arguments, device=wanted, precision=precision)
+        wanted = "gpu" if device == "gpu" else "cpu"
+        step = TaichiLocalStep(*arguments, device=wanted, precision=precision)
     except (MemoryError, KeyboardInterrupt):
         raise
     except BaseException as error:  # a broken installation can raise anything, or want to exit

@@ -13,7 +13,6 @@ from typing import Any
 
 from .engine_choice import TAICHI, engine
 from .engine_lock import alone
-from .quick_compilation import quick_module_search
 
 _RTLD_DEEPBIND = 8  # on Linux; the value means something else on macOS
 
@@ -31,7 +30,6 @@ def import_engine() -> Any:
         environment(engine().greeting, "False"),
         environment(engine().log_level, "error"),
         _without_deepbind(),
-        quick_module_search(),
     ):
         if engine() is TAICHI:
             import taichi as imported

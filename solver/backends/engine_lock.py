@@ -2,7 +2,7 @@
 """One user of the engine at a time: a process has its program, modules and threads only once.
 
 It may be used from any thread, but it is not made for two at once, and what we replace for the time
-of its import or of a compilation is replaced for all threads. So whatever touches it holds `LOCK`.
+of its import is replaced for all threads. So whatever touches it holds `LOCK`.
 A fork waits until nobody does. The child has the engine's program, but none of its threads, and
 would wait for them for ever: see `check_not_forked`.
 """

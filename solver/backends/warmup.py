@@ -4,7 +4,7 @@
 import time
 
 from .arrays import a_few_zeros
-from .quick_compilation import quick_compilation
+from .engine_lock import LOCK
 
 _warm = set()
 
@@ -21,7 +21,7 @@ def warm_up(calls):
     if not cold:
         return 0.0
     begin = time.perf_counter()
-    with quick_compilation():
+    with LOCK:
         for kernel, arguments in cold:
             kernel(*(a_few_zeros(a) if hasattr(a, "shape") else a for a in arguments))
             _warm.add(kernel)

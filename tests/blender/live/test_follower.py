@@ -204,10 +204,28 @@ def add_nodes(obj):
     tree.links.new(info.outputs["Geometry"], join.inputs[0])
     tree.links.new(join.outputs[0], put_out.inputs[0])
     obj.modifiers.new("Nodes", "NODES").node_group = tree
+    return tree
+
+
+def add_nodes_with_a_socket(obj):
+    tree = add_nodes(obj)
+    (info,) = (node for node in tree.nodes if node.bl_idname == "GeometryNodeObjectInfo")
+    other = info.inputs["Object"].default_value
+    info.inputs["Object"].default_value = None
+    name = tree.interface.new_socket("Other", socket_type="NodeSocketObject").identifier
+    put_in = next(node for node in tree.nodes if node.bl_idname == "NodeGroupInput")
+    tree.links.new(put_in.outputs["Other"], info.inputs["Object"])
+    modifier = obj.modifiers["Nodes"]
+    if hasattr(modifier, "properties"):  # from Blender 5.3 on
+        getattr(modifier.properties.inputs, name).value = other
+    else:
+        modifier[name] = other
 
 
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (2.0, 0.5, 1.0)])
-@pytest.mark.parametrize("deform", [add_hook, add_mirror, add_deforming_parent, add_nodes])
+@pytest.mark.parametrize(
+    "deform", [add_hook, add_mirror, add_deforming_parent, add_nodes, add_nodes_with_a_socket]
+)
 def test_what_other_objects_deform_is_seen_alike_beside_the_original(live, follow, deform, scale):
     obj = add_monkey(scale=scale, rotation=(0.0, 0.0, 0.5))
     deform(obj)

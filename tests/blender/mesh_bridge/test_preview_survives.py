@@ -70,6 +70,7 @@ def test_linked_mesh_is_left_alone(bridge, plain_monkey, tmp_path):
     with bpy.data.libraries.load(path, link=True) as (there, here):
         here.meshes = there.meshes
     mesh = here.meshes[0]
+    mesh.use_fake_user = True  # Blender 5.3 makes nothing local that nobody uses
     shape = position_of(mesh)
     assert bridge.has_preview(mesh)
     assert not bridge.end_preview(mesh)

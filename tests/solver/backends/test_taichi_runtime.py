@@ -8,7 +8,7 @@ because that takes seconds to begin.
 import os
 
 import pytest
-from engine_marks import CPU, PACKAGE, needs_engine, needs_taichi
+from engine_marks import CPU, PACKAGE, needs_engine
 from in_a_process import passes
 
 from solver import engine_name
@@ -28,7 +28,7 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
     """Neither a word on the screen, nor the network, nor time for what is not used."""
     output = passes(
         """
-        import inspect, os, types
+        import os, types
         import scipy.sparse
         from urllib import request
         # Its import takes longer than the set-up of a small mesh. SciPy 1.15 imports it itself, so
@@ -36,7 +36,7 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
         for name in [name for name in sys.modules if name.startswith("scipy.sparse.csgraph")]:
             del sys.modules[name]
 
-        calls = {"flags": [], "search": [], "version": [], "compiled": [], "replaced": []}
+        calls = {"flags": [], "version": [], "compiled": [], "replaced": []}
         def spied(name, original, argument=lambda value: value):
             def spy(*args, **named):
                 calls[name].append(argument(args[0]))
@@ -47,7 +47,6 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
 
         request.urlopen = refuse
         sys.setdlopenflags = set_flags = spied("flags", sys.setdlopenflags)
-        inspect.getmodule = search = spied("search", inspect.getmodule, inspect.isframe)
         from solver.backends.engine import ti
         if ti.__name__ == "taichi":
             from taichi.lang import kernel_impl as compiler
@@ -68,8 +67,7 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
 
         if sys.platform == "linux":  # whose flag it is
             assert calls["flags"] and not any(value & 8 for value in calls["flags"]), calls
-        assert sys.setdlopenflags is set_flags and inspect.getmodule is search
-        assert not any(calls["search"]), "all modules were searched for that of a frame"
+        assert sys.setdlopenflags is set_flags
         assert not calls["replaced"], "the engine's own module was changed for a time"
         assert not calls["version"] and "TI_SKIP_VERSION_CHECK" not in os.environ
         # a function for the engine costs as much at every start as a tenth of a whole kernel
@@ -103,62 +101,21 @@ def test_a_gpu_is_used_or_refused_but_never_crashes():
     assert CPU not in output
 
 
-@needs_taichi
-def test_quick_compilation_changes_no_bit_and_leaves_taichi_as_it_was(tmp_path):
-    (tmp_path / "faulty.py").write_text(
-        "import taichi as ti\n@ti.kernel\ndef faulty():\n    x = 1 + unheard_of\n"
-    )
-    passes(
-        f"""
-        import contextlib, inspect
-        from textwrap import TextWrapper
-        getmodule = inspect.getmodule
-        from solver.backends import devices, warmup
-        from solver.backends.engine import import_engine
-        from solver.backends.quick_compilation import quick_compilation
-        from solver.backends.taichi_runtime import start
-        quick = stylize(V, F, device="cpu", max_iterations=5).positions
-        from taichi.lang.ast import ast_transformer_utils
-        assert ast_transformer_utils.TextWrapper is TextWrapper
-        assert inspect.getmodule is getmodule
-        import_engine().reset()  # else the kernels would not be compiled again
-        devices.quick_compilation = warmup.quick_compilation = contextlib.nullcontext
-        slow = stylize(V, F, device="cpu", max_iterations=5).positions
-        np.testing.assert_array_equal(quick, slow)
-
-        # errors in kernels keep their place
-        ti = import_engine()
-        start("cpu")
-        sys.path.insert(0, {str(tmp_path)!r})
-        from faulty import faulty
-        try:
-            with quick_compilation():
-                assert ast_transformer_utils.TextWrapper is not TextWrapper
-                faulty()
-        except ti.TaichiCompilationError as error:
-            assert "line 4" in str(error) and "unheard_of" in str(error), error
-        else:
-            raise AssertionError("compiled")
-        assert ast_transformer_utils.TextWrapper is TextWrapper
-        """
-    )
-
-
 @needs_engine
 def test_threads_may_be_the_first_to_use_it():
     """Whatever is replaced for a time is put back, and each gets what it would get alone."""
     output = passes(
         """
-        import inspect, os
+        import os
         from concurrent.futures import ThreadPoolExecutor
         from solver import problem_with_engine
-        before = sys.stdout, inspect.getmodule, dict(os.environ)
+        before = sys.stdout, sys.setdlopenflags, dict(os.environ)
         def one(scale):
             return stylize(scale * V * (1, 1, scale), F, max_iterations=3)
         scales = (1.0, 1.1, 1.2, 1.3)
         with ThreadPoolExecutor(4) as threads:
             together = list(threads.map(one, scales))
-        assert (sys.stdout, inspect.getmodule, dict(os.environ)) == before
+        assert (sys.stdout, sys.setdlopenflags, dict(os.environ)) == before
         assert problem_with_engine() == ""
         for scale, result in zip(scales, together):
             assert result.device == CPU
@@ -223,25 +180,3 @@ def test_a_forked_process_has_numpy_instead_of_waiting_for_threads():
         """
     )
     assert output == ""
-
-
-def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):
-    (tmp_path / "elsewhere.py").write_text("import sys\nframe = sys._getframe()\n")
-    passes(
-        f"""
-        import inspect
-        from solver.backends.quick_compilation import quick_module_search
-        sys.path.insert(0, {str(tmp_path)!r})
-        import elsewhere
-        nowhere = {{"__name__": "elsewhere", "sys": sys}}
-        exec("frame = sys._getframe()", nowhere)
-        nameless = {{"sys": sys}}
-        exec("frame = sys._getframe()", nameless)
-        frames = [elsewhere.frame, nowhere["frame"], nameless["frame"]]
-        expected = list(map(inspect.getmodule, frames))
-        assert expected[0] is elsewhere
-        with quick_module_search():
-            assert list(map(inspect.getmodule, frames)) == expected
-            assert inspect.getmodule(stylize) is sys.modules["solver.one_call"]
-        """
-    )
