@@ -5,9 +5,9 @@ import unicodedata
 from collections.abc import Iterator
 from typing import Any
 
+from ....solver.console.report import FAILED, KEPT
 from ..process.one_line import one_line
 from .plan import Job
-from .task import FAILED, KEPT
 
 __all__ = ("summary", "table")
 
