@@ -69,8 +69,8 @@ HELP = {
     "--no-render": "no picture",
     "--save-mesh": f"the result: {listing(WRITABLE)}; with several cubeness values one file each "
     "(name_0.4.obj); in a batch the end of the names, such as .obj or _cubic.obj",
-    "--low-poly": "levels of detail beside each .glb or .fbx, name_lod1.glb and so on, with so many "
-    "triangles and a normal map",
+    "--low-poly": "levels of detail beside each .glb or .fbx, name_lod1.glb and so on, with so "
+    "many triangles and a normal map",
     "--bake": f"the cubic version of each frame of an animation: {listing(ANIMATED)}; instead of "
     "a picture and a mesh; in a batch the end of the names. A run that was ended continues where "
     "it was",
