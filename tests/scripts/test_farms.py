@@ -94,3 +94,16 @@ def test_flamenco_makes_a_task_for_each_mesh(folder, monkeypatch):
         options = parse(arguments)
         assert (options.only, options.save_mesh, options.no_render) == (number, ".obj", True)
         assert options.error_file == Path(f"out/{number}.error.txt")
+
+
+def test_the_way_from_a_folder_to_an_engine(folder):
+    script = FARMS.parent / "engine" / "folder_to_engine.py"
+    arguments = ("in", "assets", "--no-render", *QUICK)
+    variables = {"BLENDER": str(folder / "blender")}
+    code, words = run(sys.executable, script, *arguments, cwd=folder, **variables)
+    assert code == 3, words
+    assert "Broken.obj: holds only meshes without faces" in words
+    listed = json.loads((folder / "assets" / "assets.json").read_text())
+    names = [f"it's $HOME{end}.glb" for end in ("", "_lod1", "_lod2", "_lod3")]
+    assert listed == {"it's $HOME.obj": names}
+    assert all((folder / "assets" / name).stat().st_size for name in names)
