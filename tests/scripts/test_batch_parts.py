@@ -33,7 +33,7 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
-    --object=-o --verbose"""
+    --object=-o --verbose --save-mesh .glb --low-poly 900 90 --view 9"""
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
     baked = in_a_worker(batch_options("--bake", "_c.abc", "--frames", "2", "5"), monkeypatch)
     assert baked.frames == [2, 5] and baked.bake == folder / "out" / "a_c.abc"
     assert there.capture == folder / "other" / "b.ply"
-    assert there.input == folder / "a.obj"
+    assert there.input == folder / "a.obj" and there.save_mesh == folder / "out" / "a.glb"
     assert there.output == folder / "out" / "a.png"
     without = in_a_worker(batch_options("--no-render", "--report", "r.json"), monkeypatch)
     assert without.no_render and without.output is None

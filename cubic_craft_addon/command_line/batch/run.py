@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run a batch: tell how each file went and write the report after it, and the table at the end."""
+"""Run a batch: tell how each file went and write the report after it; at the end, what failed."""
 
 import math
 import os
@@ -21,13 +21,15 @@ from ..process.watched_process import Limits, end_processes
 from ..trust.symlinks import refuse_links
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
-from .table import summary, table
+from .summary import summary
 from .task import Batch, do
 
 __all__ = ("SOME_FAILED", "run_batch")
 
 SOME_FAILED = 3
 """exit code"""
+SEEN_AT_ONCE = 20
+"""lines: of more files, those that failed are named once more at the end"""
 WIDEST = 40
 """letters in front of the progress bar, so that it stays in its line"""
 
@@ -47,7 +49,7 @@ def run_batch(
     Raises
     ------
     InputError
-        Nothing can be done at all; what is wrong with a file is in the table.
+        Nothing can be done at all; what is wrong with a file is said of it.
     """
     before_ending(end_processes)
     bar = ProgressBar(memory=math.inf)
@@ -71,9 +73,7 @@ def run_batch(
         }
         report = BatchReport(options.report, head, len(jobs))
     files, error = _do_all(jobs, batch, count, options, bar, report)
-    for line in table(files):
-        bar.say(line)
-    failed = counts_of(list(files.values()))[FAILED]
+    failed = [job for job, about in files.items() if about["status"] == FAILED]
     code = SOME_FAILED if failed or error else 0
     if error:  # exit code 2 says elsewhere that nothing was begun
         bar.warn(f"{program}: error: {error}")
@@ -82,7 +82,9 @@ def run_batch(
     if options.error_file and _write_error(options.error_file, list(files.values())):
         code = 0
     if failed:
-        bar.warn(f"{program}: {failed} of {len(files)} files failed")
+        for job in failed if len(files) > SEEN_AT_ONCE else ():
+            bar.warn(f"{one_line(job.label)}: {summary(files[job])}")
+        bar.warn(f"{program}: {len(failed)} of {len(files)} files failed")
     return code
 
 
