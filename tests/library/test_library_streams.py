@@ -99,6 +99,18 @@ def test_a_folder_and_its_report(suffix, tmp_path):
     assert "no .ply file" in found[1]["error"]
 
 
+def test_an_obj_names_the_materials_of_its_input_from_another_folder(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "skin.mtl").write_text("newmtl skin\n")
+    text = "mtllib skin.mtl\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl skin\nf 1 2 3\n"
+    (tmp_path / "in" / "a.obj").write_text(text)
+    cubic_craft("in", "out", *QUICK, folder=tmp_path)
+    lines = (tmp_path / "out" / "a.obj").read_text().splitlines()
+    assert lines[:2] == ["mtllib ../in/skin.mtl", "mtllib none.mtl"]
+    cubic_craft("in/a.obj", "in/b.obj", *QUICK, folder=tmp_path)
+    assert (tmp_path / "in" / "b.obj").read_text().startswith("mtllib skin.mtl\n")
+
+
 def test_a_quiet_run_says_nothing(tmp_path):
     assert cubic_craft(save(tmp_path / "a.ply"), "b.ply", "--quiet", *QUICK, folder=tmp_path) == []
 
