@@ -140,6 +140,17 @@ def test_levels_of_detail_have_normal_maps_and_are_done_once(folder, tmp_path):
     assert triangles[0] > 10_000 and 450 < triangles[1] <= 900 and 45 < triangles[2] <= 90
 
 
+def test_objects_that_share_a_mesh_share_its_levels(inputs, tmp_path):
+    """One of the two has a modifier, which its low-poly mesh has in it."""
+    arguments = ("--no-render", "--save-mesh", "two.glb", "--low-poly", 50)
+    headless_ok(inputs / "awkward.blend", *QUICK, *arguments, cwd=tmp_path)
+    found, _ = in_glb(tmp_path / "two_lod1.glb")
+    places = {node["name"]: (node["mesh"], "translation" in node) for node in found["nodes"]}
+    assert places == {"awkward Low": (0, True), "twin Low": (0, False)}
+    (mesh,) = found["meshes"]
+    assert found["accessors"][mesh["primitives"][0]["indices"]]["count"] <= 3 * 50
+
+
 def test_the_picture_turns_to_the_side_that_shows_most(tmp_path):
     plate = BOX.replace("v 1 2", "v 1 9").replace("v 0 2", "v 0 9").partition("usemtl")
     flat = "\n".join(line for line in (plate[0] + plate[2]).splitlines() if "mtl" not in line)

@@ -55,7 +55,9 @@ def low_poly(
             for user in sculpture.users[1:]:
                 twin = user.copy()
                 passing.callback(bpy.data.objects.remove, twin)
-                twin.data = made.object.data
+                twin.data, twin.name = made.object.data, f"{user.name} Low"
+                for modifier in [m for m in twin.modifiers if m.type != "ARMATURE"]:
+                    twin.modifiers.remove(modifier)  # the low-poly mesh has them
                 bpy.context.scene.collection.objects.link(twin)
                 objects.append(twin)
             problems += [f"{path}: {problem}" for problem in made.problems]
