@@ -39,6 +39,8 @@ def best_yaw(
         triangles.append(faces + count)
         count += len(own)
     V, F = np.concatenate(points).astype(np.float64), np.concatenate(triangles)
+    if not len(F):
+        return yaw
     V -= V.mean(axis=0)
     tree = BVHTree.FromPolygons(V.tolist(), F.tolist())
     used = np.unique(F)
