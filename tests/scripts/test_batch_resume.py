@@ -58,14 +58,6 @@ def test_only_what_has_changed_is_done_again(folder):
     assert run(folder) == {"a.obj": "kept", "b.obj": "kept", "c.obj": "done"}
 
 
-@pytest.mark.thorough
-def test_other_options_or_force_do_all_again(folder):
-    assert run(folder) == dict.fromkeys(NAMES, "done")
-    assert run(folder, "--cubeness", "0.3") == dict.fromkeys(NAMES, "done")
-    assert run(folder, "--cubeness", "0.3", "--jobs", "2") == dict.fromkeys(NAMES, "kept")
-    assert run(folder, "--cubeness", "0.3", "--force") == dict.fromkeys(NAMES, "done")
-
-
 @pytest.mark.thorough(1)
 @on_posix
 @pytest.mark.parametrize("number", [*CALM, signal.SIGKILL])
