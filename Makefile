@@ -105,7 +105,7 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_BATCH=200 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
 		$(PY) $(PYTEST) --thorough tests/blender/test_faults.py tests/blender/mesh_bridge/test_bridge_faults.py tests/blender/test_leaks.py \
 		tests/blender/test_scenes.py tests/blender/environment/test_other_blenders.py \
-		tests/scripts/test_headless_interrupted.py tests/scripts/test_batch_workers.py
+		tests/scripts/test_headless_interrupted.py
 
 # Of each test one case, as what differs is the device; without comparisons of whole runs that take
 # long, and that test_device_arrays.py makes of the device.

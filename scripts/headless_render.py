@@ -55,7 +55,7 @@ def _arguments() -> list[str]:
 def _command(threads: int | None) -> list[str]:
     """Return what starts this script once more, by Python or the same Blender."""
     if not IS_INSIDE_BLENDER:
-        return ["", str(Path(__file__).resolve())]  # by the Python of whoever starts it
+        return [sys.executable, str(Path(__file__).resolve())]
     import bpy
 
     # As this Blender was started; of two numbers of threads it takes the later.

@@ -10,17 +10,19 @@ import bpy
 
 from ...solver import CubicCraftError
 from ..environment.scene_state import frame_kept, only_selected
+from ..send.targets import TARGETS, Options, exporter, settings, target_of
 
 SUFFIXES = {"CACHE": ".pc2", "SHAPE_KEYS": ".pc2", "ALEMBIC": ".abc", "USD": ".usdc"}
 """of the files of each format; shape keys are read from a point cache"""
-_NAMES = {".abc": "Alembic", ".usd": "USD", ".usdc": "USD", ".usda": "USD"}
 
 
 def check_format(suffix: str) -> None:
     """Raise a CubicCraftError if this Blender cannot write files that end so."""
-    name = _NAMES.get(suffix)
-    if name is not None and not getattr(bpy.app.build_options, name.lower()):
-        raise CubicCraftError(f"this Blender was built without {name}; choose another format")
+    target = TARGETS[target_of(suffix)]
+    if target.operator and not getattr(bpy.app.build_options, target.name.lower()):
+        raise CubicCraftError(
+            f"this Blender was built without {target.name}; choose another format"
+        )
 
 
 def export_frames(objects: Sequence[bpy.types.Object], path: Path, start: int, end: int) -> None:
@@ -38,30 +40,13 @@ def export_frames(objects: Sequence[bpy.types.Object], path: Path, start: int, e
     try:
         with frame_kept(), only_selected(objects):
             scene.frame_start, scene.frame_end = start, end
-            _write(path, start, end)
+            target = target_of(path.suffix)
+            options = Options(frames=(start, end), suffix=path.suffix)
+            chosen = settings(target, list(objects), options, is_modified=True)
+            exporter(target)(filepath=str(path), **chosen)
     except RuntimeError as error:
         raise CubicCraftError(f'"{path.name}" could not be written: {error}') from error
     finally:
         scene.frame_start, scene.frame_end = before
     if not path.exists():
         raise CubicCraftError(f'"{path.name}" could not be written')
-
-
-def _write(path, start, end):
-    if path.suffix == ".abc":
-        bpy.ops.wm.alembic_export(
-            filepath=str(path),
-            start=start,
-            end=end,
-            selected=True,
-            as_background_job=False,
-            evaluation_mode="VIEWPORT",
-        )
-    else:
-        bpy.ops.wm.usd_export(
-            filepath=str(path),
-            selected_objects_only=True,
-            export_animation=True,
-            evaluation_mode="VIEWPORT",
-            export_materials=False,
-        )

@@ -34,8 +34,7 @@ class Program(NamedTuple):
     """how it is started, for --help"""
     arguments: list[str]
     command: Callable[[int | None], list[str]]
-    """gives what starts it once more, with so many threads (None for all); an empty word is the
-    Python of whoever starts it"""
+    """gives what starts it once more, with so many threads (None for all)"""
     registered: Callable[[], AbstractContextManager[None]]
     """has the extension in Blender for a block; until then Blender need not have been started"""
 
@@ -50,7 +49,7 @@ def main_of(program: Program) -> int:
             end_with_input()
         mute_stdout(options.verbose)
         if options.output_folder:
-            return run_batch(options, program.command, version(), program.name, begin)
+            return run_batch(options, program.command, version(), program.name)
         return _run_one(options, program, begin)
     except InputError as error:
         print(f"{program.name}: error: {one_line(str(error))}", file=sys.stderr)
@@ -93,11 +92,10 @@ def _run_limited(options: Namespace, program: Program) -> int:
         It has exceeded a limit.
     """
     before_ending(end_processes)
-    command = [word or sys.executable for word in program.command(options.threads)]
-    process = start([*command, *program.arguments, "--limited"])
+    process = start([*program.command(options.threads), *program.arguments, "--limited"])
     exceeded = finish(process, Limits(options.timeout, options.memory))
-    pictures_and_meshes = (options.output, options.turntable, options.save_mesh, options.cubeness)
-    for path in (*written(*pictures_and_meshes), options.bake, options.report):
+    outputs = written(options.output, options.save_mesh, options)
+    for path in (*outputs, options.bake, options.report):
         if path is not None:
             remove_left_behind(path)
     if exceeded:

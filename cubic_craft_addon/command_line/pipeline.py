@@ -13,7 +13,7 @@ from ..environment.engine_notes import new_engine_warnings
 from .picture.gallery import build_gallery
 from .picture.render import render
 from .picture.studio import furnish
-from .process.output_files import numbered, per_cubeness
+from .process.output_files import meshes, numbered, per_cubeness
 from .process.progress import ProgressBar
 from .reading.form_object import FormMesh, make_form, read_form
 from .reading.load_meshes import Loaded, empty_blender, load
@@ -75,8 +75,11 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
     with _timed("write", seconds):
         if options.save_mesh:
             paths = per_cubeness(options.save_mesh, options.cubeness)
-            save_meshes(paths, sculptures, loaded, options.verbose)
-            bar.say(f"wrote {', '.join(map(str, paths))}")
+            levels, verbose = options.low_poly, options.verbose
+            for problem in save_meshes(paths, sculptures, loaded, levels, verbose):
+                bar.warn(problem)
+            done = meshes(options.save_mesh, options.cubeness, levels)
+            bar.say(f"wrote {', '.join(map(str, done))}")
             _say_if_moved(loaded, options.save_mesh, bar)
     with _timed("render", seconds):
         if options.output:

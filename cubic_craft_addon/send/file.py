@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import bpy
 import numpy as np
@@ -31,6 +30,17 @@ class Sent:
     """what the artist should know, one line each"""
 
 
+@dataclass
+class Ready:
+    """What can be written now."""
+
+    write: Callable[[Path], object]
+    """runs Blender's exporter"""
+    facts: list[str]
+    """about what is written"""
+    problems: list[str]
+
+
 def send(target: str, objects: list[bpy.types.Object], path: Path, options: Options) -> Sent:
     """Write mesh objects, and the armatures that pose them, to one file.
 
@@ -49,34 +59,51 @@ def send(target: str, objects: list[bpy.types.Object], path: Path, options: Opti
     CubicCraftError
         There is nothing to write, or no way to write it there.
     """
-    run, kind = exporter(target), TARGETS[target]
+    exporter(target)
     _check_path(path)
+    with ready(target, objects, options) as it:
+        size = _write(it.write, path)
+    return Sent(f'Wrote "{path.name}": {", ".join(it.facts)}, {size / 1e6:,.2f} MB', it.problems)
+
+
+@contextlib.contextmanager
+def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Iterator[Ready]:
+    """Have mesh objects, and the armatures that pose them, ready to be written during the block.
+
+    Parameters
+    ----------
+    target, objects, options : as of `send`
+
+    Raises
+    ------
+    CubicCraftError
+        There is nothing to write.
+    """
+    run, kind = exporter(target), TARGETS[target]
     for obj in objects:
         mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
         if not mesh_bridge.mesh_of(obj).polygons:
             raise CubicCraftError(f'"{obj.name}" has no faces to write')
-    sent = Sent("")
-    is_modified = kind.is_printed or _can_apply(objects, options, sent.problems)
+    problems: list[str] = []
+    is_modified = kind.is_printed or _can_apply(objects, options, problems)
     facts = [f"{len(objects)} object{'s' * (len(objects) > 1)}"]
     if kind.is_printed:
-        facts.append(_check_printable(objects, options.scale, sent.problems))
+        facts.append(_check_printable(objects, options.scale, problems))
     chosen = settings(target, objects, options, is_modified=is_modified)
     posed = [] if kind.is_printed else objects
     armatures = {armature for obj in posed for armature in _armatures(obj)}
     with contextlib.ExitStack() as stack:
         for obj in {obj.data: obj for obj in objects}.values():
-            values, problems = marks_of(kind, obj, with_groups=options.with_groups)
-            sent.problems += problems
+            values, own = marks_of(kind, obj, with_groups=options.with_groups)
+            problems += own
             mesh = mesh_bridge.mesh_of(obj)
             stack.enter_context(
                 mesh_bridge.carried_attributes(mesh, values, are_colors=kind.groups == "COLORS")
             )
         stack.enter_context(frame_kept())
         missing = stack.enter_context(only_selected([*objects, *armatures]))
-        sent.problems += [f'"{name}" cannot be selected: it was not written' for name in missing]
-        size = _write(run, path, chosen)
-    sent.done = f'Wrote "{path.name}": {", ".join(facts)}, {size / 1e6:,.2f} MB'
-    return sent
+        problems += [f'"{name}" cannot be selected: it was not written' for name in missing]
+        yield Ready(lambda path: run(filepath=str(path), **chosen), facts, problems)
 
 
 def _check_path(path: Path) -> None:
@@ -140,12 +167,12 @@ def _armatures(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
         yield obj.parent
 
 
-def _write(run: Any, path: Path, chosen: dict[str, Any]) -> int:
+def _write(run: Callable[[Path], object], path: Path) -> int:
     """Write under another name first, and return the size of the file."""
     try:
         with replacing(path) as partial:
             try:
-                run(filepath=str(partial), **chosen)
+                run(partial)
             except RuntimeError as error:
                 reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
                 raise CubicCraftError(f'"{path.name}" cannot be written: {reason}') from error

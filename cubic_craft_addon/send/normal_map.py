@@ -64,28 +64,39 @@ def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
         There is no result or no Cycles, or something else is missing. After any exception, nothing
         is left.
     """
-    check_cycles()
-    mesh_bridge.check_usable(obj)
     if mesh_bridge.last_run(obj) is None:
         raise CubicCraftError(f'"{obj.name}" has no result to bake: cubify it first')
-    mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
-    present = mesh_bridge.result_positions(obj)
-    flat = flat_facets(obj, _ANGLE, _TOLERANCE).positions if options.flatten else present
     with contextlib.ExitStack() as undo:
-        made = _make(undo, obj, present, flat, options)
+        made = _make(undo, obj, options)
+        made.problems.extend(_keep(made.image))
         _show_instead(undo, obj, made.object)
         undo.pop_all()
     return made
 
 
-def _make(
-    undo: contextlib.ExitStack,
-    obj: bpy.types.Object,
-    present: np.ndarray,
-    flat: np.ndarray,
-    options: MapOptions,
-) -> NormalMap:
-    """Make all that stays; `undo` removes it again."""
+@contextlib.contextmanager
+def passing_normal_map(obj: bpy.types.Object, options: MapOptions) -> Iterator[NormalMap]:
+    """Give what `make_normal_map` makes during the block, with its image packed; nothing is hidden.
+
+    Raises
+    ------
+    CubicCraftError
+        As `make_normal_map`.
+    """
+    with contextlib.ExitStack() as undo:
+        made = _make(undo, obj, options)
+        made.image.pack()
+        mesh_bridge.link_beside(obj, made.object)
+        yield made
+
+
+def _make(undo: contextlib.ExitStack, obj: bpy.types.Object, options: MapOptions) -> NormalMap:
+    """Make all that stays, but for its place in the scene; `undo` removes it again."""
+    check_cycles()
+    mesh_bridge.check_usable(obj)
+    mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
+    present = mesh_bridge.result_positions(obj)
+    flat = flat_facets(obj, _ANGLE, _TOLERANCE).positions if options.flatten else present
     with studio() as stage, contextlib.ExitStack() as passing:
         high_mesh = _mesh_of_result(stage, obj, present)
         passing.callback(bpy.data.meshes.remove, high_mesh)
@@ -121,7 +132,6 @@ def _make(
     _pose(new, low_mesh, f"{obj.name} Low")
     mesh_bridge.transfer_keys(mesh_bridge.mesh_of(obj), new, seen, triangles, keys)
     setattr(new, IMAGE, image)
-    problems += _keep(image)
     return NormalMap(new, image, apart, problems)
 
 

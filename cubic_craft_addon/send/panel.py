@@ -5,7 +5,7 @@ import bpy
 
 from .. import live
 from .properties import normal_image, normal_map_properties
-from .targets import TARGETS
+from .targets import SENT, TARGETS
 
 SECTION = "CUBIC_CRAFT_PT_send"
 _WIDTH = 8.0  # of the picture, in units of the panel
@@ -15,7 +15,8 @@ def draw(layout, obj):
     """Draw the section for a mesh object."""
     layout.active = live.current() is None
     column = layout.column(align=True)
-    for key, target in TARGETS.items():
+    for key in SENT:
+        target = TARGETS[key]
         button = column.operator("cubic_craft.send_to", text=target.button, icon=target.icon)
         button.target = key
     image = normal_image(obj)

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where results are sent to: `TARGETS` has the exporter of Blender for each, and its settings."""
+"""The kinds of files that results are written to: `TARGETS`, for Send, Bake and the command line.
+
+This imports no bpy, as the command line asks for the formats before Blender starts.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-import bpy
+from ...solver.errors import CubicCraftError
 
-from ...solver import CubicCraftError
+if TYPE_CHECKING:
+    import bpy
 
 
 @dataclass(frozen=True)
@@ -22,6 +26,10 @@ class Options:
     with_groups: bool = True
     scale: float = 1000.0
     """of an STL file: millimeters per unit of Blender"""
+    frames: tuple[int, int] = (1, 1)
+    """of a file that only holds frames"""
+    suffix: str = ""
+    """of the file, for a kind with several"""
 
 
 def exporter(target: str) -> Any:
@@ -32,15 +40,22 @@ def exporter(target: str) -> Any:
     CubicCraftError
         This Blender has none.
     """
+    import bpy
+
     module, name = TARGETS[target].operator.split(".")
     operator = getattr(getattr(bpy.ops, module), name)
     try:
         operator.get_rna_type()
     except KeyError as error:
         add_on = TARGETS[target].add_on
-        where = f'enable the add-on "{add_on}"' if add_on else "update it"
+        where = f'enable the add-on "{add_on}"' if add_on else "choose another format"
         raise CubicCraftError(f"this Blender cannot write {target} files: {where}") from error
     return operator
+
+
+def target_of(suffix: str) -> str:
+    """Return the one of `TARGETS` whose files end so."""
+    return next(key for key, target in TARGETS.items() if suffix.lower() in target.suffixes)
 
 
 def settings(
@@ -57,15 +72,18 @@ def settings(
     is_modified : bool
         Whether modifiers are applied.
     """
-    wanted = TARGETS[target].settings(objects, options, is_modified)
+    make = TARGETS[target].settings
+    wanted = make(objects, options, is_modified) if make else {}
     known = exporter(target).get_rna_type().properties
     return {name: value for name, value in wanted.items() if name in known}
 
 
 def with_suffix(path: str, target: str) -> str:
     """Return a path that ends as the kind of file does."""
+    import bpy
+
     own = TARGETS[target].suffix
-    for suffix in (other.suffix for other in TARGETS.values()):
+    for suffix in (TARGETS[sent].suffix for sent in SENT):
         if path.lower().endswith(suffix) and suffix != own:
             path = path[: -len(suffix)]
     return bpy.path.ensure_ext(path, own) if Path(path).name else path
@@ -129,6 +147,39 @@ def _stl(objects: list[bpy.types.Object], options: Options, is_modified: bool) -
     }
 
 
+def _ply(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
+    return {
+        "export_selected_objects": True,
+        "apply_modifiers": is_modified,
+        "export_uv": False,  # a .ply knows one UV per vertex: seams would split vertices
+    }
+
+
+def _alembic(
+    objects: list[bpy.types.Object], options: Options, is_modified: bool
+) -> dict[str, Any]:
+    start, end = options.frames
+    return {
+        "selected": True,
+        "start": start,
+        "end": end,
+        "as_background_job": False,
+        "evaluation_mode": "VIEWPORT",
+    }
+
+
+def _usd(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
+    return {
+        "selected_objects_only": True,
+        "export_animation": options.with_animation,
+        "export_materials": not options.with_animation,
+        "evaluation_mode": "VIEWPORT",
+        "convert_world_material": False,
+        # no folder of textures beside the file; a .usdz has them in it
+        **({} if options.suffix == ".usdz" else {"export_textures_mode": "KEEP"}),
+    }
+
+
 def has_normal_map(obj: bpy.types.Object) -> bool:
     """Return whether a material of the object has a normal map, which needs tangents."""
     trees = [slot.material and slot.material.node_tree for slot in obj.material_slots]
@@ -144,15 +195,15 @@ class Target:
     """A kind of file, and what is different about it."""
 
     name: str
-    description: str
-    button: str
-    """text of its button in the panel"""
-    icon: str
-    suffix: str
-    operator: str
-    """of Blender, which writes it"""
-    settings: Callable[[list[bpy.types.Object], Options, bool], dict[str, Any]]
+    suffixes: tuple[str, ...]
+    operator: str = ""
+    """of Blender, which writes it; none for what we write ourselves"""
+    settings: Callable[[list[bpy.types.Object], Options, bool], dict[str, Any]] | None = None
     """makes the settings of the operator, of the meshes, and whether modifiers are applied"""
+    description: str = ""
+    button: str = ""
+    """text of its button in the panel, if it has one"""
+    icon: str = "NONE"
     add_on: str = ""
     """of Blender, which has the operator"""
     groups: Literal["", "ATTRIBUTES", "COLORS"] = ""
@@ -161,41 +212,63 @@ class Target:
     """whether vertices come back in their order without being numbered"""
     is_printed: bool = False
     """whether it is a solid of a size in millimeters, and nothing else"""
+    is_animated: bool = False
+    """whether it can hold the vertices of each frame"""
+
+    @property
+    def suffix(self) -> str:
+        """What its files usually end in."""
+        return self.suffixes[0]
+
+    @property
+    def is_for_engines(self) -> bool:
+        """Whether it holds all of an object: materials, textures, bones and shape keys."""
+        return bool(self.groups)
 
 
 TARGETS = {
     "GLTF": Target(
         "glTF",
-        "A .glb file for game engines and the web",
+        (".glb",),
+        "export_scene.gltf",
+        _gltf,
+        description="A .glb file for game engines and the web",
         button="Game Engine (glTF)",
         icon="WORLD",
-        suffix=".glb",
-        operator="export_scene.gltf",
-        settings=_gltf,
         add_on="glTF 2.0 format",
         groups="ATTRIBUTES",
         keeps_vertices=False,
     ),
     "FBX": Target(
         "FBX",
-        "A .fbx file for Unity, Unreal, Maya and others",
+        (".fbx",),
+        "export_scene.fbx",
+        _fbx,
+        description="A .fbx file for Unity, Unreal, Maya and others",
         button="Unity, Unreal, Maya (FBX)",
         icon="EXPORT",
-        suffix=".fbx",
-        operator="export_scene.fbx",
-        settings=_fbx,
         add_on="FBX format",
         groups="COLORS",
     ),
     "STL": Target(
         "STL",
-        "A .stl file for 3D printers, in millimeters",
+        (".stl",),
+        "wm.stl_export",
+        _stl,
+        description="A .stl file for 3D printers, in millimeters",
         button="3D Print (STL)",
         icon="MESH_ICOSPHERE",
-        suffix=".stl",
-        operator="wm.stl_export",
-        settings=_stl,
         is_printed=True,
     ),
+    "OBJ": Target("OBJ", (".obj",)),
+    "PLY": Target("PLY", (".ply",), "wm.ply_export", _ply),
+    "USD": Target(
+        "USD", (".usd", ".usdc", ".usda", ".usdz"), "wm.usd_export", _usd, is_animated=True
+    ),
+    "ALEMBIC": Target("Alembic", (".abc",), "wm.alembic_export", _alembic, is_animated=True),
+    "CACHE": Target("Point Cache", (".pc2",), is_animated=True),
+    "BLEND": Target("Blender", (".blend",)),
 }
-ITEMS = tuple((key, target.name, target.description) for key, target in TARGETS.items())
+SENT = [key for key, target in TARGETS.items() if target.button]
+"""those with a button in the panel"""
+ITEMS = tuple((key, TARGETS[key].name, TARGETS[key].description) for key in SENT)

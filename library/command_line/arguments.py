@@ -3,6 +3,7 @@
 
 import argparse
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 from typing import Any
 
 from solver.console import method_options
@@ -18,8 +19,9 @@ DEFAULTS = {**method_options.DEFAULTS, "together": ("parts", "off")}
 
 HELP = {
     **method_options.HELP,
-    "paths": f"surfaces ({', '.join(FORMATS)}), and at the end the result: a file, or for several "
-    "surfaces a folder; - is standard input or output",
+    "paths": f"surfaces ({', '.join(FORMATS)}) or folders of them, and at the end the result: a "
+    "file, or for several surfaces a folder, which is made; - is standard input or output",
+    "--report": "numbers of each file, written after it; as *.jsonl a line of JSON for each",
     "--format": "of what is written to standard output (default: that of the input)",
     "--quiet": "say nothing but what is wrong",
     "--orientation": "Euler angles of the form in degrees: about X, then Y, then Z",
@@ -32,7 +34,8 @@ HELP = {
 EPILOG = """\
 An output has the vertices and faces of the input, in its order; only positions change.
 Angles and the poles of forms are relative to the axes of the file, with the poles along its Z.
-Exit codes: 0 all outputs are written, 2 one is not, with a line that says why, 130 interrupted.
+Exit codes: 0 all outputs are written, 2 nothing was begun because of what was given, 3 some files
+failed, 130 interrupted.
 """
 
 
@@ -82,6 +85,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--paper", action="store_true")
     method_options.add_solver(add)
     add("--format", choices=[suffix.removeprefix(".") for suffix in FORMATS])
+    add("--report", type=Path, metavar="FILE.json")
     add("--quiet", action="store_true")
     parser.add_argument("--version", action="version", version=_version())
     return parser

@@ -7,6 +7,7 @@ and drops objects, groups and materials. From .obj to .obj, all of them stay as 
 
 import codecs
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -89,6 +90,7 @@ class ObjText:
             lines[row] = b" ".join([*begin, *([hash_sign + comment] if hash_sign else [])])
         if len(moved):
             lines = [_without_normals(line) for line in lines if line.split()[:1] != [b"vn"]]
+        lines = [_seen_from(path.parent, self._path.parent, line) for line in lines]
         path.write_bytes(b"".join(line + self._newline for line in lines))
 
     def _coordinates(self, words: list[bytes], number: int) -> list[float]:
@@ -121,3 +123,17 @@ def _without_normals(line: bytes) -> bytes:
     if words[:1] != [b"f"] or line.count(b"/") < 2:
         return line
     return b" ".join(b"/".join(word.split(b"/")[:2]).rstrip(b"/") for word in words)
+
+
+def _seen_from(folder: Path, home: Path, line: bytes) -> bytes:
+    """Let a line with a material library, in a file of one folder, name the same in another."""
+    keyword, *rest = line.split(None, 1) or [b""]
+    name = os.fsdecode(rest[0].strip()) if rest else ""
+    is_here = not (home / name).is_file() or (folder / name).is_file()
+    if keyword != b"mtllib" or is_here or folder.name.startswith("cubic_craft-"):  # on its way out
+        return line
+    try:
+        place = Path(os.path.relpath((home / name).resolve(), folder.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return line
+    return b"mtllib " + os.fsencode(place)

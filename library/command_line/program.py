@@ -5,11 +5,14 @@ import contextlib
 import sys
 import time
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
+from solver.console.report import DONE, FAILED, LINES, BatchReport, counts_of, in_words
 from solver.console.temporary import replacing, temporary_folder
 
 from .arguments import parse
@@ -32,61 +35,127 @@ def run(arguments: list[str]) -> int:
     """Do what a command line says, and return the exit code."""
     try:
         options = parse(arguments)
-        return max([_exit_code(*job, options) for job in _jobs(options)])
+        jobs, kinds = _jobs(options)
     except InputError as error:
         _say(f"error: {error}")
         return 2
+    if kinds and not options.quiet:
+        _say(f"left out, of kinds that are not read: {in_words(kinds)}")
+    report = BatchReport(options.report, {}, len(jobs)) if options.report else None
+    files, is_written = [], True
+    for source, output in jobs:
+        about = _about(source, output, options)
+        files.append({"input": source, **about})
+        if report:
+            try:
+                report.write(files, files[-1])
+                is_written = True
+            except (InputError, OSError) as error:
+                is_written = False
+                _say(f"error: {error}")
+    failed = counts_of(files)[FAILED]
+    if len(jobs) == 1 and failed:
+        return 2
+    if failed:
+        _say(f"{failed} of {len(jobs)} files failed")
+    return 0 if is_written and not failed else 3
 
 
-def _exit_code(source: str, output: str, options: Namespace) -> int:
+def _about(source: str, output: str, options: Namespace) -> dict[str, Any]:
     """Do one run; what is wrong with it is said, and does not hinder the others."""
     try:
-        lines = _run(source, output, options)
+        about, lines = _run(source, output, options)
     except InputError as error:
         _say(f"error: {error}")
-        return 2
+        return {"status": FAILED, "error": str(error)}
     for line in lines if not options.quiet else ():
         _say(line)
-    return 0
+    return {"status": DONE, "outputs": [output], **about}
 
 
 def _say(line: str) -> None:
     print(f"{PROGRAM}: {line}", file=sys.stderr)
 
 
-def _jobs(options: Namespace) -> list[tuple[str, str]]:
-    """Return the input and the output of each run, which are checked before the first begins."""
-    inputs, output = options.inputs, options.output
-    if len(inputs) == 1:
-        jobs = [(inputs[0], output)]
-    elif Path(output).is_dir():
+def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
+    """Return the input and the output of each run, which are checked before the first begins.
+
+    And how many files of which kinds lie in the folders that were given, but are none that can be
+    read.
+    """
+    inputs, kinds = _surfaces(options.inputs)
+    output, is_batch = options.output, inputs != options.inputs or len(inputs) > 1
+    jobs = [(inputs[0], output)]
+    if is_batch or Path(output).is_dir():
+        if output == STANDARD:
+            raise InputError("standard output can be only one result; give a folder")
         jobs = [(source, str(Path(output) / Path(source).name)) for source in inputs]
-    else:
-        raise InputError(f"{output}: is not a folder, which several results need; create it")
     written: set[str] = set()
     for source, target in jobs:
         if len(jobs) > 1 and source == STANDARD:
             raise InputError("standard input can be only one; give it alone")
-        _check_files(source, target)
+        _check_kinds(source, target)
         if target in written:
             raise InputError(f"{target}: two inputs have this name; give them one by one")
         written.add(target)
-    return jobs
+    if is_batch:
+        _make_folder(Path(output))
+    for source, target in jobs:
+        _check_output(source, target)
+    if options.report:
+        check_writable(options.report)
+        if options.report.suffix.lower() not in (".json", LINES):
+            raise InputError(f"--report {options.report}: the name must end in .json or {LINES}")
+    return jobs, kinds
 
 
-def _check_files(source: str, output: str) -> None:
+def _surfaces(inputs: list[str]) -> tuple[list[str], Counter[str]]:
+    """Return the inputs with the files of folders in their place, in order of name."""
+    found, kinds = [], Counter()
+    for given in inputs:
+        if given == STANDARD or not Path(given).is_dir():
+            found.append(given)
+            continue
+        paths = [p for p in sorted(Path(given).iterdir()) if p.name[0] != "." and p.is_file()]
+        own = [str(path) for path in paths if path.suffix.lower() in FORMATS]
+        left_out = Counter(p.suffix.lower() for p in paths if p.suffix.lower() not in FORMATS)
+        if not own:
+            only = f", only {in_words(left_out)}" if left_out else ""
+            kinds = ", ".join(FORMATS)
+            raise InputError(f"{given}: there are no surfaces in this folder{only}; give {kinds}")
+        found += own
+        kinds += left_out
+    return found, kinds
+
+
+def _make_folder(folder: Path) -> None:
+    if folder.is_file():
+        raise InputError(f"{folder}: is a file; several results need a folder")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"{folder}: cannot be made ({reason}); choose another") from error
+
+
+def _check_kinds(source: str, output: str) -> None:
     for path in (Path(name) for name in (source, output) if name != STANDARD):
         if path.suffix.lower() not in FORMATS:
             kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
             raise InputError(f"{path}: {kind} are not supported; give {', '.join(FORMATS)}")
+    if source != STANDARD and not Path(source).exists():
+        raise InputError(f"{source}: there is no such file; check the path")
+
+
+def _check_output(source: str, output: str) -> None:
     if output != STANDARD:
         check_writable(Path(output))
         if Path(source).resolve() == Path(output).resolve():
             raise InputError(f"{output}: this is the input; give another name")
 
 
-def _run(source: str, output: str, options: Namespace) -> list[str]:
-    """Read, stylize and write; return a summary, and notes."""
+def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], list[str]]:
+    """Read, stylize and write; return what the report has, and a summary and notes."""
     # Late, because they take a while to import: --help and mistyped options need none.
     from . import mesh_files
     from .style import stylized
@@ -113,7 +182,19 @@ def _run(source: str, output: str, options: Namespace) -> list[str]:
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.5g}, "
         f"{result.device}, {seconds:.1f} s"
     )
-    return [summary, *(f"note: {note}" for note in notes)]
+    numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
+    about = {
+        "seconds": seconds,
+        "vertices": len(file.surface.points),
+        "faces": file.surface.face_count,
+        "iterations": result.iterations,
+        "converged": bool(result.converged),
+        "crossings": result.crossings,
+        "energy": {name: float(value) for name, value in numbers.items()},
+        "device": result.device,
+        "notes": notes,
+    }
+    return about, [summary, *(f"note: {note}" for note in notes)]
 
 
 @contextlib.contextmanager

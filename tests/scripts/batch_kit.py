@@ -4,8 +4,6 @@
 import contextlib
 import json
 import os
-import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -33,36 +31,6 @@ def batch(*arguments, cwd, options=MESHES):
 def start(*arguments, cwd, options=MESHES):
     """Start a batch into the folder ``out``."""
     return start_headless(*arguments, "--output-folder", "out", *options, cwd=cwd)
-
-
-@contextlib.contextmanager
-def cluster_of(workers, folder):
-    """Give the address of a Dask cluster, and the process of its workers."""
-    place = folder / "place.json"
-    where = ("--host", "127.0.0.1", "--port", "0", f"--scheduler-file={place}")
-    scheduler = _dask("scheduler", *where, folder=folder)
-    end = time.monotonic() + PATIENCE
-    while not place.exists():
-        assert scheduler.poll() is None and time.monotonic() < end
-        time.sleep(0.1)
-    time.sleep(0.5)  # until it is whole
-    address = json.loads(place.read_text())["address"]
-    many = ("--nworkers", str(workers), "--nthreads", "1")
-    worker = _dask("worker", address, *many, folder=folder)
-    yield address, worker
-    for program in (worker, scheduler):
-        program.terminate()
-        program.wait(PATIENCE)
-
-
-def _dask(command, *arguments, folder):
-    """Start a program of Dask in a folder of its own."""
-    (folder / command).mkdir()
-    return subprocess.Popen(
-        [sys.executable, "-m", f"distributed.cli.dask_{command}", "--no-dashboard", *arguments],
-        cwd=folder / command,
-        stderr=subprocess.DEVNULL,
-    )
 
 
 def files_of(process):

@@ -36,6 +36,7 @@ def _import(path, suffix):
         ".abc": wm.alembic_import,
         ".obj": wm.obj_import,
         ".blend": wm.open_mainfile,
+        ".fbx": bpy.ops.import_scene.fbx,
     }
     importers.get(suffix, wm.usd_import)(filepath=path)
 

@@ -43,29 +43,41 @@ def test_the_report_has_all_files(done):
     folder, _ = done
     assert statuses(folder) == dict.fromkeys(SOUND, "done") | dict.fromkeys(BROKEN, "failed")
     report = json.loads((folder / "report.json").read_text())
-    assert report["counts"] == {"done": 3, "kept": 0, "failed": 3}
+    assert report["counts"] == {"done": 3, "kept": 0, "failed": 3} and report["unfinished"] == 0
+    assert report["kinds_left_out"] == {".txt": 1}
     for each in report["files"]:
         if each["status"] == "failed":
             assert each["error"] and "\n" not in each["error"]
         else:
             (run,) = each["report"]["objects"][0]["runs"]
             assert np.isfinite(run["energy"]["total"])
+            assert 0.01 < each["peak_gb"] == each["report"]["peak_gb"] < 100
             assert each["outputs"] == [Path(each["input"]).stem + ".obj"]
 
 
-def test_the_table_has_a_row_for_each_file(done):
+def test_each_file_has_a_line(done):
     _, process = done
     assert process.stdout == ""
     assert "Traceback" not in process.stderr
     lines = process.stderr.splitlines()
-    begin = next(number for number, line in enumerate(lines) if line.startswith("file "))
-    rows = {line.split()[0]: line.split()[1:] for line in lines[begin + 1 :]}
-    assert list(rows)[:6] == sorted((*SOUND, *BROKEN))
-    assert rows["moebius.obj"][:2] == ["0.4", "24"]
-    assert rows["moebius.obj"][-1] == "moebius.obj"
-    for name in BROKEN:
-        assert rows[name][0] == "failed:" and len(rows[name]) > 3
+    assert "left out, of kinds that are not read: 1 .txt" in lines
+    rows = dict(line.split(", ", 1)[1].split(": ", 1) for line in lines if line[1:7] == " of 6,")
+    assert sorted(rows) == sorted((*SOUND, *BROKEN))
+    assert rows["moebius.obj"].startswith("24 vertices, cubeness 0.4: ")
+    assert rows["moebius.obj"].endswith(" GB")
+    assert all(rows[name].startswith("failed: ") for name in BROKEN)
     assert lines[-1] == "headless_render.py: 3 of 6 files failed"
+
+
+def test_a_report_of_lines_has_one_for_each_file_as_soon_as_it_is_done(tmp_path):
+    (tmp_path / "a.obj").write_text(CUBE)
+    (tmp_path / "b.obj").write_text("v 0 0 0\n")
+    (tmp_path / "lines.jsonl").write_text("of an earlier run\n")
+    process = batch("a.obj", "b.obj", "--report", "lines.jsonl", cwd=tmp_path)
+    assert process.returncode == 3, process.stderr
+    rows = [json.loads(row) for row in (tmp_path / "lines.jsonl").read_text().splitlines()]
+    assert [Path(row["input"]).name for row in rows] == ["a.obj", "b.obj"]
+    assert (rows[0]["outputs"], rows[1]["status"]) == (["a.obj"], "failed")
 
 
 @pytest.mark.thorough
@@ -93,8 +105,8 @@ def test_files_may_have_any_name(tmp_path):
     process = headless(".", "--output-folder=-out 立", "--jobs", 2, *MESHES, cwd=folder)
     assert process.returncode == 0, process.stderr
     assert files_in(folder / "-out 立") == sorted(f"{name}.obj" for name in names)
-    rows = process.stderr[process.stderr.index("\nfile ") :].splitlines()[2:]
-    assert len(rows) == len(names), "each has one row, in one line"
+    rows = [line for line in process.stderr.splitlines() if line[1:7] == " of 4,"]
+    assert len(rows) == len(names), "each has one line"
 
 
 def test_every_file_gets_the_handles_and_options_and_says_what_is_left_out(tmp_path):

@@ -6,13 +6,9 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from urllib.error import HTTPError
-from urllib.request import urlopen
 
-import psutil
 import pytest
 from batch_kit import CUBE
-from scripts.cubic_craft.cubic_craft_addon.command_line.batch.engine import workers_for
 from scripts.cubic_craft.cubic_craft_addon.command_line.batch.plan import (
     OF_THE_BATCH,
     Job,
@@ -23,7 +19,8 @@ from scripts.cubic_craft.cubic_craft_addon.command_line.batch.plan import (
 from scripts.cubic_craft.cubic_craft_addon.command_line.batch.sources import find_sources
 from scripts.cubic_craft.cubic_craft_addon.command_line.batch.task import Batch, do, key_of
 from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
-from scripts.cubic_craft.cubic_craft_addon.command_line.process.lock import alone_at
+from scripts.cubic_craft.cubic_craft_addon.command_line.process.watched_process import Limits
+from scripts.cubic_craft.solver.console.report import in_words
 
 ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --map=-m
     --form directions --form-sides 5 --form-weights 1 2 0 --form-object other/A.obj
@@ -36,7 +33,7 @@ ALL_OPTIONS = """--cubeness 0.1 1e-05 --orientation -0.00001 2.5 -90 --pin=-a --
     --with-modifiers
     --max-iterations 7 --tolerance 1e-12 --device numpy --handles h.json
     --engine workbench --samples 3 --resolution 32 33 --turn -90 0 -0.0000001 --turntable 4
-    --object=-o --verbose"""
+    --object=-o --verbose --save-mesh .glb --low-poly 900 90 --view 9"""
 
 
 @pytest.fixture
@@ -55,10 +52,11 @@ def batch_options(*words):
 
 def in_a_worker(options, monkeypatch):
     """Return the options that a worker has for the first file of a batch."""
-    (job, *_) = plan(options, find_sources(options.inputs, False, options.output_folder))
+    found = find_sources(options.inputs, False, options.output_folder)
+    (job, *_) = plan(options, found.sources)
     job.record.parent.mkdir(parents=True, exist_ok=True)
     monkeypatch.setattr("sys.stdin", io.StringIO(settings_of(options) + "\n"))
-    return parse([*job.arguments, "--worker=key:batch"])
+    return parse([*job.arguments, "--worker=key"])
 
 
 def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
@@ -72,7 +70,7 @@ def test_every_option_reaches_the_workers_as_it_was_given(folder, monkeypatch):
     baked = in_a_worker(batch_options("--bake", "_c.abc", "--frames", "2", "5"), monkeypatch)
     assert baked.frames == [2, 5] and baked.bake == folder / "out" / "a_c.abc"
     assert there.capture == folder / "other" / "b.ply"
-    assert there.input == folder / "a.obj"
+    assert there.input == folder / "a.obj" and there.save_mesh == folder / "out" / "a.glb"
     assert there.output == folder / "out" / "a.png"
     without = in_a_worker(batch_options("--no-render", "--report", "r.json"), monkeypatch)
     assert without.no_render and without.output is None
@@ -106,8 +104,8 @@ def test_the_paper_is_its_options_in_full(folder, monkeypatch):
 
 
 def names(*inputs, is_recursive=False):
-    sources = find_sources([Path(name) for name in inputs], is_recursive, Path("out"))
-    return {source.path.relative_to(Path.cwd()).as_posix(): source.name for source in sources}
+    found = find_sources([Path(name) for name in inputs], is_recursive, Path("out"))
+    return {source.path.relative_to(Path.cwd()).as_posix(): source.name for source in found.sources}
 
 
 def test_names_of_results(folder):
@@ -164,7 +162,7 @@ def test_the_key_changes_with_all_that_decides_about_the_result(folder):
 def batch_of(folder, code):
     """Return a job, and a batch that does it by this code in a Python instead of the script."""
     job = Job(folder / "a.obj", "a.obj", (folder / "a.png",), folder / "record.json", ())
-    return job, Batch("first", ["", "-c", code], 3, "{}", "options", False)
+    return job, Batch([sys.executable, "-c", code], 3, "{}", "options", False)
 
 
 WRITES = """
@@ -173,7 +171,7 @@ pathlib.Path("a.png").write_bytes(b"picture")
 made = {"for": sys.argv[-1].removeprefix("--worker="), "sizes": {"a.png": 7}}
 limits = ("OMP_NUM_THREADS", "TI_CPU_MAX_NUM_THREADS", "QD_CPU_MAX_NUM_THREADS")
 threads = "/".join({os.environ[name] for name in limits})
-about = {"threads": threads, "seconds": {"total": 1.5}, "made": made}
+about = {"threads": threads, "seconds": {"total": 1.5}, "peak_gb": 2, "made": made}
 pathlib.Path("record.json").write_text(json.dumps(about))
 print("a warning", file=sys.stderr)
 """
@@ -182,17 +180,13 @@ print("a warning", file=sys.stderr)
 def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
     job, batch = batch_of(folder, WRITES)
     job.record.write_text("[]")  # of something else
-    report = {"threads": "3", "seconds": {"total": 1.5}}
-    done = {"status": "done", "seconds": 1.5, "report": report, "words": "a warning\n"}
+    report = {"threads": "3", "seconds": {"total": 1.5}, "peak_gb": 2}
+    as_before = {"seconds": 1.5, "peak_gb": 2, "report": report}
+    done = {"status": "done", **as_before, "words": "a warning\n"}
+    kept = {"status": "kept", **as_before}
     assert do(job, batch) == done
-    as_before = {"seconds": 1.5, "report": report}
-    for is_forced in (False, True):  # as its worker was lost before it could tell
-        of_this_batch = do(job, batch._replace(is_forced=is_forced))
-        assert of_this_batch == {"status": "done", **as_before}
-    batch, kept = batch._replace(name="second"), {"status": "kept", **as_before}
     assert do(job, batch) == kept
     assert do(job, batch._replace(is_forced=True)) == done
-    batch = batch._replace(name="third")
     assert do(job, batch) == kept
     assert do(job, batch._replace(decides="others")) == done
     assert do(job, batch) == done
@@ -200,23 +194,15 @@ def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
     assert do(job, batch) == done
     (folder / "a.png").unlink()
     assert do(job, batch) == done
-    assert do(job, batch._replace(name="fourth")) == kept
+    assert do(job, batch) == kept
 
 
 def test_a_file_that_is_given_out_twice_is_done_once(folder):
     job, batch = batch_of(folder, f"import time; time.sleep(0.5)\n{WRITES}")
-    batches = [batch._replace(name=name) for name in ("first", "second", "third")]
     with ThreadPoolExecutor() as pool:
-        found = list(pool.map(lambda each: do(job, each)["status"], batches))
+        found = list(pool.map(lambda each: do(job, each)["status"], [batch] * 3))
     assert sorted(found) == ["done", "kept", "kept"]
     assert not list(folder.glob(".*"))
-
-
-def test_who_is_not_wanted_any_more_does_not_wait(folder):
-    job, batch = batch_of(folder, WRITES)
-    with alone_at(job.record, lambda: True):
-        result = do(job, batch, is_wanted=lambda: False)
-    assert (result["status"], result["error"]) == ("failed", "another process is at work on it")
 
 
 @pytest.mark.parametrize(
@@ -234,11 +220,6 @@ def test_why_a_file_failed(folder, code, error):
     assert (result["status"], result["error"]) == ("failed", error)
 
 
-def test_a_file_that_nobody_waits_for_is_given_up(folder):
-    job, batch = batch_of(folder, "import sys; sys.stdin.read(); sys.exit(9)")
-    assert "9" in do(job, batch, is_wanted=lambda: False)["error"]
-
-
 @pytest.mark.parametrize(
     ("limits", "code", "words"),
     [
@@ -248,22 +229,24 @@ def test_a_file_that_nobody_waits_for_is_given_up(folder):
 )
 def test_a_file_that_takes_more_than_it_may_is_given_up(folder, limits, code, words):
     job, batch = batch_of(folder, f"import sys; sys.stdin.readline(); {code}")
-    result = do(job, batch._replace(limits=limits))
+    result = do(job, batch._replace(limits=Limits(*limits)))
     assert (result["status"], result["refused"]) == ("failed", True)
     assert words in result["error"]
     assert do(*batch_of(folder, WRITES))["status"] == "done"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it has neither")
-def test_pipes_devices_and_hidden_files_are_named_and_not_read(folder):
+def test_what_is_left_out_is_named_and_not_read(folder):
     os.mkfifo(folder / "sub" / "pipe.obj")
     (folder / "sub" / "zero.ply").symlink_to("/dev/zero")
     (folder / "sub" / "nothing.ply").symlink_to("nowhere")
     (folder / "sub" / "link.obj").symlink_to(folder / "other" / "b.ply")
     (folder / "sub" / ".hidden.obj").write_text(CUBE)
-    left_out = []
-    sources = find_sources([folder / "sub"], False, folder / "out", left_out.append)
+    for name in ("b.max", "c.max", "README", ".DS_Store"):
+        (folder / "sub" / name).write_text("no mesh")
+    sources, left_out, kinds = find_sources([folder / "sub"], False, folder / "out")
     assert [source.path.name for source in sources] == ["a.obj", "link.obj"]
+    assert in_words(kinds) == "2 .max, 1 without a suffix"
     names = [".hidden.obj", "nothing.ply", "pipe.obj", "zero.ply"]
     assert [path.name for path in left_out] == names
     job, batch = batch_of(folder, WRITES)
@@ -275,18 +258,6 @@ def test_a_record_that_is_nested_too_deeply_counts_as_none(folder):
     job, batch = batch_of(folder, WRITES)
     job.record.write_text("[" * 100_000)
     assert do(job, batch)["status"] == "done"
-
-
-def test_own_workers_listen_to_this_machine_only_and_show_nothing(folder):
-    with workers_for(batch_options("--jobs", "2"), 2) as client:
-        assert client.submit(int).result() == 0
-        connections = psutil.Process().net_connections()
-        listening = [c.laddr for c in connections if c.status == psutil.CONN_LISTEN]
-        assert {address.ip for address in listening} <= {"127.0.0.1"}
-        for address in listening:
-            for page in ("", "status", "metrics"):
-                with pytest.raises(HTTPError):
-                    urlopen(f"http://127.0.0.1:{address.port}/{page}")
 
 
 def test_a_file_that_is_gone_has_failed(folder):

@@ -5,13 +5,13 @@ import os
 
 import pytest
 from batch_kit import CUBE
-from headless import PATIENCE, SCRIPT, headless, headless_refused, start_headless
+from headless import headless, headless_refused
 
 TO = ("--output-folder", "out")
 
 # arguments, and what the one line must name
 REFUSALS = {
-    "folder of nothing": (["empty", *TO], ["empty", "no meshes", ".obj"]),
+    "folder of nothing": (["empty", *TO], ["empty", "no meshes", "only 1 .max", ".obj"]),
     "folder of folders": (["above", *TO], ["above", "no meshes", "--recursive"]),
     "empty all the way": (["empty", *TO, "--recursive"], ["empty", "no meshes"]),
     "no output folder": (["meshes"], ["meshes", "folder", "--output-folder"]),
@@ -30,7 +30,12 @@ REFUSALS = {
     "a name, no ending": (["meshes", *TO, "--save-mesh", "a.obj"], ["--save-mesh", "_cubic.obj"]),
     "a path, no ending": (["meshes", *TO, "--save-mesh", "./_a.obj"], ["--save-mesh", "_cubic"]),
     "no format": (["meshes", *TO, "--save-mesh", "_cubic"], ["--save-mesh", ".ply"]),
-    "stl": (["meshes", *TO, "--save-mesh", ".stl"], ["--save-mesh", "vertex order"]),
+    "gltf": (["meshes", *TO, "--save-mesh", ".gltf"], ["--save-mesh", ".gltf", ".glb"]),
+    "levels without files": (["meshes", *TO, "--low-poly", "100"], ["--low-poly", "--save-mesh"]),
+    "levels of nothing": (
+        ["meshes", *TO, "--low-poly", "100", "--save-mesh", ".obj"],
+        ["--low-poly", ".glb or .fbx"],
+    ),
     "into the inputs": (
         ["meshes", "--output-folder", "meshes", "--save-mesh", "_c.obj"],
         ["--output-folder", "meshes", "inputs"],
@@ -45,12 +50,6 @@ REFUSALS = {
     "jobs for one": (["a.obj", "--jobs", "2"], ["--jobs", "--output-folder"]),
     "force for one": (["a.obj", "--force"], ["--force", "--output-folder"]),
     "recursive for one": (["a.obj", "--recursive"], ["--recursive", "--output-folder"]),
-    "jobs of a cluster": (
-        ["meshes", *TO, "--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"],
-        ["--jobs", "cluster"],
-    ),
-    "no address": (["meshes", *TO, "--scheduler", "no way"], ["--scheduler no way"]),
-    "cluster for one": (["a.obj", "--scheduler", "x"], ["--scheduler", "--output-folder"]),
     "no handles": (["meshes", *TO, "--handles", "none.json"], ["--handles", "none.json"]),
 }
 
@@ -62,6 +61,7 @@ def folder(tmp_path):
         (tmp_path / name).write_text(CUBE)
     (tmp_path / "notes.txt").write_text("no mesh")
     (tmp_path / "empty").mkdir()
+    (tmp_path / "empty" / "scene.max").write_text("no mesh")
     os.mkfifo(tmp_path / "pipe.obj")
     return tmp_path
 
@@ -71,50 +71,3 @@ def folder(tmp_path):
 def test_refusal(folder, case):
     arguments, words = REFUSALS[case]
     headless_refused(*arguments, words=words, cwd=folder, run=headless)
-
-
-SOON = f"""
-import runpy, sys
-sys.argv[0] = {str(SCRIPT)!r}
-sys.path.insert(0, {str(SCRIPT.parent)!r})
-from cubic_craft.cubic_craft_addon.command_line.batch import engine
-engine.SECONDS_TO_ANSWER = 1
-runpy.run_path(sys.argv[0], run_name="__main__")
-"""
-
-
-def test_where_no_cluster_answers_it_says_so(folder):
-    address = "tcp://127.0.0.1:9"
-    process = start_headless("meshes", *TO, "--scheduler", address, cwd=folder, script=("-c", SOON))
-    _, errors = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2, errors
-    (line,) = errors.splitlines()
-    assert f"--scheduler {address}: no scheduler answers" in line and "dask scheduler" in line
-    assert not (folder / "out").exists()
-
-
-WITHOUT = f"""
-import runpy, sys
-sys.modules["distributed"] = None
-sys.argv[0] = {str(SCRIPT)!r}
-runpy.run_path(sys.argv[0], run_name="__main__")
-"""
-
-
-@pytest.mark.parametrize("option", [("--jobs", "2"), ("--scheduler", "tcp://127.0.0.1:9")])
-def test_dask_is_missing(folder, option):
-    before = sorted(folder.rglob("*"))
-    process = start_headless("a.obj", "b.obj", *TO, *option, cwd=folder, script=("-c", WITHOUT))
-    _, errors = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2, errors
-    (line,) = errors.splitlines()
-    assert option[0] in line and line.endswith("-m pip install distributed")
-    assert sorted(folder.rglob("*")) == before
-
-
-def test_one_after_the_other_needs_no_package(folder):
-    quick = ("--device", "numpy", "--max-iterations", "1", "--no-render", "--save-mesh", ".obj")
-    for arguments in (["a.obj", "b.obj"], ["meshes", "--jobs", "2"]):  # with one file in it
-        process = start_headless(*arguments, *TO, *quick, cwd=folder, script=("-c", WITHOUT))
-        _, errors = process.communicate(timeout=PATIENCE)
-        assert process.returncode == 0, errors

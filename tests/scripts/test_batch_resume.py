@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Batches that are stopped or have lost a worker, and what the next run does again."""
+"""Batches that are stopped and what the next run does again."""
 
+import json
 import os
 import signal
 import sys
@@ -57,19 +58,11 @@ def test_only_what_has_changed_is_done_again(folder):
     assert run(folder) == {"a.obj": "kept", "b.obj": "kept", "c.obj": "done"}
 
 
-@pytest.mark.thorough
-def test_other_options_or_force_do_all_again(folder):
-    assert run(folder) == dict.fromkeys(NAMES, "done")
-    assert run(folder, "--cubeness", "0.3") == dict.fromkeys(NAMES, "done")
-    assert run(folder, "--cubeness", "0.3", "--jobs", "2") == dict.fromkeys(NAMES, "kept")
-    assert run(folder, "--cubeness", "0.3", "--force") == dict.fromkeys(NAMES, "done")
-
-
 @pytest.mark.thorough(1)
 @on_posix
 @pytest.mark.parametrize("number", [*CALM, signal.SIGKILL])
 def test_stopped_in_the_middle(folder, number):
-    process = start("meshes", cwd=folder)
+    process = start("meshes", "--report", "report.json", cwd=folder)
     assert process.stderr.readline().startswith("1 of 2, a.obj: ")
     (worker,) = wait_for_files(process)
     process.send_signal(number)
@@ -82,6 +75,8 @@ def test_stopped_in_the_middle(folder, number):
         assert errors == f"headless_render.py: {CALM[number]}\n"
         assert not is_there(worker)
     assert set(files_in(folder / "out")) <= set(NAMES), "something half-written is left"
+    report = json.loads((folder / "report.json").read_text())
+    assert statuses(folder) == {"a.obj": "done"} and report["unfinished"] == 1
     assert run(folder) == {"a.obj": "kept", "b.obj": "done"}
     assert files_in(folder / "out") == NAMES
 

@@ -112,17 +112,6 @@ def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     assert not temporaries(tmp_path)
 
 
-@pytest.mark.thorough(1)
-@pytest.mark.parametrize("number", CALM)
-def test_stopped_while_it_solves(tmp_path, number):
-    endless = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--save-mesh", "a.obj")
-    process = start(tmp_path, "--cubeness", "0", "1", *endless, *SMALL)
-    assert "cubeness 0.0" in process.stderr.readline()
-    time.sleep(1)  # it now solves the second
-    stop(process, number)
-    assert not list(tmp_path.iterdir())
-
-
 def test_the_temporary_file_of_a_running_process_is_left_alone(tmp_path):
     target = tmp_path / "result.obj"
     process = start(tmp_path, "--no-render", "--save-mesh", target.name)

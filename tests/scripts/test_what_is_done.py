@@ -28,10 +28,10 @@ SHELL = {"system", "popen", "execv", "execve", "spawnl", "spawnv"}
 # Where something of this kind is done with names of our own, never with the artist's data.
 COMMAND_LINE = "cubic_craft_addon/command_line"
 ALLOWED = {
-    (f"{COMMAND_LINE}/batch/elsewhere.py", "import_module"),  # its own modules, on a cluster
     (f"{COMMAND_LINE}/batch/task.py", "subprocess"),  # the command itself, once per file
     (f"{COMMAND_LINE}/process/watched_process.py", "subprocess"),  # the same, within limits
-    (f"{COMMAND_LINE}/process/watched_process.py", "ctypes"),  # asks Windows what a process has
+    (f"{COMMAND_LINE}/process/memory.py", "subprocess"),  # ps, where there is no /proc
+    (f"{COMMAND_LINE}/process/memory.py", "ctypes"),  # asks Windows what a process has
     (f"{COMMAND_LINE}/trust/trial.py", "subprocess"),  # Blender, which reads a file first
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("solver/optional_packages.py", "import_module"),  # packages named in our code

@@ -2,5 +2,5 @@
 """Many files, each in a process of its own, so that a crash in one of them never ends the batch.
 
 `sources` finds the files and names their results, `plan` says what is to be written for each,
-`task` does one file, `engine` has dask.distributed hand them out, and `run` does it all.
+`task` does one file, and `run` does it all.
 """

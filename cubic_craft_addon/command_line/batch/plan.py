@@ -23,7 +23,6 @@ OF_THE_BATCH = {
         "recursive",
         "only",
         "jobs",
-        "scheduler",
         "timeout",
         "memory",
         "limited",
@@ -37,7 +36,7 @@ OF_THE_BATCH = {
 
 
 class Job(NamedTuple):
-    """One file of a batch; of plain values, as a scheduler need not have these modules."""
+    """One file of a batch."""
 
     path: Path
     """absolute"""
@@ -121,7 +120,7 @@ def _job(options: Namespace, source: Source) -> Job:
         arguments.append(f"--form-object={options.form_object.absolute()}")
     if options.capture:
         arguments.append(f"--capture={options.capture.absolute()}")
-    outputs = written(picture, options.turntable, mesh, options.cubeness)
+    outputs = written(picture, mesh, options)
     if options.bake:
         outputs = [folder / f"{source.name}{options.bake}"]
         arguments.append(f"--bake={outputs[0]}")

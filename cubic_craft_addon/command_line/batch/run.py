@@ -1,43 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run a batch, tell how each file went, and write the report and the table at the end."""
+"""Run a batch: tell how each file went and write the report after it; at the end, what failed."""
 
 import math
 import os
 import textwrap
-import time
-import uuid
 from argparse import Namespace
-from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
 from ....solver.console.errors import InputError
+from ....solver.console.interruption import before_ending
+from ....solver.console.report import DONE, FAILED, KEPT, BatchReport, counts_of, in_words
 from ....solver.console.temporary import replacing
 from ..process.one_line import one_line
-from ..process.output_files import check_writable, write_json
+from ..process.output_files import check_writable
 from ..process.progress import ProgressBar
+from ..process.watched_process import Limits, end_processes
 from ..trust.symlinks import refuse_links
-from .engine import results_of, workers_for
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
-from .table import summary, table
-from .task import DONE, FAILED, KEPT, Batch
+from .summary import summary
+from .task import Batch, do
 
 __all__ = ("SOME_FAILED", "run_batch")
 
 SOME_FAILED = 3
 """exit code"""
+SEEN_AT_ONCE = 20
+"""lines: of more files, those that failed are named once more at the end"""
 WIDEST = 40
 """letters in front of the progress bar, so that it stays in its line"""
 
 
 def run_batch(
-    options: Namespace,
-    command: Callable[[int | None], list[str]],
-    version: str,
-    program: str,
-    begin: float,
+    options: Namespace, command: Callable[[int | None], list[str]], version: str, program: str
 ) -> int:
     """Do what the command line says, and return the exit code.
 
@@ -47,62 +45,72 @@ def run_batch(
     command : gives what starts the script, from the number of threads (None for all)
     version : of CubicCraft
     program : what the script calls itself
-    begin : `time.perf_counter` at the start of the script
 
     Raises
     ------
     InputError
-        Nothing can be done at all; what is wrong with a file is in the table.
+        Nothing can be done at all; what is wrong with a file is said of it.
     """
-    bar, left_out = ProgressBar(memory=math.inf), []
-    given = (options.inputs, options.recursive, options.output_folder)
-    jobs = plan(options, find_sources(*given, left_out.append))
-    threads = options.threads or _share(min(options.jobs or 1, len(jobs)))
+    before_ending(end_processes)
+    bar = ProgressBar(memory=math.inf)
+    found = find_sources(options.inputs, options.recursive, options.output_folder)
+    jobs = plan(options, found.sources)
+    count = min(options.jobs or 1, len(jobs))
+    threads, limits = options.threads or _share(count), Limits(options.timeout, options.memory)
     settings, decides = settings_of(options), decisive(options, version)
-    name, limits = uuid.uuid4().hex, (options.timeout, options.memory)
-    batch = Batch(name, command(threads), threads, settings, decides, options.force, limits)
-    with workers_for(options, len(jobs)) as client:
-        _make_folders(options.output_folder, jobs)
-        for path in left_out:
-            bar.say(f"{one_line(str(path))}: left out, {_why_left_out(path)}")
-        files = _do_all(jobs, batch, client, options, bar)
-    for line in table(files):
-        bar.say(line)
-    counts = _counts(files)
-    code = SOME_FAILED if counts[FAILED] else 0
+    batch = Batch(command(threads), threads, settings, decides, options.force, limits)
+    _make_folders(options.output_folder, jobs)
+    for path in found.left_out:
+        bar.say(f"{one_line(str(path))}: left out, {_why_left_out(path)}")
+    if found.kinds:
+        bar.say(f"left out, of kinds that are not read: {one_line(in_words(found.kinds))}")
+    report = None
     if options.report:
-        try:
-            report = {
-                "output_folder": str(options.output_folder.resolve()),
-                "counts": counts,
-                "left_out": [str(path.absolute()) for path in left_out],
-                "files": list(files.values()),
-                "seconds": {"total": time.perf_counter() - begin},
-            }
-            write_json(options.report, report)
-            bar.say(f"wrote {options.report}")
-        except InputError as error:  # which says elsewhere that nothing was begun
-            code = SOME_FAILED
-            bar.warn(f"{program}: error: {error}")
+        head = {
+            "output_folder": str(options.output_folder.resolve()),
+            "left_out": [str(path.absolute()) for path in found.left_out],
+            "kinds_left_out": found.kinds,
+        }
+        report = BatchReport(options.report, head, len(jobs))
+    files, error = _do_all(jobs, batch, count, options, bar, report)
+    failed = [job for job, about in files.items() if about["status"] == FAILED]
+    code = SOME_FAILED if failed or error else 0
+    if error:  # exit code 2 says elsewhere that nothing was begun
+        bar.warn(f"{program}: error: {error}")
+    elif options.report:
+        bar.say(f"wrote {options.report}")
     if options.error_file and _write_error(options.error_file, list(files.values())):
         code = 0
-    if counts[FAILED]:
-        bar.warn(f"{program}: {counts[FAILED]} of {len(files)} files failed")
+    if failed:
+        for job in failed if len(files) > SEEN_AT_ONCE else ():
+            bar.warn(f"{one_line(job.label)}: {summary(files[job])}")
+        bar.warn(f"{program}: {len(failed)} of {len(files)} files failed")
     return code
 
 
 def _do_all(
-    jobs: list[Job], batch: Batch, client: Any, options: Namespace, bar: ProgressBar
-) -> dict[Job, dict[str, Any]]:
-    """Do all jobs, and print a line for each; return what the report has of them, in order."""
+    jobs: list[Job],
+    batch: Batch,
+    count: int,
+    options: Namespace,
+    bar: ProgressBar,
+    report: BatchReport | None,
+) -> tuple[dict[Job, dict[str, Any]], str]:
+    """Do all jobs, so many at a time, and print a line for each.
+
+    Returns
+    -------
+    tuple
+        What the report has of them, in order, and why that could not be written at last.
+    """
     files: dict[Job, dict[str, Any]] = {}
-    folder, notices = options.output_folder.resolve(), set()
+    folder, notices, error = options.output_folder.resolve(), set(), ""
     with bar.task(f"{len(jobs)} files") as task:
 
         def say_begun(job: Job) -> None:
             task.describe(textwrap.shorten(one_line(job.label), WIDEST, placeholder=" ..."))
 
-        for job, result in results_of(jobs, batch, client, say_begun):
+        for job, result in _results(jobs, batch, count, say_begun):
             words = result.pop("words", "").splitlines()
             files[job] = about = {"input": str(job.path), **result}
             label, has_failed = one_line(job.label), about["status"] == FAILED
@@ -116,11 +124,40 @@ def _do_all(
                 for notice in set(about["report"]["notices"]) - notices:  # about the machine
                     bar.warn(notice)
                     notices.add(notice)
-            kept = _counts(files)[KEPT]  # at once, which says nothing of the others
+            if report:
+                error = _written(report, [files[job] for job in jobs if job in files], about)
+            kept = counts_of(list(files.values()))[KEPT]  # at once, which tells nothing of others
             task.advance_to((len(files) - kept) / max(1, len(jobs) - kept))
-        counts = _counts(files).items()
+        counts = counts_of(list(files.values())).items()
         task.finish(", ".join(f"{count} {status}" for status, count in counts if count))
-    return {job: files[job] for job in jobs}
+    return {job: files[job] for job in jobs}, error
+
+
+def _results(
+    jobs: list[Job], batch: Batch, count: int, say_begun: Callable[[Job], None]
+) -> Iterator[tuple[Job, dict[str, Any]]]:
+    """Give each job with what `task.do` returns, as soon as it is done.
+
+    A thread waits for each process: a crash of Blender ends no other.
+    """
+
+    def work(job: Job) -> dict[str, Any]:
+        say_begun(job)
+        return do(job, batch)
+
+    with ThreadPoolExecutor(count) as pool:
+        waiting = {pool.submit(work, job): job for job in jobs}
+        for future in as_completed(waiting):
+            yield waiting[future], future.result()
+
+
+def _written(report: BatchReport, files: list[dict[str, Any]], newest: dict[str, Any]) -> str:
+    """Write the report; return why it cannot be written, or nothing."""
+    try:
+        report.write(files, newest)
+    except (InputError, OSError) as error:
+        return str(error)
+    return ""
 
 
 def _write_error(path: Path, files: list[dict[str, Any]]) -> bool:
@@ -136,11 +173,6 @@ def _write_error(path: Path, files: list[dict[str, Any]]) -> bool:
 
 def _why_left_out(path: Path) -> str:
     return "as it is hidden" if path.name[0] == "." else "as it is not a regular file"
-
-
-def _counts(files: dict[Job, dict[str, Any]]) -> dict[str, int]:
-    statuses = Counter(about["status"] for about in files.values())
-    return {status: statuses[status] for status in (DONE, KEPT, FAILED)}
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:

@@ -5,14 +5,15 @@ import hashlib
 import os
 import unicodedata
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Iterator
 from pathlib import Path, PurePath
 from typing import NamedTuple
 
 from ....solver.console.errors import InputError
+from ....solver.console.report import in_words
 from ..options.formats import READABLE, listing
 
-__all__ = ("Source", "find_sources")
+__all__ = ("Found", "Source", "find_sources")
 
 
 class Source(NamedTuple):
@@ -28,20 +29,21 @@ class Source(NamedTuple):
     """that was given, and that no link in it may lead out of; None for a file given by its name"""
 
 
-def find_sources(
-    inputs: list[Path],
-    is_recursive: bool,
-    output_folder: Path,
-    say_left_out: Callable[[Path], None] = lambda path: None,
-) -> list[Source]:
+class Found(NamedTuple):
+    """What is in the given files and folders."""
+
+    sources: list[Source]
+    left_out: list[Path]
+    """meshes that are hidden or no regular file, by how they look or their names"""
+    kinds: Counter[str]
+    """suffix of what is no mesh that can be read: how many files"""
+
+
+def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) -> Found:
     """List the given files and those in the given folders, each once, folders in order of name.
 
     Hidden files are left out, and what lies in the output folder, as that is results; and what is
     not a regular file, or a link to none, as a pipe or a device may have no end.
-
-    Parameters
-    ----------
-    say_left_out : called with each mesh of a folder that is left out, by how it looks or its name
 
     Raises
     ------
@@ -49,37 +51,39 @@ def find_sources(
         A folder cannot be read, or holds nothing that can.
     """
     places: dict[Path, tuple[PurePath, Path | None]] = {}  # in the folder that was given, and that
+    left_out, kinds = [], Counter()
     for given in inputs:
         paths, folder = [given], given.parent
         if given.is_dir():
-            paths, folder = [], given
-            for path in _meshes_in(given, is_recursive, output_folder.resolve()):
-                if path.name[0] != "." and path.is_file():
+            paths, folder, own = [], given, Counter()
+            for path in _files_in(given, is_recursive, output_folder.resolve()):
+                if path.suffix.lower() not in READABLE:
+                    own.update([path.suffix.lower()] * (path.name[0] != "."))
+                elif path.name[0] != "." and path.is_file():
                     paths.append(path)
                 else:
-                    say_left_out(path)
-        if not paths:
-            cure = "give another folder" if is_recursive else "give another, or add --recursive"
-            raise InputError(
-                f"{given}: there are no meshes in this folder; {cure}"
-                f" (meshes are {listing(READABLE)})"
-            )
+                    left_out.append(path)
+            if not paths:
+                cure = "give another folder" if is_recursive else "give another, or add --recursive"
+                only = f", only {in_words(own)}" if own else ""
+                raise InputError(
+                    f"{given}: there are no meshes in this folder{only}; {cure}"
+                    f" (meshes are {listing(READABLE)})"
+                )
+            kinds += own
         for path in paths:
             # As it can be given to another process; links stay what they are called.
             absolute = Path(os.path.abspath(path))  # noqa: PTH100  # Path.absolute() keeps ".."
             home = given.resolve() if given.is_dir() else None
             places.setdefault(absolute, (path.relative_to(folder), home))
-    return _named(places)
+    return Found(_named(places), left_out, kinds)
 
 
-def _meshes_in(folder: Path, is_recursive: bool, left_out: Path) -> list[Path]:
-    found = []
+def _files_in(folder: Path, is_recursive: bool, left_out: Path) -> Iterator[Path]:
     for place, folders, names in os.walk(folder, onerror=_refuse):
         inner = [name for name in sorted(folders) if is_recursive and name[0] != "."]
         folders[:] = [name for name in inner if Path(place, name).resolve() != left_out]
-        paths = [Path(place, name) for name in sorted(names)]
-        found += [path for path in paths if path.suffix.lower() in READABLE]
-    return found
+        yield from (Path(place, name) for name in sorted(names))
 
 
 def _refuse(error: OSError) -> None:

@@ -12,37 +12,36 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import tempfile
-from collections.abc import Callable
+import time
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ....solver.console.errors import InputError
+from ....solver.console.report import DONE, FAILED, KEPT
 from ....solver.console.temporary import remove_left_behind
-from ..process.lock import alone_at
+from ...environment.lock import BusyError, Lock
 from ..process.threads import thread_variables
 from ..process.watched_process import Limits, finish, start
 from ..trust.places import is_inside, refuse_special
 from .plan import Job
 
-__all__ = ("DONE", "FAILED", "KEPT", "Batch", "do", "key_of")
+__all__ = ("Batch", "do", "key_of")
 
-DONE, KEPT, FAILED = "done", "kept", "failed"
 REFUSED = 2
 """exit code for an input that cannot be used"""
 _ERROR = re.compile(r"^(?:headless_render\.py|cubic_craft): error: (.*)$", re.MULTILINE)
 """what `main` says of an input, whichever program has called it"""
+ASKED_EVERY = 0.2
+"""seconds, whether a file is free that another process is at work on"""
 FROM_OUTSIDE = [getattr(signal, n, None) for n in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")]
 
 
 class Batch(NamedTuple):
-    """What the files of a batch share; of plain values, as `Job`."""
+    """What the files of a batch share."""
 
-    name: str
-    """that no other batch has"""
     command: list[str]
-    """what starts the script; an empty word is the Python of the worker"""
+    """what starts the script"""
     threads: int | None
     """of the processor for each file; None for all"""
     settings: str
@@ -51,22 +50,18 @@ class Batch(NamedTuple):
     """from `plan.decisive`"""
     is_forced: bool
     """to do also what is done already"""
-    limits: tuple[float | None, float | None] = Limits()
-    """of each file, as `Limits`"""
+    limits: Limits = Limits()
+    """of each file"""
 
 
-def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> dict[str, Any]:
+def do(job: Job, batch: Batch) -> dict[str, Any]:
     """Do a file, or wait while another process does it, as one of a batch that runs twice.
-
-    Parameters
-    ----------
-    is_wanted : asked now and then; when it is not, the process is ended
 
     Returns
     -------
     dict
         ``status``; of a file that failed ``error``, one line, and if that is the fault of the file
-        and not of the machine ``refused``; else ``seconds`` and ``report``;
+        and not of the machine ``refused``; else ``seconds``, ``peak_gb`` and ``report``;
         and if it was begun ``words``, what its process wrote to standard error.
     """
     try:
@@ -74,10 +69,11 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         if job.folder is not None and not is_inside(job.path, job.folder):
             raise InputError("is a link that leads out of the folder; give what it leads to")
         key = key_of(job.path, batch.decides)
-        with alone_at(job.record, is_wanted) as is_alone:
-            if is_alone:
-                return _do(job, batch, key, is_wanted)
-        return {"status": FAILED, "error": "another process is at work on it"}
+        lock = _lock(job.record)
+        try:
+            return _do(job, batch, key)
+        finally:
+            lock.release()
     except InputError as error:
         message = str(error).removeprefix(f"{job.path}: ")
         return {"status": FAILED, "error": message, "refused": True}
@@ -85,13 +81,20 @@ def do(job: Job, batch: Batch, is_wanted: Callable[[], bool] = lambda: True) -> 
         return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
 
-def _do(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> dict[str, Any]:
-    report, made_by = _report(job, key)
-    # One of this batch is of a worker that was lost just before it could tell.
-    if report and (made_by == batch.name or not batch.is_forced):
-        return _success(DONE if made_by == batch.name else KEPT, report)
-    code, words, exceeded = _run(job, batch, key, is_wanted)
-    report, _ = _report(job, key)
+def _lock(path: Path) -> Lock:
+    while True:
+        try:
+            return Lock(path)
+        except BusyError:
+            time.sleep(ASKED_EVERY)
+
+
+def _do(job: Job, batch: Batch, key: str) -> dict[str, Any]:
+    report = {} if batch.is_forced else _report(job, key)
+    if report:
+        return _success(KEPT, report)
+    code, words, exceeded = _run(job, batch, key)
+    report = _report(job, key)
     if report and not code and not exceeded:
         return _success(DONE, report) | {"words": words}
     refused = {"refused": True} if exceeded or code == REFUSED else {}
@@ -112,24 +115,24 @@ def key_of(source: Path, decides: str) -> str:
 
 
 def _success(status: str, report: dict[str, Any]) -> dict[str, Any]:
-    return {"status": status, "seconds": report["seconds"]["total"], "report": report}
+    about = {"seconds": report["seconds"]["total"], "peak_gb": report["peak_gb"]}
+    return {"status": status, **about, "report": report}
 
 
-def _report(job: Job, key: str) -> tuple[dict[str, Any], str]:
-    """Return the report of a run with this key, and its batch; nothing if outputs have changed."""
+def _report(job: Job, key: str) -> dict[str, Any]:
+    """Return the report of a run with this key; nothing if outputs have changed."""
     try:
         if job.record.is_symlink() or not job.record.is_file():
-            return {}, ""
+            return {}
         report = json.loads(job.record.read_text(encoding="utf-8"))
         made = report.pop("made")
-        of, _, by = made["for"].partition(":")
         sizes = {path.name: path.stat().st_size for path in job.outputs}
-        return (report, by) if (of, made["sizes"]) == (key, sizes) else ({}, "")
+        return report if made == {"for": key, "sizes": sizes} else {}
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return {}, ""  # there is none, or it is not one of ours, or of another version
+        return {}  # there is none, or it is not one of ours, or of another version
 
 
-def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tuple[int, str, str]:
+def _run(job: Job, batch: Batch, key: str) -> tuple[int, str, str]:
     """Run the process to its end.
 
     Returns
@@ -138,18 +141,17 @@ def _run(job: Job, batch: Batch, key: str, is_wanted: Callable[[], bool]) -> tup
         Its exit code, what it wrote to standard error, and the limit that it has exceeded.
     """
     job.record.unlink(missing_ok=True)  # from now on the outputs may be others than it says
-    command = [*(word or sys.executable for word in batch.command), *job.arguments]
     limit = [f"--threads={batch.threads}"] if batch.threads else []
     with tempfile.TemporaryFile() as words:
         process = start(
-            [*command, *limit, f"--worker={key}:{batch.name}"],
+            [*batch.command, *job.arguments, *limit, f"--worker={key}"],
             stdout=subprocess.DEVNULL,
             stderr=words,
             env=os.environ | thread_variables(batch.threads),
         )
         with contextlib.suppress(OSError):  # what ends at once says itself why
             process.stdin.write(f"{batch.settings}\n".encode())
-        exceeded = finish(process, Limits(*batch.limits), is_wanted)
+        exceeded = finish(process, batch.limits)
         for path in (*job.outputs, job.record):
             remove_left_behind(path)
         words.seek(0)

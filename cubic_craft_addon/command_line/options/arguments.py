@@ -109,7 +109,7 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
     add("--memory", type=number(0.001, 1e6), metavar="GB")
     add("--threads", type=number(1, 1024, int), metavar="N")
     add("--options", default="", metavar="TEXT")
-    add("--worker", default="", metavar="KEY:BATCH")
+    add("--worker", default="", metavar="KEY")
     add("--limited", action="store_true")
     add("--verbose", action="store_true")
     parser.add_argument("-h", "--help", action="help", help="the most common options")
@@ -150,6 +150,7 @@ def _add_outputs(add: Adder) -> None:
     add("--output", type=Path, metavar="PICTURE.png")
     add("--no-render", action="store_true")
     add("--save-mesh", metavar="FILE")
+    add("--low-poly", nargs="+", type=number(12, 10_000_000, int), default=[], metavar="N")
     add("--bake", type=Path, metavar="FILE")
     frame = number(-1048574, 1048574, int)
     add("--frames", nargs=2, type=frame, metavar=("A", "B"))
@@ -163,7 +164,6 @@ def _add_batch(add: Adder) -> None:
     add("--recursive", action="store_true")
     add("--only", type=number(1, 1_000_000, int), metavar="K")
     add("--jobs", type=number(1, 1024, int), metavar="N")
-    add("--scheduler", metavar="ADDRESS")
     add("--force", action="store_true")
 
 
@@ -174,6 +174,7 @@ def _add_picture(add: Adder) -> None:
     add("--samples", type=number(1, 65536, int), default=16, metavar="N")
     add("--resolution", nargs=2, type=size, default=[1600, 540], metavar=("W", "H"))
     add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+    add("--view", type=degrees, metavar="DEGREES")
     add("--turntable", type=number(1, 9999, int), default=0, metavar="FRAMES")
 
 

@@ -5,10 +5,12 @@ from argparse import Namespace
 from pathlib import Path
 
 from ....solver.console.errors import InputError
-from ..process.output_files import check_writable, numbered, per_cubeness
+from ....solver.console.report import LINES
+from ..process.output_files import check_writable, meshes, numbered
 from ..trust.places import refuse_special
-from .formats import ANIMATED, KEEP_VERTICES, LOSE_VERTICES, READABLE, listing
+from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE, listing
 
+REPORTS = (".json", LINES)
 __all__ = ("check_batch", "check_single", "refuse_empty")
 
 
@@ -20,7 +22,7 @@ def check_single(options: Namespace) -> None:
     InputError
         The input, an output path, or how options go together.
     """
-    for option in ("jobs", "scheduler", "force", "recursive", "only"):
+    for option in ("jobs", "force", "recursive", "only"):
         if getattr(options, option):
             raise InputError(f"--{option}: is for several files; add --output-folder DIR")
     check_form(options)
@@ -81,10 +83,6 @@ def check_batch(options: Namespace) -> None:
         ),
         (options.part, "--part: is for one file"),
         (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
-        (
-            options.jobs and options.scheduler,
-            "--jobs: a cluster does as many at a time as it has workers; drop it",
-        ),
     ):
         if is_wrong:
             raise InputError(message)
@@ -99,13 +97,13 @@ def check_batch(options: Namespace) -> None:
             refuse_special(path)
     if options.save_mesh is not None:
         _check_ending("--save-mesh", options.save_mesh)
-        _check_mesh_suffix(Path(f"name{options.save_mesh}"))
+        _check_mesh(options, Path(f"name{options.save_mesh}"))
     if options.bake is not None:
         _check_ending("--bake", str(options.bake))
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report:
-        _check_suffix("--report", report, (".json",))
+        _check_suffix("--report", report, REPORTS)
     for option, path in (("--report", report), ("--error-file", options.error_file)):
         if path and path.parent.resolve() != folder.resolve():  # which is made later
             check_writable(option, [path])
@@ -141,6 +139,8 @@ def _check_bake(options: Namespace) -> None:
 
 def _check_is_something_to_do(options: Namespace) -> None:
     """Refuse --no-render together with pictures, and without anything else to write."""
+    if options.low_poly and options.save_mesh is None:
+        raise InputError(f"--low-poly: add --save-mesh with {listing(FOR_ENGINES)}")
     if options.no_render and (options.output or options.turntable):
         raise InputError("--no-render: does not go together with --output or --turntable; drop one")
     if options.no_render and not (options.save_mesh or options.bake or options.report):
@@ -153,14 +153,11 @@ def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
         raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")
 
 
-def _check_mesh_suffix(path: Path) -> None:
-    """Refuse a mesh in a format that does not keep the vertices."""
-    if path.suffix.lower() in LOSE_VERTICES:
-        raise InputError(
-            f"--save-mesh {path}: this format cannot keep vertex order and count; give "
-            f"{listing(KEEP_VERTICES)}"
-        )
-    _check_suffix("--save-mesh", path, KEEP_VERTICES)
+def _check_mesh(options: Namespace, path: Path) -> None:
+    """Refuse a mesh in a format that is not written, and levels of detail that it cannot hold."""
+    _check_suffix("--save-mesh", path, WRITABLE)
+    if options.low_poly and path.suffix.lower() not in FOR_ENGINES:
+        raise InputError(f"--low-poly: is for --save-mesh with {listing(FOR_ENGINES)}")
 
 
 def _check_ending(option: str, ending: str) -> None:
@@ -198,12 +195,12 @@ def _check_outputs(options: Namespace) -> None:
         _check_suffix("--output", options.output, (".png",))
         outputs["--output"] = numbered(options.output, options.turntable)
     if options.save_mesh:
-        _check_mesh_suffix(options.save_mesh)
-        outputs["--save-mesh"] = per_cubeness(options.save_mesh, options.cubeness)
+        _check_mesh(options, options.save_mesh)
+        outputs["--save-mesh"] = meshes(options.save_mesh, options.cubeness, options.low_poly)
     if options.bake:
         outputs["--bake"] = [options.bake]
     if options.report:
-        _check_suffix("--report", options.report, (".json",))
+        _check_suffix("--report", options.report, REPORTS)
         outputs["--report"] = [options.report]
     if options.error_file:
         outputs["--error-file"] = [options.error_file]

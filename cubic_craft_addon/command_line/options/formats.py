@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which formats can be read, and which can be written with vertex order and count kept."""
+"""Which formats can be read, and which are written: those of `send.targets`."""
 
-__all__ = ("ANIMATED", "KEEP_VERTICES", "LOSE_VERTICES", "READABLE", "RENUMBER_VERTICES", "listing")
+from ...send.targets import TARGETS
+
+__all__ = ("ANIMATED", "FOR_ENGINES", "READABLE", "RENUMBER_VERTICES", "WRITABLE", "listing")
 
 READABLE = (
     (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
@@ -9,15 +11,20 @@ READABLE = (
     + (".abc", ".blend")
 )
 
-# Each comes back with the same vertices in the same order: tests/scripts proves it.
-KEEP_VERTICES = (".obj", ".ply", ".usd", ".usdc", ".usda", ".usdz", ".abc", ".blend")
 
-# For the frames of an animation.
-ANIMATED = (".abc", ".usd", ".usdc", ".usda", ".pc2")
+def _suffixes(**wanted: bool) -> tuple[str, ...]:
+    return tuple(
+        suffix
+        for target in TARGETS.values()
+        if all(getattr(target, name) == value for name, value in wanted.items())
+        for suffix in target.suffixes
+    )
 
-# STL stores triangle corners only, glTF splits vertices at seams, FBX rounds on the way through
-# its own units and axes.
-LOSE_VERTICES = (".stl", ".glb", ".gltf", ".fbx")
+
+WRITABLE = tuple(suffix for suffix in _suffixes() if suffix != ".pc2")
+ANIMATED = tuple(suffix for suffix in _suffixes(is_animated=True) if suffix != ".usdz")
+"""for the frames of an animation"""
+FOR_ENGINES = _suffixes(is_for_engines=True)
 
 # What is read from these has other vertices than the file: corners are joined.
 RENUMBER_VERTICES = (".stl", ".glb", ".gltf")

@@ -4,7 +4,7 @@
 import argparse
 
 from ....solver.console.method_options import HELP as OF_METHOD
-from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
+from .formats import ANIMATED, READABLE, WRITABLE, listing
 
 __all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
 
@@ -19,7 +19,7 @@ COMMON = (
         "--detail",
         "--output",
     ),
-    *("--no-render", "--save-mesh", "--bake", "--output-folder", "--jobs", "--turn"),
+    *("--no-render", "--save-mesh", "--low-poly", "--bake", "--output-folder", "--jobs", "--turn"),
 )
 """what --help shows; --help-all shows all"""
 
@@ -67,28 +67,31 @@ HELP = {
     "given beside it and counts then",
     "--output": "(default: cubic_craft.png)",
     "--no-render": "no picture",
-    "--save-mesh": f"the result, vertex order and count kept: {listing(KEEP_VERTICES)}; with "
-    "several cubeness values one file each (name_0.4.obj); in a batch the end of the names, such "
-    "as .obj or _cubic.obj",
+    "--save-mesh": f"the result: {listing(WRITABLE)}; with several cubeness values one file each "
+    "(name_0.4.obj); in a batch the end of the names, such as .obj or _cubic.obj",
+    "--low-poly": "levels of detail beside each .glb or .fbx, name_lod1.glb and so on, with so "
+    "many triangles and a normal map",
     "--bake": f"the cubic version of each frame of an animation: {listing(ANIMATED)}; instead of "
     "a picture and a mesh; in a batch the end of the names. A run that was ended continues where "
     "it was",
     "--frames": "first and last frame for --bake (default: those of the file)",
     "--part": "for --bake on several machines: solves the Kth of N parts of the frames; when all "
     "are solved, the same command without --part writes the file",
-    "--report": "numbers of the run",
+    "--report": "numbers of the run; in a batch written after each file, and as *.jsonl a line of "
+    "JSON for each",
     "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
     "for render farms, which would blame the machine; in a batch with --only",
     "--output-folder": "for the results, each named as its input; made if it is not there",
     "--recursive": "take folders with the folders in them, and lay the results out alike",
     "--only": "this file of them only, counted from 1: for render farms, where each is a task",
     "--jobs": "files worked on at the same time, each in a Blender of its own (default: 1)",
-    "--scheduler": "of a Dask cluster whose workers do the files, such as tcp://host:8786",
     "--force": "do also what is done already",
     "--samples": "of cycles; denoised (default: 16)",
     "--resolution": "(default: 1600 540)",
     "--turn": "degrees that stand the objects upright, for files with another idea of up; the "
     "result does not change",
+    "--view": "that the objects are turned about the vertical toward the camera (default: 32, or a "
+    "quarter or two further where that shows more)",
     "--turntable": "a picture sequence name_0001.png ..., each object turning about its vertical "
     "axis",
 }

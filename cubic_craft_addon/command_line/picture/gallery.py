@@ -19,6 +19,7 @@ from ... import mesh_bridge
 from ..reading.mesh_arrays import positions_of, read
 from ..solving.cubify_all import Sculpture
 from ..writing.detached import detached_copy
+from .view import best_yaw
 
 __all__ = (
     "Gallery",
@@ -136,7 +137,7 @@ def _groups(
     versions = [("original", None)]
     versions += [(f"cubeness {value!r}", number) for number, value in enumerate(options.cubeness)]
     turn = Euler([math.radians(angle) for angle in options.turn]).to_matrix().to_4x4()
-    groups = []
+    groups, yaw = [], YAW if options.view is None else math.radians(options.view)
     for label, number in versions:
         copies, places = [], []
         for sculpture in sculptures:
@@ -150,10 +151,12 @@ def _groups(
         bpy.context.view_layer.update()
         if groups:
             _check_seen(sculptures, groups[0].copies, copies)
+        elif options.view is None:
+            yaw = best_yaw(copies, places, YAW, ELEVATION)
         points = np.concatenate([_points(*pair) for pair in zip(copies, places, strict=True)])
         extent = groups[0].extent if groups else extent_of(points)
         finish = "clay" if number is None else "teal"
-        groups.append(Group(label, copies, places, points, extent, finish))
+        groups.append(Group(label, copies, places, points, extent, finish, yaw))
     return groups
 
 

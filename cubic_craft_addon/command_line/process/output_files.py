@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Output files: their names, checked before any work is done."""
 
-import json
+from argparse import Namespace
 from pathlib import Path
-from typing import Any
 
 from ....solver.console.output import check_folder, check_place
-from ....solver.console.temporary import replacing
 
 __all__ = (
     "check_writable",
+    "leveled",
+    "meshes",
     "numbered",
     "per_cubeness",
-    "write_json",
     "written",
 )
 
@@ -31,12 +30,21 @@ def numbered(path: Path, count: int) -> list[Path]:
     return [path.with_name(f"{path.stem}_{n:04d}{path.suffix}") for n in range(1, count + 1)]
 
 
-def written(
-    picture: Path | None, frames: int, mesh: Path | None, cubeness: list[float]
-) -> list[Path]:
+def leveled(path: Path, count: int) -> list[Path]:
+    """Paths of the levels of detail of a mesh: ``name_lod1.glb`` and so on."""
+    return [path.with_name(f"{path.stem}_lod{n}{path.suffix}") for n in range(1, count + 1)]
+
+
+def meshes(path: Path, cubeness: list[float], levels: list[int]) -> list[Path]:
+    """All meshes that a run writes, each with its levels of detail behind it."""
+    own = per_cubeness(path, cubeness)
+    return [each for path in own for each in (path, *leveled(path, len(levels)))]
+
+
+def written(picture: Path | None, mesh: Path | None, options: Namespace) -> list[Path]:
     """All paths that a run writes: pictures, then meshes."""
-    pictures = numbered(picture, frames) if picture else []
-    return pictures + (per_cubeness(mesh, cubeness) if mesh else [])
+    pictures = numbered(picture, options.turntable) if picture else []
+    return pictures + (meshes(mesh, options.cubeness, options.low_poly) if mesh else [])
 
 
 def check_writable(option: str, paths: list[Path]) -> None:
@@ -50,9 +58,3 @@ def check_writable(option: str, paths: list[Path]) -> None:
     for path in paths:
         check_place(f"{option} {path}", path)
     check_folder(f"{option} {paths[0]}", paths[0].parent)
-
-
-def write_json(path: Path, content: Any) -> None:
-    """Write a file of JSON."""
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")

@@ -36,8 +36,8 @@ class ObjLayout:
     those that lie in its part of the file and that nothing uses"""
     is_split: bool
     """whether Blender may split the file into objects: none shares a vertex with another"""
-    library: Path | None
-    """the material library, if the file has one"""
+    libraries: list[Path]
+    """the material libraries that the file names and that are there"""
     offset: np.ndarray
     """(3,) float64: where the origin is put, from `middle_if_far`"""
     encoding: str
@@ -59,7 +59,7 @@ def read_layout(path: Path) -> ObjLayout:
     """
     coordinates: list[list[bytes]] = []
     sections: list[tuple[int, set[int]]] = [(0, set())]  # first vertex, used vertices
-    library, lines = b"", ObjLines(path)
+    libraries, lines = [], ObjLines(path)
     for keyword, rest in lines:
         if keyword == b"v":
             coordinates.append(rest.split()[:3])
@@ -68,7 +68,7 @@ def read_layout(path: Path) -> ObjLayout:
         elif keyword == b"o":
             sections.append((len(coordinates), set()))
         elif keyword == b"mtllib":
-            library = rest
+            libraries.append(rest)
     positions = _positions(coordinates, path)
     sections = [section for section in sections if section[1]]
     everything = set().union(*(used for _, used in sections))
@@ -87,7 +87,7 @@ def read_layout(path: Path) -> ObjLayout:
         (positions - offset).astype(np.float32),
         parts,
         is_split,
-        file_named(library, path.parent, lines.encoding) if library else None,
+        [file for name in libraries if (file := file_named(name, path.parent, lines.encoding))],
         offset,
         lines.encoding,
         lines.is_plain and not offset.any(),

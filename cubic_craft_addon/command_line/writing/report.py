@@ -11,9 +11,11 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ....solver.console.report import write_json
 from ...environment.engine_notes import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.output_files import write_json, written
+from ..process.memory import peak_memory
+from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
 
@@ -35,6 +37,7 @@ SETTINGS = (
     ),
     *("symmetry", "floor", "hold_rest", "with_modifiers"),
 )
+GIGABYTE = 1e9
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
@@ -56,7 +59,7 @@ def write_report(
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }
-    outputs = written(options.output, options.turntable, options.save_mesh, options.cubeness)
+    outputs = written(options.output, options.save_mesh, options)
     write_json(path, {**report, **_made(options, outputs)})
 
 
@@ -77,11 +80,13 @@ def write_animation_report(
 
 
 def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
-    """Return what tells a batch whether the outputs are still those of this run."""
+    """Return the peak of memory, and what tells a batch whether outputs are still of this run."""
+    peak = peak_memory()
+    about: dict[str, Any] = {"peak_gb": peak and round(peak / GIGABYTE, 3)}
     if not options.worker:
-        return {}
+        return about
     sizes = {path.name: path.stat().st_size for path in outputs}
-    return {"made": {"for": options.worker, "sizes": sizes}}
+    return {**about, "made": {"for": options.worker, "sizes": sizes}}
 
 
 def _head(options: Namespace) -> dict[str, Any]:

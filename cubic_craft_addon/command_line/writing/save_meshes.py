@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Save results as mesh files that have the vertices of the input, in the same order."""
+"""Save results as mesh files, each as `send.targets` has it."""
 
 import contextlib
-import os
 import uuid
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -15,15 +14,21 @@ from mathutils import Matrix
 
 from ....solver.console.errors import InputError
 from ....solver.console.temporary import replacing
+from ....solver.errors import CubicCraftError
 from ...run import pipeline
+from ...send.file import ready
+from ...send.targets import TARGETS, Options, exporter, settings, target_of
+from ..process.output_files import leveled
 from ..process.quiet import captured
-from ..reading.blender_operator import operator, reason
+from ..reading.blender_operator import reason
 from ..reading.load_meshes import Loaded
 from ..reading.mesh_arrays import positions_of
 from ..reading.obj_layout import ObjLayout
 from ..solving.cubify_all import Sculpture
 from ..trust.opened import with_all_paths
 from .detached import detached_copy
+from .low_poly import low_poly
+from .write_mtl import relative, write_mtl
 from .write_obj import ObjPart, write_obj
 
 __all__ = ("check_exporter", "save_meshes")
@@ -36,38 +41,78 @@ def save_meshes(
     paths: list[Path],
     sculptures: list[Sculpture],
     loaded: Loaded,
+    levels: list[int],
     verbose: bool,
-) -> None:
-    """Save one file per cubeness.
+) -> list[str]:
+    """Save one file per cubeness, and each level of detail of it.
 
     A .blend holds the whole input file with the results on its meshes, each with its original to
-    restore. All other formats hold the base meshes alone, without modifiers and shape keys.
+    restore. Formats for engines and printers hold the objects as Send writes them. All others hold
+    the base meshes alone, without modifiers and shape keys, with the vertices of the input.
+
+    Parameters
+    ----------
+    levels : numbers of triangles of low-poly versions
+
+    Returns
+    -------
+    list of str
+        What should be known of the files, a line each.
 
     Raises
     ------
     InputError
         A file cannot be written, or the vertices of an .obj cannot be told apart.
     """
+    problems = []
     for number, path in enumerate(paths):
-        if path.suffix.lower() == ".blend":
+        target = target_of(path.suffix)
+        kind = TARGETS[target]
+        if target == "BLEND":
             _save_blend(path, sculptures, number, verbose)
-            continue
-        with _copies(sculptures, number) as copies:
-            if path.suffix.lower() == ".obj":
-                _save_obj(path, copies, loaded)
-            else:
-                _export(path, [copy for copy, _ in copies], verbose)
+        elif kind.is_for_engines or kind.is_printed:
+            _write_results(sculptures, number)
+            users = [user for sculpture in sculptures for user in sculpture.users]
+            problems += _send(path, users, verbose)
+            for place, triangles in zip(leveled(path, len(levels)), levels, strict=True):
+                with captured(verbose), low_poly(sculptures, triangles, place) as (low, own):
+                    problems += own + _send(place, low, verbose)
+        else:
+            with _copies(sculptures, number) as copies:
+                if target == "OBJ":
+                    _save_obj(path, copies, loaded)
+                else:
+                    _export(path, [copy for copy, _ in copies], verbose)
+    return problems
 
 
 def check_exporter(path: Path) -> None:
     """Raise InputError if this Blender cannot write the format."""
-    if path.suffix.lower() not in (".obj", ".blend"):
-        _exporter(path)
+    target = target_of(path.suffix)
+    if TARGETS[target].operator:
+        try:
+            exporter(target)
+        except CubicCraftError as error:
+            raise InputError(f"{path}: {error}") from error
+
+
+def _send(path: Path, objects: list[bpy.types.Object], verbose: bool) -> list[str]:
+    """Write objects as Send does, but with the unit of the file; return what should be known."""
+    try:
+        with ready(target_of(path.suffix), objects, Options(scale=1.0)) as it:
+            _write(path, lambda filepath: it.write(Path(filepath)), verbose)
+    except CubicCraftError as error:
+        raise InputError(f"{path}: {error}") from error
+    return [f"{path}: {problem}" for problem in it.problems]
+
+
+def _write_results(sculptures: list[Sculpture], number: int) -> None:
+    for sculpture in sculptures:
+        pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
 
 
 def _save_blend(path: Path, sculptures: list[Sculpture], number: int, verbose: bool) -> None:
-    for sculpture in sculptures:
-        pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
+    _write_results(sculptures, number)
     with with_all_paths():
         _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
 
@@ -114,7 +159,7 @@ def _copies(
 def _save_obj(
     path: Path, copies: list[tuple[bpy.types.Object, bpy.types.Object]], loaded: Loaded
 ) -> None:
-    layout, library = loaded.obj_layout, ""
+    layout = loaded.obj_layout
     is_as_in_file = layout is not None and loaded.is_whole
     parts, count = [], 0
     for copy, original in copies:
@@ -124,11 +169,13 @@ def _save_obj(
             rows = _rows_in_file(path, layout, original.session_uid, copy.name)
         parts.append(ObjPart(copy.name, copy.data, _placed_positions(copy), rows))
     positions = layout.positions if is_as_in_file else np.zeros((count, 3), np.float32)
-    if layout is not None and layout.library is not None:
-        library = _relative(layout.library, path.parent)
+    if layout is None:
+        libraries = write_mtl(path, [copy.data for copy, _ in copies])
+    else:
+        libraries = [relative(library, path.parent) for library in layout.libraries]
     offset, encoding = (layout.offset, layout.encoding) if layout else (np.zeros(3), "utf-8")
     with replacing(path) as temporary:
-        write_obj(temporary, parts, positions, library, offset, encoding)
+        write_obj(temporary, parts, positions, libraries, offset, encoding)
 
 
 def _rows_in_file(path: Path, layout: ObjLayout, uid: int, name: str) -> np.ndarray:
@@ -136,14 +183,6 @@ def _rows_in_file(path: Path, layout: ObjLayout, uid: int, name: str) -> np.ndar
         message = f'{path}: Blender has changed the vertices of "{name}" on reading'
         raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
     return layout.rows[uid]
-
-
-def _relative(target: Path, folder: Path) -> str:
-    """Path of the target as seen from the folder, with forward slashes."""
-    try:
-        return Path(os.path.relpath(target.resolve(), folder.resolve())).as_posix()
-    except ValueError:  # on another drive
-        return target.resolve().as_posix()
 
 
 def _placed_positions(copy: bpy.types.Object) -> np.ndarray:
@@ -159,36 +198,6 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
     """Run Blender's exporter for the copies, and for them only."""
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in copies)
-    _write(path, _exporter(path), verbose)
-
-
-def _exporter(path: Path) -> Callable[..., Any]:
-    return _EXPORTERS[path.suffix.lower()](path)
-
-
-def _ply_exporter(path: Path) -> Callable[..., Any]:
-    # A .ply knows one UV per vertex: seams would split vertices.
-    options = {"export_selected_objects": True, "apply_modifiers": False, "export_uv": False}
-    return partial(operator("wm.ply_export", path), **options)
-
-
-def _alembic_exporter(path: Path) -> Callable[..., Any]:
-    return partial(operator("wm.alembic_export", path), selected=True, start=1, end=1)
-
-
-def _usd_exporter(path: Path) -> Callable[..., Any]:
-    usd_export: Any = operator("wm.usd_export", path)
-    wanted = {"convert_world_material": False}
-    if path.suffix.lower() != ".usdz":
-        wanted |= {"export_textures_mode": "KEEP"}  # no folder of textures beside the file
-    known = usd_export.get_rna_type().properties
-    options = {name: value for name, value in wanted.items() if name in known}
-    return partial(usd_export, selected_objects_only=True, **options)
-
-
-_EXPORTERS = {
-    ".ply": _ply_exporter,
-    ".abc": _alembic_exporter,
-    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), _usd_exporter),
-}
-"""by the suffix of the file, but for .obj and .blend"""
+    target, options = target_of(path.suffix), Options(with_animation=False, suffix=path.suffix)
+    chosen = settings(target, copies, options, is_modified=False)
+    _write(path, partial(exporter(target), **chosen), verbose)

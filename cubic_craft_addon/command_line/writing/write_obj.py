@@ -35,7 +35,7 @@ def write_obj(
     path: Path,
     parts: list[ObjPart],
     positions: np.ndarray,
-    library: str,
+    libraries: list[str],
     offset: np.ndarray,
     encoding: str,
 ) -> None:
@@ -44,7 +44,7 @@ def write_obj(
     Parameters
     ----------
     positions : (n,3) numpy float32 array of all vertices of the file, for those in no part
-    library : path of a material library to name in the file; none is written
+    libraries : paths of the material libraries to name in the file
     offset : (3,) numpy float64 array: what is added to all positions
     encoding : of names; those that it lacks are in UTF-8, as are paths
     """
@@ -54,7 +54,7 @@ def write_obj(
     if offset.any():
         positions = _moved(positions, offset)
     with path.open("w", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
-        file.write(f"mtllib {library}\n" if library else "")
+        file.writelines(f"mtllib {library}\n" for library in libraries)
         _write_rows(file, "v", positions)
         counts = [0, 0]
         for part in parts:

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of many files: written anew after each, so that one that is interrupted has it too."""
+
+import json
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+from .temporary import replacing
+
+__all__ = ("DONE", "FAILED", "KEPT", "LINES", "BatchReport", "counts_of", "in_words", "write_json")
+
+DONE, KEPT, FAILED = "done", "kept", "failed"
+"""what became of a file; kept is what an earlier run has done"""
+LINES = ".jsonl"
+"""suffix of reports with a line of JSON for each file"""
+
+
+class BatchReport:
+    """A report in a file.
+
+    Parameters
+    ----------
+    path : ends in .json, or in ``LINES``
+    head : what is known before the first file
+    total : number of files
+    """
+
+    def __init__(self, path: Path, head: dict[str, Any], total: int) -> None:
+        self._path, self._head, self._total = path, head, total
+        self._begin, self._is_behind = time.perf_counter(), False
+        if path.suffix.lower() == LINES:
+            path.unlink(missing_ok=True)
+
+    def write(self, files: list[dict[str, Any]], newest: dict[str, Any]) -> None:
+        """Write what is known now.
+
+        Parameters
+        ----------
+        files : all that have ended, each with its ``status``
+        newest : the one of them that has ended last
+
+        Raises
+        ------
+        InputError, OSError
+            The file cannot be written.
+        """
+        if self._path.suffix.lower() == LINES:
+            rows, mode = (files, "w") if self._is_behind else ([newest], "a")
+            self._is_behind = True  # until they are written
+            with self._path.open(mode, encoding="utf-8") as file:
+                file.writelines(json.dumps(row) + "\n" for row in rows)
+            self._is_behind = False
+            return
+        seconds = {"total": time.perf_counter() - self._begin}
+        counts, unfinished = counts_of(files), self._total - len(files)
+        about = {"counts": counts, "unfinished": unfinished, "files": files, "seconds": seconds}
+        write_json(self._path, self._head | about)
+
+
+def counts_of(files: list[dict[str, Any]]) -> dict[str, int]:
+    """Return how many files have each status."""
+    statuses = Counter(about["status"] for about in files)
+    return {status: statuses[status] for status in (DONE, KEPT, FAILED)}
+
+
+def in_words(kinds: Counter[str]) -> str:
+    """Return how many files of each kind there are: ``"3 .max, 1 without a suffix"``."""
+    kinds = Counter(kinds)
+    bare = kinds.pop("", 0)
+    words = [f"{count} {suffix}" for suffix, count in sorted(kinds.items())]
+    return ", ".join(words + [f"{bare} without a suffix"] * (bare > 0))
+
+
+def write_json(path: Path, content: Any) -> None:
+    """Write a file of JSON, in a single line if its name ends in ``LINES``."""
+    with replacing(path) as temporary:
+        indent = None if path.suffix.lower() == LINES else 2
+        temporary.write_text(json.dumps(content, indent=indent) + "\n", encoding="utf-8")
