@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -71,12 +72,10 @@ class Preset:
 def presets() -> list[Preset]:
     """Return all presets: included ones, then those of the artist, each from its first file."""
     global _known, _stamp
-    folders = bpy.utils.preset_paths(SUBFOLDER)
-    stamp = tuple((folder, Path(folder).stat().st_mtime_ns) for folder in folders)
+    stamp = tuple(map(_stamp_of, bpy.utils.preset_paths(SUBFOLDER)))
     if stamp != _stamp:
         found: dict[str, Preset] = {}
-        paths = [path for folder in folders for path in Path(folder).glob("*.py")]
-        for path in sorted(paths, key=_place):
+        for path in sorted((Path(path) for files in stamp for path, *_ in files), key=_place):
             preset = _read(path)
             if preset is not None:
                 found.setdefault(preset.identifier, preset)
@@ -149,6 +148,13 @@ def remove(preset: Preset) -> None:
 def _forget():
     global _stamp
     _stamp = ()
+
+
+def _stamp_of(folder):
+    """Return the files of a folder, and what changes where one is edited in place."""
+    with os.scandir(folder) as entries:
+        files = [(e.path, e.stat()) for e in entries if e.name.endswith(".py") and e.is_file()]
+    return tuple((path, about.st_mtime_ns, about.st_size) for path, about in files)
 
 
 def _place(path):

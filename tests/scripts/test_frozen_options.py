@@ -8,8 +8,9 @@ import argparse
 import json
 from pathlib import Path
 
-from library.command_line import arguments as of_library
 from scripts.cubic_craft.cubic_craft_addon.command_line.options import arguments as of_blender
+
+from library.command_line import arguments as of_library
 from tests import frozen
 
 FROZEN = Path(__file__).with_name("frozen_options.json")

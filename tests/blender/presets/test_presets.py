@@ -150,6 +150,15 @@ def test_a_preset_is_plain_assignments(files, monkey):
     assert all(line.startswith("bpy.context.object.cubic_craft.") for line in lines[1:] if line)
 
 
+def test_a_preset_that_is_edited_in_place_is_read_again(files, monkey):
+    save("Mine", cubeness=0.9)
+    path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
+    monkey.cubic_craft.preset = "Cubic"
+    path.write_text(path.read_text(encoding="utf-8").replace("= 0.9", "= 0.75"), encoding="utf-8")
+    monkey.cubic_craft.preset = "Mine"
+    assert monkey.cubic_craft.cubeness == 0.75
+
+
 def test_what_a_file_has_beside_a_look_is_neither_run_nor_set(files, monkey, tmp_path):
     save("Mine", cubeness=0.9)
     path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
