@@ -14,6 +14,7 @@ from typing import Any
 import bpy
 
 from ...solver import CubicCraftError
+from ...solver.method import LOOK
 from ..environment.file_names import folded
 from ..object_properties import PROPERTY
 
@@ -21,12 +22,6 @@ SUBFOLDER = "cubic_craft"
 INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 """folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
-SETTINGS = (
-    *("cubeness", "crispness", "solidity", "keep_pose", "detail", "detail_strength", "keep_apart"),
-    *("together", "refine", "rotation", "keep_symmetric", "hold_rest"),
-)
-"""the settings of a look; the orientation belongs to a mesh, the device to a machine"""
-
 _ORDER = ("Soft", "Rounded", DEFAULT, "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper")
 _PREFIX = "bpy.context.object.cubic_craft."
 _FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
@@ -42,7 +37,7 @@ class Preset:
     description: str
     """empty for those of the artist"""
     values: Mapping[str, Any]
-    """the values of `SETTINGS` that it sets"""
+    """the values of the `LOOK` that it sets"""
 
     @property
     def identifier(self):
@@ -115,7 +110,7 @@ def save(name: str, properties: Any) -> Path:
     for preset in presets():
         if folded(preset.identifier) == folded(stem) and preset.name != shown:
             raise CubicCraftError(f'"{name}" would replace "{preset.name}"; choose another name')
-    lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
+    lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in LOOK]
     folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"
     try:
@@ -183,7 +178,7 @@ def _assignments(tree):
         if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
             continue
         name, value = ast.unparse(node.targets[0]).removeprefix(_PREFIX), node.value.value
-        if name in SETTINGS and _can_be(group.properties[name], value):
+        if name in LOOK and _can_be(group.properties[name], value):
             yield name, value
 
 

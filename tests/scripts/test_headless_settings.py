@@ -4,30 +4,25 @@
 import json
 import subprocess
 import sys
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 
 import pytest
 from headless import PATIENCE
-from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import OF_FILE
-from scripts.cubic_craft.cubic_craft_addon.form.names import FORMS
 
 from solver import PAPER, ProxyOptions
-from solver.console import options
 
 GIVEN = {
     "": ProxyOptions(),
     "--paper": PAPER,
-    "--solidity 0.5": ProxyOptions(solidity=0.5),
-    "--keep-pose off": ProxyOptions(keep_pose=False),
-    "--detail 0.2": ProxyOptions(detail=0.2),
-    "--keep-apart off": ProxyOptions(keep_apart=False),
-    "--together off": ProxyOptions(together=False),
-    "--refine off": ProxyOptions(refine=False),
     "--paper --keep-pose on --detail 0.1 --keep-apart on": replace(
         PAPER, keep_pose=True, detail=0.1, keep_apart=True
     ),
 }
+for option in fields(ProxyOptions):
+    word, value = ("off", False) if option.default is True else ("0.2", 0.2)
+    given = f"--{option.name.replace('_', '-')} {word}"
+    GIVEN[given] = replace(ProxyOptions(), **{option.name: value})
 READ = """
 import json, os, sys
 from dataclasses import asdict
@@ -49,11 +44,6 @@ with registered():
 sys.stdout.flush()
 os._exit(0)  # Blender 4.2 crashes while it is freed
 """
-
-
-def test_the_forms_are_those_of_the_panel():
-    of_panel = [name.lower() for name, *_ in FORMS]
-    assert sorted(of_panel) == sorted([*options.FORMS, *OF_FILE, "faces"])
 
 
 @pytest.fixture(scope="module")

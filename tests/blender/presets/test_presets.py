@@ -10,6 +10,8 @@ import bpy
 import pytest
 from scene import add_monkey, cubify
 
+from solver.method import LOOK, PAPER
+
 OURS = ["Soft", "Rounded", "Cubic", "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper"]
 
 
@@ -207,7 +209,7 @@ def test_each_setting_of_a_look_is_saved_and_brought_back(files, monkey, name, v
 def test_each_of_ours_sets_all_of_a_look_but_the_paper_leaves_the_cubeness(files):
     for preset in files.presets():
         left = {"cubeness"} if preset.identifier == "As_in_the_Paper" else set()
-        assert set(preset.values) == set(files.SETTINGS) - left
+        assert set(preset.values) == set(LOOK) - left
 
 
 def test_as_in_the_paper(files, rooms, monkey):
@@ -215,7 +217,7 @@ def test_as_in_the_paper(files, rooms, monkey):
     monkey.cubic_craft.preset = "As_in_the_Paper"
     settings = rooms("cubic_craft_addon.settings.properties").settings_of(monkey)
     assert settings.proxy == rooms("solver").PAPER
-    assert settings.rotation == "FREE"
+    assert files.find("As_in_the_Paper").values == PAPER
     assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"
 
 
