@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is declared of a setting: a word for each of those that have it."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import field, fields
 from typing import Any, NamedTuple
 
@@ -42,10 +43,31 @@ class Setting(NamedTuple):
     """whether it grows from 0 where a film shows how a shape becomes cubic"""
 
 
-def setting(*args: Any, **more: Any) -> Any:
-    """Return the field of a dataclass that is a setting, from what a `Setting` is made of."""
-    found = Setting(*args, **more)
-    return field(default=found.default, metadata={"setting": found})
+def setting(default: Any, numbers: Sequence[int] = (), **about: Any) -> Callable[..., Any]:
+    """Return what makes the field of a dataclass, which is a setting, from its words.
+
+    Parameters
+    ----------
+    default
+    numbers : of the choices, if they are not their places
+    about : other fields of a `Setting`
+
+    Returns
+    -------
+    callable
+        Takes the label, the text, the help if there is an option, and ``choices``: as `Setting`
+        has them, or a dict of identifiers and "label: text".
+    """
+
+    def declare(label: str, text: str, help: str | None = None, choices: Any = ()) -> Any:
+        if isinstance(choices, dict):
+            choices = [(name, *words.split(": ", 1)) for name, words in choices.items()]
+        every = tuple((*c, n) for c, n in zip(choices, numbers, strict=False))
+        words = {"label": label, "text": text, "help": help, "choices": every or tuple(choices)}
+        found = Setting(default, **words, **about)
+        return field(default=default, metadata={"setting": found})
+
+    return declare
 
 
 def declared(*groups: type) -> dict[str, Setting]:

@@ -24,14 +24,11 @@ from ..regions.region import Region
 class Parts:
     """Whether what an object lists is used; a run has the lists instead."""
 
-    use_handles: bool = setting(
-        True, "Handles", "Hold and pose the vertices of the object's handles", is_of_mesh=True
+    use_handles: bool = setting(True, is_of_mesh=True)(
+        "Handles", "Hold and pose the vertices of the object's handles"
     )
-    use_regions: bool = setting(
-        True,
-        "Regions",
-        "Use the object's regions: vertex groups with a form of their own",
-        is_of_mesh=True,
+    use_regions: bool = setting(True, is_of_mesh=True)(
+        "Regions", "Use the object's regions: vertex groups with a form of their own"
     )
 
 
@@ -39,55 +36,31 @@ class Parts:
 class Output:
     """What it starts from in Blender, and where the shape is written."""
 
-    result: str = setting(
-        "MESH",
+    result: str = setting("MESH", in_animation="MESH")(
         "Write To",
         "Where to write the cubic shape",
-        choices=(
-            ("MESH", "Mesh", "Move the vertices of the mesh; Restore brings back the original"),
-            (
-                "SHAPE_KEY",
-                "Shape Key",
-                'Write a shape key "Cubic" that can be adjusted and animated',
-            ),
-            ("NEW_OBJECT", "New Object", "Make a cubic copy and leave the object unchanged"),
-        ),
-        in_animation="MESH",
+        choices={
+            "MESH": "Mesh: Move the vertices of the mesh; Restore brings back the original",
+            "SHAPE_KEY": 'Shape Key: Write a shape key "Cubic" that can be adjusted and animated',
+            "NEW_OBJECT": "New Object: Make a cubic copy and leave the object unchanged",
+        },
     )
-    with_modifiers: bool = setting(
-        False,
+    with_modifiers: bool = setting(False, in_animation=False)(
         "With Modifiers",
         "Apply the modifiers to the new object, including the pose of an Armature. When off, the"
         " mesh without its modifiers becomes cubic",
-        in_animation=False,
     )
-    start: Start = setting(  # noqa: RUF009
-        "EDITS",
+    # Who sculpts on a result and then moves a slider wants to keep both.
+    start: Start = setting("EDITS", numbers=(2, 0, 1), in_animation="HERE")(  # noqa: RUF009
         "Start",
         "What Cubify and Live start from if the mesh was edited by hand since it was cubified",
-        # Who sculpts on a result and then moves a slider wants to keep both.
-        choices=(
-            (
-                "EDITS",
-                "Original and Edits",
-                "Start from the original, and put what you moved by hand back onto the result",
-                2,
-            ),
-            (
-                "HERE",
-                "From Here",
-                "Start from the mesh as it is now, which replaces the original; Restore First"
-                " brings the first one back until Apply",
-                0,
-            ),
-            (
-                "ORIGINAL",
-                "From the Original",
-                "Start from the original; edits by hand are lost",
-                1,
-            ),
-        ),
-        in_animation="HERE",
+        choices={
+            "EDITS": "Original and Edits: Start from the original, and put what you moved by hand"
+            " back onto the result",
+            "HERE": "From Here: Start from the mesh as it is now, which replaces the original;"
+            " Restore First brings the first one back until Apply",
+            "ORIGINAL": "From the Original: Start from the original; edits by hand are lost",
+        },
     )
 
 
