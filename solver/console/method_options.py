@@ -76,19 +76,17 @@ def _how(setting: Setting) -> dict[str, Any]:
         how["choices"] = ("on", "off")
     elif isinstance(default, tuple):
         how["nargs"] = len(default)
-    if setting.subtype == "EULER":
-        how["type"] = number(-36000, 36000)
-    elif setting.limits:
-        kind = int if isinstance(default, int) else float
-        how["type"] = number(*setting.limits, kind)
+    limits = (-36000, 36000) if setting.subtype == "EULER" else setting.limits
+    if limits:
+        how["type"] = number(*limits, int if isinstance(default, int) else float)
     return how
 
 
 def _help(setting: Setting) -> str:
     """Return the help, with the default unless it says so itself, or that is nothing to tell."""
-    text = (setting.help or "").replace("%", "%%")
-    is_told = "default" in text or isinstance(setting.default, tuple) or setting.default == ""
-    return text if is_told else f"{text} (default: {_told(_word(setting.default))})".strip()
+    text, word = (setting.help or "").replace("%", "%%"), _word(setting.default)
+    is_told = "default" in text or word == "" or isinstance(word, list)
+    return text if is_told else f"{text} (default: {_told(word)})".strip()
 
 
 def _told(word: Any) -> str:
@@ -108,8 +106,6 @@ def _value(setting: Setting, word: Any) -> Any:
     """Return the value of a setting for that of its option."""
     if isinstance(setting.default, bool):
         return word == "on"
-    if setting.subtype == "EULER":
-        return tuple(math.radians(angle) for angle in word)
     if isinstance(setting.default, tuple):
-        return tuple(word)
+        return tuple(map(math.radians, word) if setting.subtype == "EULER" else word)
     return word.upper() if setting.choices else word

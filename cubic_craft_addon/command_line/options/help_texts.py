@@ -8,17 +8,8 @@ from .formats import ANIMATED, KEEP_VERTICES, READABLE, listing
 __all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
 
 COMMON = (
-    *(
-        "inputs",
-        "--cubeness",
-        "--form",
-        "--orientation",
-        "--pin",
-        "--crispness",
-        "--detail",
-        "--output",
-    ),
-    *("--no-render", "--save-mesh", "--bake", "--output-folder", "--jobs", "--turn"),
+    *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--crispness", "--detail"),
+    *("--output", "--no-render", "--save-mesh", "--bake", "--output-folder", "--jobs", "--turn"),
 )
 """what --help shows; --help-all shows all"""
 
