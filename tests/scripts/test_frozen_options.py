@@ -25,7 +25,6 @@ OTHERS = (
 )
 GIVEN = {
     "library": (
-        "",
         "--paper",
         "--paper --keep-pose on --detail 0.1 --keep-apart on --together parts --refine auto",
         OTHERS,
@@ -64,8 +63,12 @@ def declared():
         for action in parser._actions:
             if "--version" not in action.option_strings:
                 yield f"{command} {[*action.option_strings, action.dest][0]}", about(action)
+        files = FILES[command].split()
+        nothing = vars(parse(files))
+        yield f"{command} reads nothing", nothing
         for given in GIVEN[command]:
-            yield f"{command} reads {given}", vars(parse([*FILES[command].split(), *given.split()]))
+            read = vars(parse([*files, *given.split()]))
+            yield f"{command} reads {given}", {n: x for n, x in read.items() if x != nothing[n]}
 
 
 def test_options_of_both_command_lines_are_as_they_were():
