@@ -203,6 +203,11 @@ class Run:
         return self._coarse is not None
 
     @property
+    def keeps_apart(self) -> bool:
+        """Whether it looks, after the iterations, for what has come to cross."""
+        return self._apart is not None
+
+    @property
     def is_keeping_apart(self) -> bool:
         """Whether the iterations have ended, and what crosses is looked for and drawn apart."""
         return self._round > 0

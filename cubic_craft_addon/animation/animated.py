@@ -19,7 +19,7 @@ from ..read.member import Member, ShapeRead, placed, read_member
 from ..read.object_frame import placements
 from ..run import pipeline
 from ..run.up_to_date import what_matters
-from ..settings.values import Settings
+from ..settings.values import IN_ANIMATION, Settings
 from .on_the_way import on_the_way
 
 _STILL = 1e-9  # of the unit box; less is no movement
@@ -56,22 +56,10 @@ class Animated:
         share: float = 1.0,
         start: FrameSettings | None = None,
     ) -> Settings:
-        """Return the settings in this frame, a share of the way from others or the original.
-
-        A pose is not symmetric, even if the character is, so there is no symmetry. Where Keep Apart
-        begins to take effect, surfaces would jump.
-        """
+        """Return the settings in this frame, a share of the way from others or the original."""
         owner = self.source if self.source.type == "MESH" else self.new
         before = None if start is None else start.settings_for(owner)
-        return replace(
-            on_the_way(before, overrides.settings_for(owner), share),
-            symmetry=(False, False, False),
-            keep_symmetric=False,
-            keep_apart=False,
-            result="MESH",
-            with_modifiers=False,
-            start="HERE",
-        )
+        return replace(on_the_way(before, overrides.settings_for(owner), share), **IN_ANIMATION)
 
 
 class AnimatedGroup:

@@ -5,7 +5,10 @@ from dataclasses import replace
 
 from mathutils import Euler
 
+from ...solver.method import SETTINGS
 from ..settings.values import Settings
+
+_STRENGTHS = [name for name, each in SETTINGS.items() if each.is_strength]
 
 
 def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
@@ -28,7 +31,9 @@ def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
 
     before = {region.group: region.cubeness for region in start.regions} if start else {}
     base = start.cubeness if start else 0.0
-    strength = start.capture_strength if start and start.capture_object else 0.0
+    strengths = {name: getattr(start, name) if start else 0.0 for name in _STRENGTHS}
+    if start is not None and start.capture_object is None:
+        strengths["capture_strength"] = 0.0
     regions = tuple(
         replace(region, cubeness=mixed(before.get(region.group, base), region.cubeness))
         for region in end.regions
@@ -40,9 +45,7 @@ def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
         turned = (found.x, found.y, found.z)
     return replace(
         end,
-        cubeness=mixed(base, end.cubeness),
-        capture_strength=mixed(strength, end.capture_strength),
-        crispness=mixed(start.crispness if start else 0.0, end.crispness),
         regions=regions,
         orientation=turned,
+        **{name: mixed(value, getattr(end, name)) for name, value in strengths.items()},
     )

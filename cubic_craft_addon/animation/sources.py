@@ -9,9 +9,9 @@ import bpy
 from ..environment.curves import animated_paths
 from ..object_properties import PROPERTY, has_properties, object_properties
 from ..settings.overrides import OF_EACH_OBJECT, SettingsOverrides, asked_for, values_of
-from ..settings.values import Settings
+from ..settings.values import SETTINGS, Settings
 
-OF_ALL_FRAMES = ("together", "refine")
+OF_ALL_FRAMES = tuple(name for name, each in SETTINGS.items() if each.is_of_all_frames)
 """settings that determine which vertices are solved, which a sequence of frames has in common"""
 _SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
 

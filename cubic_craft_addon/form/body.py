@@ -12,13 +12,13 @@ from ... import solver
 from ...solver import CubicCraftError
 from ...solver.styles import forms
 from ...solver.styles.clusters import directions_of, enclosing
+from ...solver.styles.form_names import OF_OBJECT
 from ...solver.styles.hulls import simple_hull
 from ...solver.styles.polytope import Polytope, from_directions
 from .. import mesh_bridge
 from ..environment.object_cache import kept, once
 from ..environment.requirements import check_requirements
 from .direction_text import read_directions
-from .names import OF_OBJECT
 from .settings import FormSettings, check_directions, check_form_object
 
 MOST_DIRECTIONS = 64

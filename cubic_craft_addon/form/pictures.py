@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy.utils.previews
 
-from .names import FORMS
+from ...solver.styles.form_names import FORMS
 
 _FOLDER = Path(__file__).parents[1] / "assets" / "forms"
 

@@ -8,33 +8,21 @@ from dataclasses import dataclass
 import bpy
 
 from ...solver.errors import CubicCraftError
-from .names import OF_OBJECT
+from ...solver.method import Method
+from ...solver.styles.form_names import OF_OBJECT
 
 
 @dataclass(frozen=True, kw_only=True)
-class FormSettings:
-    """What the surface of an object, or of a region, is turned toward, and how strongly.
+class FormSettings(Method):
+    """The settings with the objects that the surface of a mesh, or of a region, is turned toward.
 
     The defaults are those of the panel.
     """
 
-    cubeness: float = 0.4
-    form: str = "CUBE"
-    """what a ball would become: one of `names.FORMS`"""
-    form_sides: int = 6
-    """of a prism or pyramid"""
-    form_weights: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """of the axes of a box"""
     form_object: bpy.types.Object | None = None
     """the object that an OBJECT or DIRECTIONS form is made from"""
     capture_object: bpy.types.Object | None = None
     """the ball whose normals say which way surfaces should face"""
-    capture_strength: float = 0.4
-    """of its normals, beside the cubeness"""
-    form_directions: str = ""
-    """of the sides of a form of FACES, in its own axes, see `direction_text`"""
-    orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Euler XYZ angles in radians"""
 
 
 def check_form_object(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Any
 import bpy
 
 from ...solver import CubicCraftError
+from ...solver.method import LOOK
 from ..environment.file_names import folded
 from ..object_properties import PROPERTY
 
@@ -20,12 +22,6 @@ SUBFOLDER = "cubic_craft"
 INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
 """folder of the presets included with the extension, and of their pictures"""
 DEFAULT = "Cubic"
-SETTINGS = (
-    *("cubeness", "crispness", "solidity", "keep_pose", "detail", "detail_strength", "keep_apart"),
-    *("together", "refine", "rotation", "keep_symmetric", "hold_rest"),
-)
-"""the settings of a look; the orientation belongs to a mesh, the device to a machine"""
-
 _ORDER = ("Soft", "Rounded", DEFAULT, "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper")
 _PREFIX = "bpy.context.object.cubic_craft."
 _FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
@@ -41,7 +37,7 @@ class Preset:
     description: str
     """empty for those of the artist"""
     values: Mapping[str, Any]
-    """the values of `SETTINGS` that it sets"""
+    """the values of the `LOOK` that it sets"""
 
     @property
     def identifier(self):
@@ -71,12 +67,10 @@ class Preset:
 def presets() -> list[Preset]:
     """Return all presets: included ones, then those of the artist, each from its first file."""
     global _known, _stamp
-    folders = bpy.utils.preset_paths(SUBFOLDER)
-    stamp = tuple((folder, Path(folder).stat().st_mtime_ns) for folder in folders)
+    stamp = tuple(map(_stamp_of, bpy.utils.preset_paths(SUBFOLDER)))
     if stamp != _stamp:
         found: dict[str, Preset] = {}
-        paths = [path for folder in folders for path in Path(folder).glob("*.py")]
-        for path in sorted(paths, key=_place):
+        for path in sorted((Path(path) for files in stamp for path, *_ in files), key=_place):
             preset = _read(path)
             if preset is not None:
                 found.setdefault(preset.identifier, preset)
@@ -116,7 +110,7 @@ def save(name: str, properties: Any) -> Path:
     for preset in presets():
         if folded(preset.identifier) == folded(stem) and preset.name != shown:
             raise CubicCraftError(f'"{name}" would replace "{preset.name}"; choose another name')
-    lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in SETTINGS]
+    lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in LOOK]
     folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"
     try:
@@ -151,6 +145,13 @@ def _forget():
     _stamp = ()
 
 
+def _stamp_of(folder):
+    """Return the files of a folder, and what changes where one is edited in place."""
+    with os.scandir(folder) as entries:
+        files = [(e.path, e.stat()) for e in entries if e.name.endswith(".py") and e.is_file()]
+    return tuple((path, about.st_mtime_ns, about.st_size) for path, about in files)
+
+
 def _place(path):
     """Return a sort key: included presets first, from soft to hard."""
     is_included = path.parent == INCLUDED_FOLDER
@@ -177,7 +178,7 @@ def _assignments(tree):
         if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Constant):
             continue
         name, value = ast.unparse(node.targets[0]).removeprefix(_PREFIX), node.value.value
-        if name in SETTINGS and _can_be(group.properties[name], value):
+        if name in LOOK and _can_be(group.properties[name], value):
             yield name, value
 
 

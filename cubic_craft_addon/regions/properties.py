@@ -4,23 +4,20 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..form import properties as form_properties
+from ..form.properties import form_property
+from .region import OWN
 
 
 class CubicCraftRegion(bpy.types.PropertyGroup):
     """A region of an object: a vertex group with a form and a cubeness of its own."""
 
-    group: StringProperty(
-        name="Vertex Group",
-        description="Vertex group that the region covers. Where its weights are less than 1, the"
-        " region blends into what is around it",
-    )
-    cubeness: form_properties.cubeness()
-    form: form_properties.form()
-    form_sides: form_properties.form_sides()
-    form_weights: form_properties.form_weights()
-    form_object: form_properties.form_object()
-    orientation: form_properties.orientation()
+    __annotations__ = {
+        "group": StringProperty(
+            name="Vertex Group",
+            description="Vertex group that the region covers. Where its weights are less than 1,"
+            " the region blends into what is around it",
+        )
+    } | {name: form_property(name) for name in OWN}
 
 
 register, unregister = bpy.utils.register_classes_factory((CubicCraftRegion,))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import bpy
 
 from ...solver.errors import CubicCraftError
-from ..form.names import OF_OBJECT
+from ...solver.styles.form_names import OF_OBJECT
 from ..form.settings import check_form_object
 from ..mesh_bridge import vertex_group
 from ..object_properties import object_properties

@@ -153,7 +153,7 @@ class StepwiseRun:
             self._run = before and before.with_crispness(self.problem.style.crispness)
             self._run = self._run or pipeline.start(self.problem)
             self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
-            self._countdown = Countdown(keeps_apart=settings.keep_apart)
+            self._countdown = Countdown(keeps_apart=self._run.keeps_apart)
         except solver.CubicCraftError as error:
             self.problems = [*self.problems, str(error)]
 

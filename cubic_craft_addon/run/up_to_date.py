@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.styles.form_names import OF_OBJECT
 from ..form.body import form_of
-from ..form.names import FORM_SETTINGS, OF_OBJECT, form_settings
+from ..form.names import FORM_SETTINGS, form_settings
 from ..form.normal_capture import has_capture, note_of
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties

@@ -13,7 +13,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ...solver import CubicCraftError
-from ..form.names import OF_OBJECT
+from ...solver.styles.form_names import OF_OBJECT
 from ..handles import Handle
 from ..handles.own_pose import Pose
 from ..handles.pose import posed_handles
@@ -21,10 +21,10 @@ from ..mesh_bridge import Start
 from ..object_properties import object_properties
 from ..regions.region import object_regions
 from ..screen import glimpse
-from .properties import CubicCraftProperties, RunProperties, settings_of, value_of
-from .values import Settings
+from .properties import CubicCraftProperties, settings_of, value_of
+from .values import SETTINGS, Settings
 
-ALL = tuple(RunProperties.__annotations__)
+ALL = tuple(name for name in SETTINGS if name != "start")
 """names of the properties that the panel, the operator and Live share"""
 POINTERS = {
     "frame": lambda values: values.get("space") == "FRAME",
@@ -33,7 +33,7 @@ POINTERS = {
 }
 """settings that are objects, and whether other settings ask for them; in the operator and in Live
 they are given by name"""
-OF_EACH_OBJECT = ("use_handles", "use_regions", "map_group", "map_invert", "detail_group")
+OF_EACH_OBJECT = tuple(name for name, each in SETTINGS.items() if each.is_of_mesh)
 _PLAIN = tuple(field.name for field in fields(Settings))  # the same name in the Settings
 
 
@@ -110,10 +110,10 @@ def values_of(properties: Any, names: tuple[str, ...] = ALL) -> dict[str, Any]:
 def pointer_name(setting: str) -> Any:
     """Return the declaration of the property that has the name of one of POINTERS."""
     declared = CubicCraftProperties.__annotations__[setting].keywords
-    what = declared["description"].removeprefix("Object")
+    what = declared["description"]
     return StringProperty(
         name=declared["name"],
-        description=f"Name of the object{what}",
+        description=f"Name of the {what[0].lower()}{what[1:]}",
         options={"SKIP_SAVE"},
     )
 

@@ -6,14 +6,17 @@
 
 from typing import Any
 
+from ...solver.method import Advanced, Computation, Kept
+from ...solver.setting import declared
+
 
 def draw_volume(layout: Any, properties: Any) -> None:
     """Draw what is kept of pose, details, thickness and parts."""
-    layout.prop(properties, "keep_pose")
-    _draw_detail(layout, properties)
-    layout.prop(properties, "solidity", slider=True)
-    layout.prop(properties, "keep_apart")
-    layout.prop(properties, "together")
+    for name in declared(Kept):
+        if name == "detail":
+            _draw_detail(layout, properties)
+        elif name != "detail_strength":
+            layout.prop(properties, name, slider=True)
 
 
 def _draw_detail(layout, properties):
@@ -30,12 +33,11 @@ def _draw_detail(layout, properties):
 
 def draw_advanced(layout: Any, properties: Any) -> None:
     """Draw what is rarely changed."""
-    layout.prop(properties, "refine")
-    layout.prop(properties, "rotation")
+    for name in declared(Advanced):
+        layout.prop(properties, name)
 
 
 def draw_solver(layout: Any, properties: Any) -> None:
     """Draw where it is computed, and when that ends."""
-    layout.prop(properties, "device")
-    layout.prop(properties, "max_iterations")
-    layout.prop(properties, "tolerance")
+    for name in declared(Computation):
+        layout.prop(properties, name)

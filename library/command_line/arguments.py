@@ -8,27 +8,28 @@ from typing import Any
 
 from solver.console import method_options
 from solver.console.errors import InputError
-from solver.console.options import FORMS, OneLineParser, number
+from solver.console.options import FORMS, OneLineParser
+from solver.method import IN_LIBRARY
 
 from .formats import FORMATS
 
 __all__ = ("parse",)
 
-DEFAULTS = {**method_options.DEFAULTS, "together": ("parts", "off")}
+DEFAULTS = {**method_options.defaults(*IN_LIBRARY), "together": ("parts", "off")}
 """name: by default, with ``--paper``"""
 
+TOGETHER = {
+    "choices": ("off", "parts"),
+    "help": "parts: parts that touch stay on each other, and seams stay closed (default: parts)",
+}
+
 HELP = {
-    **method_options.HELP,
     "paths": f"surfaces ({', '.join(FORMATS)}) or folders of them, and at the end the result: a "
     "file, or for several surfaces a folder, which is made; - is standard input or output",
     "--report": "numbers of each file, written after it; as *.jsonl a line of JSON for each",
     "--format": "of what is written to standard output (default: that of the input)",
     "--quiet": "say nothing but what is wrong",
-    "--orientation": "Euler angles of the form in degrees: about X, then Y, then Z",
-    "--together": "parts: parts that touch stay on each other, and seams stay closed "
-    "(default: parts)",
-    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, "
-    "together off, refine off, rotation free; each of them can be given beside it and counts then",
+    "--paper": method_options.as_in_paper(DEFAULTS),
 }
 
 EPILOG = """\
@@ -74,16 +75,11 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     def add(name: str, **how: Any) -> None:
-        parser.add_argument(name, help=HELP[name], **how)
+        parser.add_argument(name, **{"help": HELP.get(name), **how})
 
     add("paths", nargs="+", metavar="INPUT ... OUTPUT")
-    add("--cubeness", type=number(0, 10), default=0.4, metavar="L")
-    add("--form", choices=FORMS, default="cube")
-    method_options.add_form(add)
-    method_options.add_kept(add)
-    add("--together", choices=("off", "parts"))
+    method_options.add_settings(add, *IN_LIBRARY, form={"choices": FORMS}, together=TOGETHER)
     add("--paper", action="store_true")
-    method_options.add_solver(add)
     add("--format", choices=[suffix.removeprefix(".") for suffix in FORMATS])
     add("--report", type=Path, metavar="FILE.json")
     add("--quiet", action="store_true")

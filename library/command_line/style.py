@@ -6,8 +6,11 @@ from argparse import Namespace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from solver import CubicCraftError, ProxyOptions, Result, stylize
+from solver import CubicCraftError, Result, stylize
 from solver.console.errors import InputError
+from solver.console.method_options import settings_from
+from solver.method import IN_LIBRARY, Method
+from solver.proxy.options import proxy_of
 from solver.styles import forms
 
 from .surface import Surface
@@ -23,27 +26,21 @@ def stylized(surface: Surface, options: Namespace) -> Result:
     InputError
         The solver refuses the mesh or an option; the message lacks the path.
     """
+    method = Method(**settings_from(vars(options), *IN_LIBRARY))
     try:
         return stylize(
             surface.points,
             surface.triangles,
-            options.cubeness,
-            max_iterations=options.max_iterations,
-            tolerance=options.tolerance,
-            proxy=ProxyOptions(
-                solidity=options.solidity,
-                together=options.together != "off",
-                refine=options.refine != "off",
-                keep_pose=options.keep_pose == "on",
-                detail=options.detail,
-                keep_apart=options.keep_apart == "on",
-            ),
+            method.cubeness,
+            max_iterations=method.max_iterations,
+            tolerance=method.tolerance,
+            proxy=proxy_of(method),
             orientation=orientation_of(options.orientation),
-            crispness=options.crispness,
-            detail_strength=options.detail_strength,
-            form=forms.named(options.form, options.form_sides, options.form_weights),
+            crispness=method.crispness,
+            detail_strength=method.detail_strength,
+            form=forms.named(options.form, method.form_sides, method.form_weights),
             device=options.device,
-            keep_rotation=options.rotation == "keep",
+            keep_rotation=method.rotation == "KEEP",
         )
     except CubicCraftError as error:
         raise InputError(str(error)) from error

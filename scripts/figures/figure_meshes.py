@@ -29,16 +29,14 @@ from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 from cubic_craft.solver.console.errors import InputError
 from cubic_craft.solver.errors import CubicCraftError
+from cubic_craft.solver.method import PAPER
 
 from . import shapes
 
 __all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "colored_by", "moved")
 
-AS_IN_THE_PAPER = {
-    **{"crispness": 0.0, "solidity": 0.0, "keep_pose": False, "detail": 0.0},
-    **{"keep_apart": False, "together": "OFF", "refine": "OFF", "rotation": "FREE"},
-}
-"""settings for figures that show what the energy of the paper does"""
+AS_IN_THE_PAPER = {**PAPER, "keep_symmetric": True, "hold_rest": True}
+"""settings for figures that show what the energy of the paper does; what is symmetric stays so"""
 
 ROUGH_ITERATIONS = 8
 """after which meshes are about as cubic as they become"""

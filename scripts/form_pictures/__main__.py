@@ -20,8 +20,8 @@ from preset_pictures.studio import Picture, render, set_up  # noqa: E402
 
 from cubic_craft import registered  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface  # noqa: E402
-from cubic_craft.cubic_craft_addon.form.names import FORMS  # noqa: E402
 from cubic_craft.cubic_craft_addon.form.pictures import path_of  # noqa: E402
+from cubic_craft.solver.styles.form_names import FORMS  # noqa: E402
 from form_pictures.bodies import FROM_OBJECTS, body_of  # noqa: E402
 
 VIEW = (math.radians(64.0), 0.0, math.radians(24.0))

@@ -1,74 +1,111 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the method, which mean the same on both command lines."""
+"""The options of both command lines for the settings of the method, made from what is declared.
 
-from collections.abc import Callable
+A choice is given in lower case, a switch as on or off, and angles in degrees.
+"""
 
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..setting import Setting, declared
 from .options import number
 
-__all__ = ("DEFAULTS", "HELP", "Adder", "add_form", "add_kept", "add_solver")
+__all__ = ("Adder", "add_settings", "as_in_paper", "defaults", "names_of_options", "settings_from")
 
 Adder = Callable[..., None]
-"""takes the name of an option, and what `ArgumentParser.add_argument` does besides its help"""
-
-DEFAULTS = {
-    "crispness": (0.9, 0.0),
-    "solidity": (0.3, 0.0),
-    "keep_pose": ("on", "off"),
-    "detail": (0.05, 0.0),
-    "detail_strength": (1.0, 1.0),
-    "keep_apart": ("on", "off"),
-    "refine": ("auto", "off"),
-    "rotation": ("keep", "free"),
-}
-"""name: by default, with ``--paper``"""
-
-HELP = {
-    "--cubeness": "0 keeps the shape, 0.1 to 1 are common (default: 0.4)",
-    "--form": "what a ball would become (default: cube)",
-    "--form-sides": "of a prism or pyramid (default: 6)",
-    "--form-weights": "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
-    "--crispness": "how far sides are made flat and edges straight: from 0, soft, to 1 "
-    "(default: 0.9)",
-    "--solidity": "how firmly limbs, walls and the volume keep their thickness; 0 is a hollow skin "
-    "(default: 0.3)",
-    "--keep-pose": "whether limbs become boxes along themselves, so that the pose stays "
-    "(default: on)",
-    "--detail": "features smaller than this share of the largest extent ride along instead of "
-    "being flattened; 0 flattens all (default: 0.05)",
-    "--detail-strength": "how high these features stand out: 0 removes them, 2 doubles them "
-    "(default: 1)",
-    "--keep-apart": "whether surfaces that do not cross are kept from crossing (default: on)",
-    "--refine": "auto: coarse meshes are solved on a finer copy (default: auto)",
-    "--rotation": "whether each part is held in its orientation, or may turn as a whole "
-    "(default: keep)",
-    "--max-iterations": "(default: 1000)",
-    "--tolerance": "(default: 0.001)",
-    "--device": "(default: auto)",
-}
+"""takes the name of an option, and what `ArgumentParser.add_argument` does"""
 
 
-def add_form(add: Adder) -> None:
-    """Add the settings of forms with a name, and how they lie."""
-    add("--form-sides", type=number(3, 64, int), default=6, metavar="N")
-    weights, degrees = number(0, 10), number(-36000, 36000)
-    add("--form-weights", nargs=3, type=weights, default=[1.0] * 3, metavar=("X", "Y", "Z"))
-    add("--orientation", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
+def add_settings(add: Adder, *groups: type, **others: Mapping[str, Any]) -> None:
+    """Add an option for each setting that has one.
+
+    Parameters
+    ----------
+    add : callable
+    groups : classes of `solver.method`
+    others : by the name of a setting, what is otherwise in its option
+    """
+    settings = declared(*groups)
+    for name, option in names_of_options(*groups).items():
+        how = {**_how(settings[name]), **others.get(name, {})}
+        add(f"--{option.replace('_', '-')}", **how)
 
 
-def add_kept(add: Adder) -> None:
-    """Add what is kept of the mesh; without a default, which is one of `DEFAULTS`."""
-    add("--crispness", type=number(0, 1), metavar="C")
-    add("--solidity", type=number(0, 10), metavar="S")
-    add("--keep-pose", choices=("on", "off"))
-    add("--detail", type=number(0, 1), metavar="SIZE")
-    add("--detail-strength", type=number(0, 10), metavar="S")
-    add("--keep-apart", choices=("on", "off"))
-    add("--refine", choices=("auto", "off"))
-    add("--rotation", choices=("keep", "free"))
+def names_of_options(*groups: type) -> dict[str, str]:
+    """Return the attribute that each setting has among the options, by its name."""
+    settings = declared(*groups).items()
+    return {n: (x.option or n).replace("-", "_") for n, x in settings if x.help is not None}
 
 
-def add_solver(add: Adder) -> None:
-    """Add when the solver stops, and where it runs."""
-    add("--max-iterations", type=number(1, 1_000_000, int), default=1000, metavar="N")
-    add("--tolerance", type=number(1e-12, 1), default=1e-3, metavar="T")
-    add("--device", choices=("auto", "cpu", "gpu", "numpy"), default="auto")
+def defaults(*groups: type) -> dict[str, tuple[Any, Any]]:
+    """Return what options are by default, and with ``--paper``, if that says so."""
+    settings, names = declared(*groups), names_of_options(*groups)
+    return {
+        option: (_word(settings[name].default), _word(settings[name].paper))
+        for name, option in names.items()
+        if settings[name].paper is not None
+    }
+
+
+def as_in_paper(values: Mapping[str, tuple[Any, Any]]) -> str:
+    """Return the help of ``--paper``, from `defaults`."""
+    given = (
+        f"{name.replace('_', '-')} {_told(paper)}"
+        for name, (default, paper) in values.items()
+        if paper != default
+    )
+    what = ", ".join(given)
+    return f"as in the paper: {what}; each of them can be given beside it and counts then"
+
+
+def settings_from(options: Mapping[str, Any], *groups: type) -> dict[str, Any]:
+    """Return the values of settings by their names, from those of options."""
+    settings, names = declared(*groups), names_of_options(*groups)
+    return {name: _value(settings[name], options[option]) for name, option in names.items()}
+
+
+def _how(setting: Setting) -> dict[str, Any]:
+    """Return what `ArgumentParser.add_argument` takes."""
+    default = setting.default
+    how: dict[str, Any] = {"help": _help(setting), "metavar": setting.metavar}
+    how["default"] = _word(default) if setting.paper is None else None
+    if setting.choices:
+        how["choices"] = [identifier.lower() for identifier, *_ in setting.choices]
+    elif isinstance(default, bool):
+        how["choices"] = ("on", "off")
+    elif isinstance(default, tuple):
+        how["nargs"] = len(default)
+    limits = (-36000, 36000) if setting.subtype == "EULER" else setting.limits
+    if limits:
+        how["type"] = number(*limits, int if isinstance(default, int) else float)
+    return how
+
+
+def _help(setting: Setting) -> str:
+    """Return the help, with the default unless it says so itself, or that is nothing to tell."""
+    text, word = (setting.help or "").replace("%", "%%"), _word(setting.default)
+    is_told = "default" in text or word == "" or isinstance(word, list)
+    return text if is_told else f"{text} (default: {_told(word)})".strip()
+
+
+def _told(word: Any) -> str:
+    return f"{word:g}" if isinstance(word, int | float) else word or "off"
+
+
+def _word(value: Any) -> Any:
+    """Return the value of an option for that of a setting."""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, tuple):
+        return list(value)
+    return value.lower() if isinstance(value, str) else value
+
+
+def _value(setting: Setting, word: Any) -> Any:
+    """Return the value of a setting for that of its option."""
+    if isinstance(setting.default, bool):
+        return word == "on"
+    if isinstance(setting.default, tuple):
+        return tuple(map(math.radians, word) if setting.subtype == "EULER" else word)
+    return word.upper() if setting.choices else word

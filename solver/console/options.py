@@ -6,16 +6,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
+from ..styles.form_names import FORMS as EVERY_FORM
+from ..styles.form_names import OF_OBJECT
 from .errors import InputError
 
-__all__ = ("FORMS", "WITH_SIDES", "OneLineParser", "number")
+__all__ = ("FORMS", "OneLineParser", "number")
 
-FORMS = (
-    *("cube", "box", "rounded", "octahedron", "tetrahedron", "dodecahedron", "icosahedron"),
-    *("rhombic", "prism", "pyramid", "cylinder", "cone"),
-)
+FORMS = tuple(name.lower() for name, *_ in EVERY_FORM if name not in (*OF_OBJECT, "FACES"))
 """those that need no more than a number of sides or weights: the names of `styles.forms.named`"""
-WITH_SIDES = ("prism", "pyramid")
 
 
 class OneLineParser(argparse.ArgumentParser):

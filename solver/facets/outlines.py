@@ -41,7 +41,7 @@ class Outlines:
         dense = self._dense_loops()
         self._chains = self._find_chains()
         self._kept = [self._simplified(chain, course) for chain in self._chains]
-        self._keep_apart()
+        self._keep_distinct()
         self._keep_open(dense)
         self.loops = {}
         anchors = self._anchors()
@@ -135,7 +135,7 @@ class Outlines:
         at = np.lexsort((np.abs(np.arange(len(off)) - middle), -off))[0]
         return a + 1 + int(at), float(off[at])
 
-    def _keep_apart(self):
+    def _keep_distinct(self):
         """Keep more vertices where two chains would be the same segment, or one a point."""
         while True:
             spans = [

@@ -2,10 +2,12 @@
 """The options of a proxy."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 from ..errors import CubicCraftError
 from ..inputs import real_number, switch
+from ..method import PAPER as AS_IN_PAPER
+from ..method import Method
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,27 +34,27 @@ class ProxyOptions:
     (0.0, False, 0.0)
     """
 
-    solidity: float = 0.3
+    solidity: float = Method.solidity
     """how firmly limbs, walls and volume keep their thickness; 0 is a hollow surface"""
-    together: bool = True
+    together: bool = Method.together != "OFF"
     """whether to merge vertices at the same place and to link parts that are close together"""
-    refine: bool = True
+    refine: bool = Method.refine == "AUTO"
     """whether to split coarse meshes, ignore the normals of creases and preserve boxes"""
-    keep_pose: bool = True
+    keep_pose: bool = Method.keep_pose
     """whether limbs become boxes along themselves, so that they keep their direction"""
-    detail: float = 0.05
+    detail: float = Method.detail
     """size of the features that ride along instead of being flattened, as a share of the largest
     extent; 0 flattens all"""
-    keep_apart: bool = True
+    keep_apart: bool = Method.keep_apart
     """whether surfaces that do not cross at rest are kept from crossing"""
 
     def __post_init__(self):
-        for name in ("solidity", "detail"):
-            value = real_number(getattr(self, name), name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise CubicCraftError(f"{name} must be finite and not negative, not {value}")
-        for name in ("together", "refine", "keep_pose", "keep_apart"):
-            switch(getattr(self, name), name)
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(each.default, bool):
+                switch(value, each.name)
+            elif not (math.isfinite(real_number(value, each.name)) and value >= 0.0):
+                raise CubicCraftError(f"{each.name} must be finite and not negative, not {value}")
 
     @property
     def needs_thickness(self) -> bool:
@@ -60,7 +62,11 @@ class ProxyOptions:
         return self.solidity > 0.0 or self.detail > 0.0 or self.keep_pose
 
 
-PAPER = ProxyOptions(
-    solidity=0.0, together=False, refine=False, keep_pose=False, detail=0.0, keep_apart=False
-)
+def proxy_of(method: Method) -> ProxyOptions:
+    """Return the options that are among the settings of a run; what is not OFF is on."""
+    values = {each.name: getattr(method, each.name) for each in fields(ProxyOptions)}
+    return ProxyOptions(**{n: x != "OFF" if isinstance(x, str) else x for n, x in values.items()})
+
+
+PAPER = proxy_of(replace(Method(), **AS_IN_PAPER))
 """the energy of the paper, on the surface exactly as it is given"""

@@ -91,16 +91,14 @@ def test_options_are_those_of_the_library(given, tmp_path):
 PROXIES = {
     "": ProxyOptions(),
     "--paper": PAPER,
-    "--solidity 0.5": ProxyOptions(solidity=0.5),
-    "--keep-pose off": ProxyOptions(keep_pose=False),
-    "--detail 0.2": ProxyOptions(detail=0.2),
-    "--keep-apart off": ProxyOptions(keep_apart=False),
-    "--together off": ProxyOptions(together=False),
-    "--refine off": ProxyOptions(refine=False),
     "--paper --keep-pose on --detail 0.1 --keep-apart on": dataclasses.replace(
         PAPER, keep_pose=True, detail=0.1, keep_apart=True
     ),
 }
+for option in dataclasses.fields(ProxyOptions):
+    word, value = ("off", False) if option.default is True else ("0.2", 0.2)
+    given = f"--{option.name.replace('_', '-')} {word}"
+    PROXIES[given] = dataclasses.replace(ProxyOptions(), **{option.name: value})
 
 
 @pytest.mark.parametrize("given", PROXIES)

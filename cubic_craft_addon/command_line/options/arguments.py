@@ -9,9 +9,17 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ....solver.console.errors import InputError
-from ....solver.console.method_options import DEFAULTS as OF_METHOD
-from ....solver.console.method_options import Adder, add_form, add_kept, add_solver
+from ....solver.console.method_options import Adder, add_settings, as_in_paper, defaults
 from ....solver.console.options import FORMS, OneLineParser, number
+from ....solver.method import (
+    Advanced,
+    Computation,
+    Kept,
+    KeptInScene,
+    Method,
+    Style,
+    StyleInScene,
+)
 from .checks import check_batch, check_single
 from .handles_file import read_handles
 from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG
@@ -19,14 +27,7 @@ from .region_option import region_option
 
 __all__ = ("parse",)
 
-OF_FILE = ("object", "directions")
-"""forms that are made from a file"""
-DEFAULTS = {
-    **OF_METHOD,
-    "together": ("selection", "off"),
-    "symmetry": ("auto", ""),
-    "hold_rest": ("on", "off"),
-}
+DEFAULTS = {**defaults(Method), "symmetry": ("auto", "")}
 """name: by default, with ``--paper``"""
 
 
@@ -93,7 +94,8 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
     def adder(group: argparse._ActionsContainer) -> Adder:
         def add(name: str, **how: Any) -> None:
             is_shown = is_whole or name in COMMON
-            group.add_argument(name, help=HELP.get(name) if is_shown else argparse.SUPPRESS, **how)
+            how.setdefault("help", HELP.get(name))
+            group.add_argument(name, **how if is_shown else {**how, "help": argparse.SUPPRESS})
 
         return add
 
@@ -119,31 +121,23 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
 
 
 def _add_method(add: Adder) -> None:
-    add("--cubeness", nargs="+", type=number(0, 10), default=[0.4], metavar="L")
-    add("--form", choices=(*FORMS, *OF_FILE, "faces"), default="cube")
-    add_form(add)
+    several = {"nargs": "+", "default": [Method.cubeness]}
+    in_scene = {"choices": ("world", "object")}
+    add_settings(add, Style, StyleInScene, cubeness=several, space=in_scene)
     add("--form-object", type=Path, metavar="FILE")
-    add("--form-directions", default="", metavar="VECTORS")
     region = region_option([name for name in FORMS if name != "box"])
     add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
     add("--capture", type=Path, metavar="FILE")
-    add("--capture-strength", type=number(0, 10), default=0.4, metavar="X")
-    add("--space", choices=("world", "object"), default="world")
     add("--pin", nargs="+", default=[], metavar="GROUP")
     add("--handles", dest="handles_file", type=Path, metavar="FILE.json")
-    add("--map", default="", metavar="GROUP")
-    add("--detail-map", default="", metavar="GROUP")
-    add_solver(add)
+    add_settings(add, Computation)
 
 
 def _add_shape(add: Adder) -> None:
-    add_kept(add)
-    add("--together", choices=("off", "parts", "selection"))
+    add_settings(add, Kept, Advanced, KeptInScene)
     add("--symmetry", type=_axes, metavar="AXES")
-    add("--floor", choices=("auto", "on", "off"), default="auto")
     add("--with-modifiers", action="store_true")
-    add("--hold-rest", choices=("on", "off"))
-    add("--paper", action="store_true")
+    add("--paper", action="store_true", help=as_in_paper(DEFAULTS))
 
 
 def _add_outputs(add: Adder) -> None:

@@ -3,28 +3,18 @@
 
 import argparse
 
-from ....solver.console.method_options import HELP as OF_METHOD
 from .formats import ANIMATED, READABLE, WRITABLE, listing
 
 __all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
 
 COMMON = (
-    *(
-        "inputs",
-        "--cubeness",
-        "--form",
-        "--orientation",
-        "--pin",
-        "--crispness",
-        "--detail",
-        "--output",
-    ),
-    *("--no-render", "--save-mesh", "--low-poly", "--bake", "--output-folder", "--jobs", "--turn"),
+    *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--crispness", "--detail"),
+    *("--output", "--no-render", "--save-mesh", "--low-poly", "--bake"),
+    *("--output-folder", "--jobs", "--turn"),
 )
 """what --help shows; --help-all shows all"""
 
 HELP = {
-    **OF_METHOD,
     "inputs": f"{listing(READABLE)}; without it, Blender's monkey, subdivided; for a batch several "
     "files, or folders of them",
     "--object": "this mesh object only (default: all that are shown and rendered)",
@@ -42,29 +32,12 @@ HELP = {
     "the rest",
     "--capture": "file with a ball whose normals say which way a surface should face that faces as "
     "its vertices do from the origin of its scene",
-    "--capture-strength": "of the normals of --capture, beside the cubeness (default: 0.4)",
-    "--form-directions": "for --form faces the directions of its sides, three numbers for each: "
-    '"0 0 1, 1 0 0"; where they leave a side open, those opposite are added',
-    "--orientation": "Euler angles of the form in degrees, as in the panel",
-    "--space": "what --orientation is relative to: the axes of the scene that the file is read "
-    "into, where Z is up, or those of each object (default: world)",
     "--pin": "vertex groups that stay in place",
     "--handles": "parts of the mesh that are held or moved, see below",
-    "--map": "vertex group that scales the cubeness",
-    "--detail-map": "vertex group that scales the strength of details",
-    "--together": "parts: the parts of a mesh stay on each other; selection: all meshes of the "
-    "file do (default: selection)",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
     "stay so; auto: those that are so in 99 %% of a mesh that is solved alone; off (default: auto)",
-    "--floor": "what keeps its height: all that stands on feet or a base (auto, the default),"
-    " whatever is lowest (on), or nothing",
     "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
     "surfaces and metaballs as meshes",
-    "--hold-rest": "whether what is far from handles that are moved stays where it is "
-    "(default: on)",
-    "--paper": "as in the paper: crispness 0, solidity 0, keep-pose off, detail 0, keep-apart off, "
-    "together off, refine off, rotation free, symmetry off, hold-rest off; each of them can be "
-    "given beside it and counts then",
     "--output": "(default: cubic_craft.png)",
     "--no-render": "no picture",
     "--save-mesh": f"the result: {listing(WRITABLE)}; with several cubeness values one file each "

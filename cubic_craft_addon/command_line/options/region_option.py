@@ -5,7 +5,7 @@ import argparse
 import re
 from typing import NamedTuple
 
-from ....solver.console.options import WITH_SIDES
+from ....solver.styles.form_names import WITH_SIDES
 
 __all__ = ("GivenRegion", "region_of", "region_option")
 
@@ -32,7 +32,7 @@ def region_of(text: str) -> GivenRegion:
     if not group or not found:
         raise ValueError
     name, sides = found[1], int(found[2] or 6)
-    if (found[2] and name not in WITH_SIDES) or not 3 <= sides <= 64:
+    if (found[2] and name.upper() not in WITH_SIDES) or not 3 <= sides <= 64:
         raise ValueError
     value = float(cubeness)
     if not 0.0 <= value <= 10.0:

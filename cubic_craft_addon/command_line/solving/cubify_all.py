@@ -10,6 +10,8 @@ import numpy as np
 
 from ....solver import Progress
 from ....solver.console.errors import InputError
+from ....solver.console.method_options import settings_from
+from ....solver.method import Method
 from ...handles import Handle
 from ...read.member import Member, assemblies, read_member
 from ...regions.region import Region
@@ -103,38 +105,18 @@ def settings_of_object(
     loaded: Loaded,
 ) -> Settings:
     """Return the Settings for one object; a group that only others have does not concern it."""
+    values = settings_from(vars(options), Method)
+    for name in ("map_group", "detail_group"):
+        values[name] = values[name] if values[name] in obj.vertex_groups else ""
     return Settings(
-        cubeness=options.cubeness[0],
-        form=options.form.upper(),
-        form_sides=options.form_sides,
-        form_weights=tuple(options.form_weights),
+        **{**values, "cubeness": options.cubeness[0]},
         form_object=loaded.form,
         capture_object=loaded.capture,
-        capture_strength=options.capture_strength,
-        form_directions=options.form_directions,
-        orientation=tuple(math.radians(angle) for angle in options.orientation),
-        space=options.space.upper(),
         handles=handles,
         regions=_regions(obj, options),
         start=start_of(obj),
-        map_group=options.map if options.map in obj.vertex_groups else "",
-        crispness=options.crispness,
-        solidity=options.solidity,
-        keep_pose=options.keep_pose == "on",
-        detail=options.detail,
-        detail_strength=options.detail_strength,
-        detail_group=options.detail_map if options.detail_map in obj.vertex_groups else "",
-        keep_apart=options.keep_apart == "on",
-        together=options.together.upper(),
-        refine=options.refine.upper(),
-        rotation=options.rotation.upper(),
         symmetry=tuple(options.symmetry != "auto" and axis in options.symmetry for axis in "xyz"),
         keep_symmetric=options.symmetry == "auto",
-        floor=options.floor.upper(),
-        hold_rest=options.hold_rest == "on",
-        device=options.device.upper(),
-        max_iterations=options.max_iterations,
-        tolerance=options.tolerance,
     )
 
 

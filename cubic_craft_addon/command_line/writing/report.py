@@ -11,7 +11,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ....solver.console.method_options import names_of_options
 from ....solver.console.report import write_json
+from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.engine_notes import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
 from ..process.memory import peak_memory
@@ -21,23 +23,11 @@ from ..solving.cubify_all import Sculpture
 
 __all__ = ("write_animation_report", "write_report")
 
-SETTINGS = (
-    *("form", "form_sides", "form_weights", "form_directions", "region"),
-    *(
-        "space",
-        "crispness",
-        "solidity",
-        "keep_pose",
-        "detail",
-        "detail_strength",
-        "keep_apart",
-        "together",
-        "refine",
-        "rotation",
-    ),
-    *("symmetry", "floor", "hold_rest", "with_modifiers"),
-)
 GIGABYTE = 1e9
+SETTINGS = {
+    *names_of_options(Style, StyleInScene, Kept, Advanced, KeptInScene).values(),
+    *("region", "symmetry", "with_modifiers"),
+} - {"cubeness"}  # which each run has
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
@@ -91,7 +81,7 @@ def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
 
 def _head(options: Namespace) -> dict[str, Any]:
     """Return what all reports begin with."""
-    settings = {name: getattr(options, name) for name in SETTINGS}
+    settings = {name: getattr(options, name) for name in sorted(SETTINGS)}
     strength = options.capture_strength if options.capture else None
     return {
         "versions": _versions(),

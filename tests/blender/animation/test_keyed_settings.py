@@ -4,6 +4,9 @@
 import numpy as np
 import pytest
 
+from solver.method import Computation
+from solver.setting import declared
+
 import bpy  # isort: skip
 from rig import FRAMES, bending_ball, read_pc2, shown  # isort: skip
 from scene import add_empty, add_monkey, select  # isort: skip
@@ -41,10 +44,6 @@ CASES = {
     "regions[0].form_weights": ((1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
     "regions[0].orientation": ((0.0, 0.0, 0.0), (0.5, 0.4, 0.0)),
 }
-LEFT_OUT = {"symmetry", "keep_symmetric", "keep_apart", "result", "with_modifiers"}
-"""what has no effect on an animation"""
-OF_THE_RUN = {"device", "max_iterations", "tolerance"}
-"""what changes how a shape is found, not which"""
 
 
 @pytest.fixture
@@ -154,7 +153,9 @@ def test_no_setting_that_can_be_keyed_is_forgotten_here(extension, part, empty_f
     names = (name for name in part("settings.overrides").ALL if known[name].type != "STRING")
     keyed = {name for name in names if known[name].is_animatable}
     refused = set(part("animation.sources").OF_ALL_FRAMES)
-    assert keyed == {name for name in CASES if "[" not in name} | LEFT_OUT | OF_THE_RUN | refused
+    left_out = set(part("settings.values").IN_ANIMATION) - {"start"}
+    checked = {name for name in CASES if "[" not in name}
+    assert keyed == checked | left_out | set(declared(Computation)) | refused
 
 
 @pytest.mark.parametrize("name", CASES)

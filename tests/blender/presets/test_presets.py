@@ -10,6 +10,8 @@ import bpy
 import pytest
 from scene import add_monkey, cubify
 
+from solver.method import LOOK, PAPER
+
 OURS = ["Soft", "Rounded", "Cubic", "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper"]
 
 
@@ -150,6 +152,15 @@ def test_a_preset_is_plain_assignments(files, monkey):
     assert all(line.startswith("bpy.context.object.cubic_craft.") for line in lines[1:] if line)
 
 
+def test_a_preset_that_is_edited_in_place_is_read_again(files, monkey):
+    save("Mine", cubeness=0.9)
+    path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
+    monkey.cubic_craft.preset = "Cubic"
+    path.write_text(path.read_text(encoding="utf-8").replace("= 0.9", "= 0.75"), encoding="utf-8")
+    monkey.cubic_craft.preset = "Mine"
+    assert monkey.cubic_craft.cubeness == 0.75
+
+
 def test_what_a_file_has_beside_a_look_is_neither_run_nor_set(files, monkey, tmp_path):
     save("Mine", cubeness=0.9)
     path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
@@ -198,7 +209,7 @@ def test_each_setting_of_a_look_is_saved_and_brought_back(files, monkey, name, v
 def test_each_of_ours_sets_all_of_a_look_but_the_paper_leaves_the_cubeness(files):
     for preset in files.presets():
         left = {"cubeness"} if preset.identifier == "As_in_the_Paper" else set()
-        assert set(preset.values) == set(files.SETTINGS) - left
+        assert set(preset.values) == set(LOOK) - left
 
 
 def test_as_in_the_paper(files, rooms, monkey):
@@ -206,7 +217,7 @@ def test_as_in_the_paper(files, rooms, monkey):
     monkey.cubic_craft.preset = "As_in_the_Paper"
     settings = rooms("cubic_craft_addon.settings.properties").settings_of(monkey)
     assert settings.proxy == rooms("solver").PAPER
-    assert settings.rotation == "FREE"
+    assert files.find("As_in_the_Paper").values == PAPER
     assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"
 
 

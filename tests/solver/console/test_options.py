@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the command lines offer is what there is."""
 
-from solver.console.options import FORMS, WITH_SIDES
-from solver.styles import forms
+from solver.console.options import FORMS
+from solver.styles import form_names, forms
 
 
 def test_every_form_that_can_be_named_is_made():
     assert set(FORMS) == {"cube", "box", *forms.PLAIN, *forms.WITH_SIDES}
-    assert set(WITH_SIDES) == set(forms.WITH_SIDES)
+    assert {name.lower() for name in form_names.WITH_SIDES} == set(forms.WITH_SIDES)
     counts = {
         name: None if form is None else len(form.normals)
         for name in FORMS
