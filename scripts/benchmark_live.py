@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure the ticks of Live in a real window: a slider is dragged, and an original is edited.
+"""Measure the ticks of Live in a real window: a slider is dragged.
 
 Runs tests/gui/bench_live.py in the Blender of the window tests (root, on Debian), and writes
 docs/benchmarks_live.md.
@@ -39,34 +39,9 @@ def main():
                 shutil.copy(options.meshes / name, folder)
         command = [kit / "run_in_gui.sh", "-p", "-e", options.zip, "-d", folder]
         subprocess.run([*command, ROOT / "tests" / "gui" / "bench_live.py"], check=True)
-        rows, strokes = (
-            json.loads((Path(folder) / name).read_text()) for name in ("ticks.json", "strokes.json")
-        )
-    text = page(rows) + followed(strokes)
+        text = page(json.loads((Path(folder) / "ticks.json").read_text()))
     options.output.write_text(text)
     sys.stdout.write(text)
-
-
-def followed(strokes):
-    """Return the part about the new object that follows what is done to its original."""
-    lines = [
-        "",
-        "## How soon the new object follows",
-        "",
-        "With *Write To: New Object*, 2 % of the vertices of the original are moved, 15 times in",
-        "each mode. In ticks, until the new object shows it: first carried along, then solved on,",
-        "and exact after a pause.",
-        "",
-        "| mesh | vertices | mode | median | worst |",
-        "|---|---|---|---|---|",
-    ]
-    for row in strokes:
-        mode = {"OBJECT": "Object", "EDIT": "Edit"}[row["mode"]]
-        delays = (
-            f"{1000 * statistics.median(row['delays']):.0f} ms | {1000 * max(row['delays']):.0f} ms"
-        )
-        lines.append(f"| {row['mesh']} | {row['vertices']:,} | {mode} | {delays} |")
-    return "\n".join([*lines, ""])
 
 
 def page(rows):

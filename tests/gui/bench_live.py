@@ -2,8 +2,7 @@
 """How long the ticks of Live take; run by scripts/benchmark_live.py.
 
 For a coarse monkey and each mesh in /share it drags the slider for ten seconds. It writes what each
-tick took, and how long each change took in ticks to be seen, to /share/ticks.json; and how long
-until a new object has followed what was moved on its original, to /share/strokes.json. What Blender
+tick took, and how long each change took in ticks to be seen, to /share/ticks.json. What Blender
 itself draws is not part of the ticks.
 """
 
@@ -12,15 +11,11 @@ import os
 import pathlib
 import time
 
-import bmesh
 import bpy
 import guidrive as gui
 import live_scene as scene
-import numpy as np
 
 SECONDS = 10.0
-STROKES, TOUCHED, FAR = 15, 0.02, 0.02
-"""how many strokes, which part of the vertices one moves, and how far, of the size"""
 FOLDER = pathlib.Path(os.environ.get("BENCH_FOLDER", "/share"))
 
 
@@ -104,65 +99,6 @@ def measure(path, cuts=0):
     }
 
 
-def stroke(obj, number):
-    """Move the vertices around one of them along its normal, in the mode that the object is in."""
-    mesh = obj.data
-    edited = bmesh.from_edit_mesh(mesh) if obj.mode == "EDIT" else None
-    vertices = edited.verts if edited else mesh.vertices
-    points = np.array([vertex.co for vertex in vertices])
-    if edited:
-        edited.verts.ensure_lookup_table()
-    middle = vertices[number * len(vertices) // STROKES]
-    away = np.linalg.norm(points - np.array(middle.co), axis=1)
-    near = np.argsort(away)[: max(int(TOUCHED * len(points)), 1)]
-    move = np.array(middle.normal) * FAR * np.ptp(points, axis=0).max()
-    points[near] += move * (1.0 - away[near] / away[near].max())[:, None]
-    if edited:
-        for index in near.tolist():
-            edited.verts[index].co = points[index]
-        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    else:
-        mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-        mesh.update()
-
-
-def follow(path, mode, cuts):
-    """Return how long the new object of Live took, in ticks, to follow each stroke."""
-    obj = load(path, cuts)
-    name, follower = obj.name, f"{obj.name} Cubic"
-    scene.settings(name).result = "NEW_OBJECT"
-    yield from gui.wait_redraw()
-    yield from scene.start_live_beside()
-    yield from scene.wait_idle()
-    with gui.in_region():
-        bpy.ops.object.mode_set(mode=mode)
-    yield from scene.wait_idle()
-    session = scene.live().current()
-    spent, tick = [0.0], session.tick
-
-    def timed(context):
-        begin = time.perf_counter()
-        tick(context)
-        spent[0] += time.perf_counter() - begin
-
-    session.tick = timed
-    delays = []
-    for number in range(STROKES):
-        before, spent[0] = scene.positions(follower), 0.0
-        stroke(bpy.data.objects[name], number)
-        yield from gui.wait_until(
-            lambda before=before: scene.positions(follower) != before, what="the stroke"
-        )
-        delays.append(spent[0])
-        yield from scene.wait_idle()
-    with gui.in_region():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    vertices = len(bpy.data.objects[name].data.vertices)
-    yield from scene.press("ESC")
-    yield from gui.wait_until(scene.is_over, what="the end")
-    return {"mesh": name, "vertices": vertices, "mode": mode, "delays": delays}
-
-
 def test():
     gui.simplify_viewport()
     rows = []
@@ -172,10 +108,6 @@ def test():
     if paths:
         rows.append((yield from measure(paths[-1], cuts=1)))  # a large one
     (FOLDER / "ticks.json").write_text(json.dumps(rows))
-    strokes = []
-    for mode in ("OBJECT", "EDIT"):
-        strokes.append((yield from follow(paths[-1] if paths else 3, mode, cuts=0)))
-    (FOLDER / "strokes.json").write_text(json.dumps(strokes))
 
 
 gui.run(test)

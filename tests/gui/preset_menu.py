@@ -39,12 +39,12 @@ def keep_and_remove(name, chosen):
     assert shown_preset() == "Cubic"
 
 
-def choose_in_live(name, scale=1.0):
+def choose_in_live(name):
     """Choose another preset while Live runs, and leave it by Esc."""
     yield from scene.start_live()
     yield from scene.wait_idle()
     before = scene.positions()
-    yield from choose_preset(name, scale)
+    yield from choose_preset(name)
     yield from scene.wait_idle_with(lambda: scene.positions() != before, "the shape of the preset")
     yield from gui.screenshot("preset_in_live.png")
     yield from scene.end_by("ESC")

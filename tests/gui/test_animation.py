@@ -75,7 +75,6 @@ def stopped(folder):
     assert bpy.context.scene.frame_current == 3
     assert bpy.context.object.name == CUBIC and bpy.data.objects[scene.NAME].hide_get()
     yield from gui.wait_redraw("UI")
-    yield from gui.screenshot("stopped.png")
     return count
 
 
@@ -88,7 +87,6 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     scene.show_front()
     yield from open_section()
-    yield from gui.screenshot("section.png")
     yield from stopped(folder)
 
     make_slow(False)

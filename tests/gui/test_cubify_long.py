@@ -7,7 +7,6 @@ import importlib
 import bpy
 import guidrive as gui
 import live_scene as scene
-import redo_panel
 
 OPERATOR = "CUBIC_CRAFT_OT_cubify"
 
@@ -98,6 +97,20 @@ def by_closed_window(original):
     yield from check_cancelled(original)
 
 
+def open_redo_panel():
+    """Open the panel by its header, if it is closed, and return its first row, the cubeness."""
+    yield from gui.wait_until(lambda: gui.region("HUD").height > 1, what="the panel")
+    yield from gui.wait_redraw()
+    panel = gui.region("HUD")
+    if panel.height <= 100:
+        yield from gui.click((panel.x + panel.width // 2, panel.y + panel.height - 14))
+        yield from gui.wait_until(lambda: gui.region("HUD").height > 100, what="the open panel")
+    panel = gui.region("HUD")
+    row = gui.Button("", panel.x + panel.width // 2, 0, panel.x + panel.width - 20, 0)
+    top = panel.y + panel.height - 44
+    return gui.Button("", row.left, top - 10, row.right, top + 10)
+
+
 def brought_to_its_end(original):
     """Then the redo panel, and one step to undo."""
     yield from start(is_slow=False)
@@ -105,7 +118,7 @@ def brought_to_its_end(original):
     first = scene.positions()
     assert first != original and "numpy" in scene.settings().status
     scene.check_clean()
-    slider = yield from redo_panel.open_cubeness()
+    slider = yield from open_redo_panel()
     yield from gui.screenshot("redo_panel.png")
     yield from gui.enter_value(slider, 0.9)
     yield from gui.wait_until(lambda: scene.positions() != first, what="another shape")

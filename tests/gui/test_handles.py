@@ -62,23 +62,19 @@ def test():
     chin, ear = add_monkey()
     original = positions()
     yield from gui.open_sidebar("Cubic Craft")
-    yield from gui.screenshot("no_handles.png")
 
     for number, group in enumerate((EAR, CHIN), start=1):
         yield from click("cubic_craft.handle_add")
         yield from gui.wait_until(lambda n=number: len(scene.settings().handles) == n, what=group)
         assert scene.settings().handles[-1].group == group
-    yield from gui.screenshot("handles.png")
 
     scene.settings().active_handle = 0
     yield from click("cubic_craft.handle_follow")
     yield from gui.wait_until(lambda: EMPTY in bpy.data.objects, what="the empty")
     assert bpy.context.view_layer.objects.active.name == EMPTY
-    yield from gui.screenshot("follows.png")
 
     way = yield from lift_empty()
     assert way.length > 0.3, way
-    yield from gui.screenshot("lifted.png")
     assert (positions() == original).all()
 
     # The empty is still the active object; the panel is that of the monkey.
@@ -97,7 +93,6 @@ def test():
     yield from gui.undo()
     assert EMPTY not in bpy.data.objects
     assert [handle.mode for handle in scene.settings().handles] == ["PINNED", "PINNED"]
-    yield from gui.screenshot("undone.png")
 
 
 gui.run(test)

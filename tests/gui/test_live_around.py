@@ -28,22 +28,6 @@ def deleted(original):
     assert scene.positions() == original
 
 
-def renamed(original):
-    """F2, a name, Return: Live goes on with the object of that name."""
-    yield from scene.start_live()
-    yield from scene.press("F2")
-    yield from gui.keys("CTRL+A")
-    yield from gui.type_text("other")
-    yield from gui.keys("RET")
-    yield from gui.wait_until(lambda: "other" in bpy.data.objects, what="the new name")
-    goes_on()
-    yield from scene.end_by("ESC")
-    with gui.in_region():
-        bpy.data.objects["other"].name = scene.NAME
-        bpy.ops.ed.undo_push(message="Name it as before")
-    assert scene.positions() == original
-
-
 def edited(original):
     """Tab into Edit Mode and back: as Enter and then Tab."""
     yield from scene.start_live()
@@ -153,7 +137,7 @@ def test():
     scene.show_front()
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
-    for moment in (deleted, renamed, edited, turned_by_hand, selected_another, files):
+    for moment in (deleted, edited, turned_by_hand, selected_another, files):
         gui.log(moment.__name__)
         yield from moment(original)
         scene.check_clean()

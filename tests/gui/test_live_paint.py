@@ -28,14 +28,8 @@ def goes_on():
     assert bpy.context.mode == "PAINT_WEIGHT"
 
 
-def brush_settings():
-    tools = bpy.context.scene.tool_settings  # in Blender 5 each mode has its own
-    own = getattr(tools.weight_paint, "unified_paint_settings", None)
-    return own or tools.unified_paint_settings
-
-
 def set_brush(weight):
-    unified = brush_settings()
+    unified = bpy.context.scene.tool_settings.weight_paint.unified_paint_settings
     unified.use_unified_size = unified.use_unified_weight = unified.use_unified_strength = True
     unified.size, unified.weight, unified.strength = 40, weight, 1.0
 

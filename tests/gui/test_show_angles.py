@@ -84,17 +84,6 @@ def by_click(switch, original):
     yield from check("undone", is_shown=True)
 
 
-def not_shown():
-    """Hide overlays, and click on the switch again."""
-    overlay = gui.area().spaces.active.overlay
-    overlay.show_overlays = False
-    yield from check("no_overlays", is_shown=False)
-    overlay.show_overlays = True
-    yield from gui.click((yield from gui.find_button("cubic_craft_angles")))  # perhaps scrolled
-    yield from gui.wait_until(lambda: not bpy.context.window_manager.cubic_craft_angles)
-    yield from check("off_again", is_shown=False)
-
-
 def test():
     bpy.context.preferences.system.viewport_aa = "OFF"
     add_ball()
@@ -102,7 +91,9 @@ def test():
     yield from gui.open_sidebar("Cubic Craft")
     switch = yield from gui.find_button("cubic_craft_angles")
     yield from by_click(switch, original)
-    yield from not_shown()
+    yield from gui.click((yield from gui.find_button("cubic_craft_angles")))  # perhaps scrolled
+    yield from gui.wait_until(lambda: not bpy.context.window_manager.cubic_craft_angles)
+    yield from check("off_again", is_shown=False)
 
 
 gui.run(test)

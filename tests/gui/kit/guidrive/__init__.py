@@ -39,7 +39,6 @@ from .screen import (
     region,
     running_operators,
     simplify_viewport,
-    smooth_viewport,
     viewport_point,
     window,
 )
@@ -68,7 +67,6 @@ __all__ = [
     "screenshot",
     "simplify_viewport",
     "smooth_screenshot",
-    "smooth_viewport",
     "turn_wheel",
     "type_text",
     "undo",

@@ -61,8 +61,8 @@ def type_text(text):
         yield from settle()
 
 
-def enter_value(field, value):
-    """Type a value into a number or text field found by find_button and confirm it."""
+def enter_value(field, value, end="RET"):
+    """Type a value into a number or text field found by find_button, and confirm it by a key."""
     field = yield from reach(field)
     events().press("LEFT_CTRL")  # Ctrl and click starts to edit a slider, too
     yield from settle()
@@ -71,7 +71,7 @@ def enter_value(field, value):
     yield from settle()
     yield from keys("CTRL+A")
     yield from type_text(str(value))
-    yield from keys("RET")
+    yield from keys(end)
 
 
 def undo():
