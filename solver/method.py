@@ -13,7 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .setting import declared, setting
-from .styles.form_names import FORMS
+from .styles.form_names import FORMS, WITH_SIDES
+
+_XYZ = ("X", "Y", "Z")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,21 +40,21 @@ class Style:
         "what a ball would become",
         choices=FORMS,
     )
-    form_sides: int = setting(6, metavar="N", limits=(3, 64), soft=(3, 12))(
+    form_sides: int = setting(6, metavar="N", limits=(3, 64), soft=(3, 12), of_forms=WITH_SIDES)(
         "Sides",
         "Number of walls or slopes around the Z axis",
         "of a prism or pyramid",
     )
     form_weights: tuple[float, float, float] = setting(
-        (1.0, 1.0, 1.0), metavar=("X", "Y", "Z"), limits=(0, 10), soft=(0, 2), subtype="XYZ"
+        (1.0,) * 3, metavar=_XYZ, limits=(0, 10), soft=(0, 2), subtype="XYZ", of_forms=("BOX",)
     )(
         "Weights",
-        "How strongly the surface turns away from each axis of the box. (1, 1, 0) makes slabs, (0,"
-        " 0, 1) upright walls",
+        "How strongly the surface turns away from each axis of the box. (1, 1, 0) makes slabs,"
+        " (0, 0, 1) upright walls",
         "of the axes of a box, whose sides count that much; 1 1 0 makes slabs",
     )
     orientation: tuple[float, float, float] = setting(
-        (0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), soft=(-math.pi / 4, math.pi / 4), subtype="EULER"
+        (0.0, 0.0, 0.0), metavar=_XYZ, soft=(-math.pi / 4, math.pi / 4), subtype="EULER"
     )(
         "Orientation",
         "Rotation of the form",
@@ -64,7 +66,7 @@ class Style:
 class StyleInScene:
     """The same, where there are other objects and vertex groups."""
 
-    form_directions: str = setting("", metavar="VECTORS")(
+    form_directions: str = setting("", metavar="VECTORS", of_forms=("FACES",))(
         "Directions",
         "Directions that the sides of the form face, in its own axes: three numbers for each, such"
         ' as "0 0 1, 1 0 0". Directions from Selection writes them',

@@ -31,6 +31,8 @@ class Setting(NamedTuple):
     """Blender's; EULER are angles in radians, and degrees on command lines"""
     choices: tuple[Any, ...] = ()
     """identifier, label, text and, if it is not its place, the number of each"""
+    of_forms: tuple[str, ...] = ()
+    """the forms that have it, if not all do"""
     paper: Any = None
     """value as in the paper, also with ``--paper``; None leaves it as it is"""
     in_animation: Any = None

@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The further settings of the forms that an artist can choose."""
 
-from ...solver.styles.form_names import OF_OBJECT, WITH_SIDES
+from ...solver.method import SETTINGS
+from ...solver.styles.form_names import OF_OBJECT
 
-FORM_SETTINGS = ("form_sides", "form_weights", "form_object", "form_directions")
+_OF_FORMS = {name: each.of_forms for name, each in SETTINGS.items() if each.of_forms}
+_OF_FORMS["form_object"] = OF_OBJECT
+FORM_SETTINGS = tuple(_OF_FORMS)
 """further settings, of which each form has those of `form_settings`"""
 
 
 def form_settings(form: str) -> list[str]:
     """Return the names of the further settings of a form."""
-    names = []
-    if form in WITH_SIDES:
-        names.append("form_sides")
-    if form == "BOX":
-        names.append("form_weights")
-    if form in OF_OBJECT:
-        names.append("form_object")
-    if form == "FACES":
-        names.append("form_directions")
-    return names
+    return [name for name, forms in _OF_FORMS.items() if form in forms]

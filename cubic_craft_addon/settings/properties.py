@@ -13,8 +13,8 @@ from bpy.props import (
     StringProperty,
 )
 
-from ...solver.method import SETTINGS as METHOD
 from ..environment.declared import declared
+from ..form.pictures import items as form_items
 from ..form.properties import form_property
 from ..handles import Handle
 from ..handles.pose import object_handles
@@ -28,12 +28,7 @@ from ..screen import glimpse
 from .values import SETTINGS, Settings
 
 _LISTS = ("handles", "regions")
-
-
-def _property_of(name):
-    if name == "orientation":
-        return form_property(name, update=glimpse.on_turn)
-    return form_property(name) if name in METHOD else declared(SETTINGS[name])
+_MORE = {"form": {"items": form_items}, "orientation": {"update": glimpse.on_turn}}
 
 
 def _status(properties):
@@ -55,7 +50,11 @@ class StartProperty:
 class RunProperties:
     """Mixin of all settings that the operator and the object share."""
 
-    __annotations__ = {name: _property_of(name) for name in SETTINGS if name != "start"}
+    __annotations__ = {
+        name: declared(each, **_MORE.get(name, {}))
+        for name, each in SETTINGS.items()
+        if name != "start"
+    }
     if TYPE_CHECKING:  # which of them there are is known when it runs
 
         def __getattr__(self, name: str) -> Any: ...

@@ -21,13 +21,10 @@ from art_objects import Surface, select, surface_of
 from scipy.sparse import diags
 from scipy.sparse.linalg import splu
 
-from solver import rest_mesh
+from solver import method, rest_mesh
 
-PAPER = {
-    **{"crispness": 0.0, "solidity": 0.0, "keep_pose": False, "detail": 0.0, "keep_apart": False},
-    **{"together": "OFF", "refine": "OFF", "rotation": "FREE"},
-}
-"""the settings of the paper, as far as the operator knows them"""
+PAPER = {**method.PAPER, "keep_symmetric": True, "hold_rest": True}
+"""the settings of the paper; what is symmetric stays so"""
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ import argparse
 import re
 from typing import NamedTuple
 
+from ....solver.method import SETTINGS, Method
 from ....solver.styles.form_names import WITH_SIDES
 
 __all__ = ("GivenRegion", "region_of", "region_option")
@@ -31,12 +32,13 @@ def region_of(text: str) -> GivenRegion:
     found = re.fullmatch(r"([a-z]+?)(\d*)", form.lower())
     if not group or not found:
         raise ValueError
-    name, sides = found[1], int(found[2] or 6)
-    if (found[2] and name.upper() not in WITH_SIDES) or not 3 <= sides <= 64:
+    name, sides, value = found[1], int(found[2] or Method.form_sides), float(cubeness)
+    if found[2] and name.upper() not in WITH_SIDES:
         raise ValueError
-    value = float(cubeness)
-    if not 0.0 <= value <= 10.0:
-        raise ValueError
+    for setting, given in (("form_sides", sides), ("cubeness", value)):
+        low, high = SETTINGS[setting].limits or (given, given)
+        if not low <= given <= high:
+            raise ValueError
     return GivenRegion(group, name, sides, value)
 
 

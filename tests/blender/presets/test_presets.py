@@ -10,9 +10,10 @@ import bpy
 import pytest
 from scene import add_monkey, cubify
 
-from solver.method import LOOK, PAPER
+from solver.method import LOOK, PAPER, SETTINGS
 
 OURS = ["Soft", "Rounded", "Cubic", "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper"]
+BY_DEFAULT = {name: SETTINGS[name].default for name in LOOK}
 
 
 @pytest.fixture
@@ -43,11 +44,8 @@ def save(name, **settings):
 
 
 def shape_of(obj):
-    p = obj.cubic_craft
-    looks = p.cubeness, p.crispness, p.solidity, p.detail, p.detail_strength
-    sizes = (round(value, 6) for value in looks)
-    kept = p.keep_pose, p.keep_apart, p.keep_symmetric, p.hold_rest
-    return *sizes, *kept, p.together, p.refine, p.rotation
+    values = {name: getattr(obj.cubic_craft, name) for name in LOOK}
+    return {n: round(x, 6) if isinstance(x, float) else x for n, x in values.items()}
 
 
 def test_ours_are_there_without_a_user_folder(files, monkey):
@@ -63,7 +61,7 @@ def test_each_of_ours_is_another_look(files, monkey):
         monkey.cubic_craft.preset = name
         assert monkey.cubic_craft.preset == name
         looks[name] = shape_of(monkey)
-    assert len(set(looks.values())) == len(OURS)
+    assert len(set(map(str, looks.values()))) == len(OURS)
 
 
 def test_cubic_is_the_defaults(files, monkey):
@@ -186,24 +184,24 @@ bpy.context.object.location = (1, 2, 3)
     (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
-    assert shape_of(monkey) == (
-        *(0.7, 0.9, 0.3, 0.05, 1.0),
-        *(True, True, True, True, "SELECTION", "AUTO", "KEEP"),
-    )
+    assert shape_of(monkey) == BY_DEFAULT | {"cubeness": 0.7}
     assert monkey.cubic_craft.device == "AUTO" and not any(monkey.location) and not trap.exists()
     for name in ("broken.py", "empty.py"):
         (path.parent / name).unlink()
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("keep_pose", False), ("detail", 0.125), ("keep_apart", False)]
-)
-def test_each_setting_of_a_look_is_saved_and_brought_back(files, monkey, name, value):
-    assert save("Mine", **{name: value}) == {"FINISHED"}
+def test_each_setting_of_a_look_is_saved_and_brought_back(files, monkey):
+    other = {
+        name: SETTINGS[name].choices[by_default == SETTINGS[name].choices[0][0]][0]
+        if isinstance(by_default, str)
+        else (not by_default if isinstance(by_default, bool) else 0.125)
+        for name, by_default in BY_DEFAULT.items()
+    }
+    assert save("Mine", **other) == {"FINISHED"}
     monkey.cubic_craft.preset = "Cubic"
-    assert getattr(monkey.cubic_craft, name) != value
+    assert shape_of(monkey) == BY_DEFAULT
     monkey.cubic_craft.preset = "Mine"
-    assert getattr(monkey.cubic_craft, name) == value
+    assert shape_of(monkey) == other
 
 
 def test_each_of_ours_sets_all_of_a_look_but_the_paper_leaves_the_cubeness(files):
