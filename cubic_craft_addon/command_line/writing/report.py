@@ -14,7 +14,7 @@ import numpy as np
 from ....solver.console.report import write_json
 from ...environment.engine_notes import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.memory import peak_memory
+from ..process.memory import peak_gb
 from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
@@ -37,7 +37,6 @@ SETTINGS = (
     ),
     *("symmetry", "floor", "hold_rest", "with_modifiers"),
 )
-GIGABYTE = 1e9
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
@@ -81,8 +80,7 @@ def write_animation_report(
 
 def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
     """Return the peak of memory, and what tells a batch whether outputs are still of this run."""
-    peak = peak_memory()
-    about: dict[str, Any] = {"peak_gb": peak and round(peak / GIGABYTE, 3)}
+    about: dict[str, Any] = {"peak_gb": peak_gb()}
     if not options.worker:
         return about
     sizes = {path.name: path.stat().st_size for path in outputs}
