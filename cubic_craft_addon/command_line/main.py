@@ -93,7 +93,7 @@ def _run_limited(options: Namespace, program: Program) -> int:
     """
     before_ending(end_processes)
     process = start([*program.command(options.threads), *program.arguments, "--limited"])
-    exceeded = finish(process, Limits(options.timeout, options.memory))
+    exceeded, _ = finish(process, Limits(options.timeout, options.memory))
     outputs = written(options.output, options.save_mesh, options)
     for path in (*outputs, options.bake, options.report):
         if path is not None:

@@ -232,6 +232,8 @@ def test_a_file_that_takes_more_than_it_may_is_given_up(folder, limits, code, wo
     result = do(job, batch._replace(limits=Limits(*limits)))
     assert (result["status"], result["refused"]) == ("failed", True)
     assert words in result["error"]
+    if sys.platform == "linux":
+        assert result["peak_gb"] > (limits[1] or 0)
     assert do(*batch_of(folder, WRITES))["status"] == "done"
 
 

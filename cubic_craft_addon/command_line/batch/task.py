@@ -61,8 +61,8 @@ def do(job: Job, batch: Batch) -> dict[str, Any]:
     -------
     dict
         ``status``; of a file that failed ``error``, one line, and if that is the fault of the file
-        and not of the machine ``refused``; else ``seconds``, ``peak_gb`` and ``report``;
-        and if it was begun ``words``, what its process wrote to standard error.
+        and not of the machine ``refused``; else ``seconds`` and ``report``;
+        and if it was begun ``words``, what its process wrote to standard error, and ``peak_gb``.
     """
     try:
         refuse_special(job.path)
@@ -93,13 +93,13 @@ def _do(job: Job, batch: Batch, key: str) -> dict[str, Any]:
     report = {} if batch.is_forced else _report(job, key)
     if report:
         return _success(KEPT, report)
-    code, words, exceeded = _run(job, batch, key)
+    code, words, exceeded, peak = _run(job, batch, key)
     report = _report(job, key)
     if report and not code and not exceeded:
         return _success(DONE, report) | {"words": words}
     refused = {"refused": True} if exceeded or code == REFUSED else {}
     why = exceeded or _why_failed(job, code, words)
-    return {"status": FAILED, "error": why, **refused, "words": words}
+    return {"status": FAILED, "error": why, **refused, "peak_gb": peak, "words": words}
 
 
 def key_of(source: Path, decides: str) -> str:
@@ -132,13 +132,14 @@ def _report(job: Job, key: str) -> dict[str, Any]:
         return {}  # there is none, or it is not one of ours, or of another version
 
 
-def _run(job: Job, batch: Batch, key: str) -> tuple[int, str, str]:
+def _run(job: Job, batch: Batch, key: str) -> tuple[int, str, str, float | None]:
     """Run the process to its end.
 
     Returns
     -------
     tuple
-        Its exit code, what it wrote to standard error, and the limit that it has exceeded.
+        Its exit code, what it wrote to standard error, the limit that it has exceeded, and the most
+        gigabytes of memory that it had.
     """
     job.record.unlink(missing_ok=True)  # from now on the outputs may be others than it says
     limit = [f"--threads={batch.threads}"] if batch.threads else []
@@ -151,11 +152,11 @@ def _run(job: Job, batch: Batch, key: str) -> tuple[int, str, str]:
         )
         with contextlib.suppress(OSError):  # what ends at once says itself why
             process.stdin.write(f"{batch.settings}\n".encode())
-        exceeded = finish(process, batch.limits)
+        exceeded, peak = finish(process, batch.limits)
         for path in (*job.outputs, job.record):
             remove_left_behind(path)
         words.seek(0)
-        return process.returncode, words.read().decode(errors="replace"), exceeded
+        return process.returncode, words.read().decode(errors="replace"), exceeded, peak
 
 
 def _why_failed(job: Job, code: int, words: str) -> str:

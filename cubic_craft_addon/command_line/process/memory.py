@@ -9,7 +9,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-__all__ = ("memory_of", "peak_memory")
+__all__ = ("GIGABYTE", "memory_of", "peak_gb")
+
+GIGABYTE = 1e9
 
 
 def memory_of(number: int) -> int:
@@ -25,17 +27,24 @@ def memory_of(number: int) -> int:
     return 0
 
 
-def peak_memory() -> int | None:
-    """Return the most bytes that this process has had in memory; None if unknown."""
+def peak_gb(number: int | None = None) -> float | None:
+    """Return the most gigabytes that a process that runs has had in memory; None if unknown.
+
+    Parameters
+    ----------
+    number : of the process; None is this one
+    """
     with contextlib.suppress(OSError, ValueError, IndexError):
         if sys.platform == "linux":  # where the figure of `resource` is that of the parent, too
-            text = Path("/proc/self/status").read_text(encoding="ascii", errors="replace")
-            return 1024 * int(text.split("VmHWM:")[1].split()[0])
+            place = Path(f"/proc/{number or 'self'}/status")
+            text = place.read_text(encoding="ascii", errors="replace")
+            return round(1024 * int(text.split("VmHWM:")[1].split()[0]) / GIGABYTE, 3)
         if sys.platform == "win32":
-            return _on_windows(os.getpid()).peak
-        import resource
+            return round(_on_windows(number or os.getpid()).peak / GIGABYTE, 3)
+        if number is None:
+            import resource
 
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / GIGABYTE, 3)
     return None
 
 

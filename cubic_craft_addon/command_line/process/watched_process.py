@@ -11,7 +11,7 @@ import threading
 import time
 from typing import Any, NamedTuple
 
-from .memory import memory_of
+from .memory import GIGABYTE, memory_of, peak_gb
 
 __all__ = ("Limits", "end_processes", "finish", "start")
 
@@ -21,7 +21,6 @@ IMPATIENCE = 1.0
 """the same for one that takes more and more memory"""
 INTERVAL = 0.2
 """seconds between two looks at a process"""
-GIGABYTE = 1e9
 _ending = threading.Lock()
 _running: set[subprocess.Popen] = set()
 
@@ -50,14 +49,22 @@ def start(command: list[str], **how: Any) -> subprocess.Popen:
     return process
 
 
-def finish(process: subprocess.Popen, limits: Limits) -> str:
-    """Wait for the end of a process; return in words the limit that it has exceeded, if any."""
-    begin, exceeded = time.monotonic(), ""
+def finish(process: subprocess.Popen, limits: Limits) -> tuple[str, float | None]:
+    """Wait for the end of a process.
+
+    Returns
+    -------
+    tuple
+        In words the limit that it has exceeded, if any; and the most gigabytes that it was seen to
+        have had in memory, if known.
+    """
+    begin, exceeded, peak = time.monotonic(), "", None
     while process.returncode is None:
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(INTERVAL)
         if process.returncode is not None:
             break
+        peak = peak_gb(process.pid) or peak
         if limits.memory and memory_of(process.pid) > limits.memory * GIGABYTE:
             exceeded = exceeded or f"takes more than {limits.memory:g} GB (--memory)"
             _end(process, IMPATIENCE)
@@ -66,7 +73,7 @@ def finish(process: subprocess.Popen, limits: Limits) -> str:
             _end(process)
     with _ending:
         _running.discard(process)
-    return exceeded
+    return exceeded, peak
 
 
 def end_processes() -> None:

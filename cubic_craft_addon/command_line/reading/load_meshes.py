@@ -113,6 +113,7 @@ def load(
         covered = [] if is_all_seen else taken
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if layout is not None:
+        say_left_out(path, layout.missing)
         match_objects(layout, found)
     else:
         warn_if_rounded(path, found)

@@ -38,6 +38,8 @@ class ObjLayout:
     """whether Blender may split the file into objects: none shares a vertex with another"""
     libraries: list[Path]
     """the material libraries that the file names and that are there"""
+    missing: list[str]
+    """those that are not, as they are written"""
     offset: np.ndarray
     """(3,) float64: where the origin is put, from `middle_if_far`"""
     encoding: str
@@ -68,7 +70,7 @@ def read_layout(path: Path) -> ObjLayout:
         elif keyword == b"o":
             sections.append((len(coordinates), set()))
         elif keyword == b"mtllib":
-            libraries.append(rest)
+            libraries.append((rest, file_named(rest, path.parent, lines.encoding)))
     positions = _positions(coordinates, path)
     sections = [section for section in sections if section[1]]
     everything = set().union(*(used for _, used in sections))
@@ -87,7 +89,8 @@ def read_layout(path: Path) -> ObjLayout:
         (positions - offset).astype(np.float32),
         parts,
         is_split,
-        [file for name in libraries if (file := file_named(name, path.parent, lines.encoding))],
+        [file for _, file in libraries if file],
+        [name.decode(errors="replace") for name, file in libraries if not file],
         offset,
         lines.encoding,
         lines.is_plain and not offset.any(),

@@ -16,14 +16,13 @@ from ....solver.console.report import write_json
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.engine_notes import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.memory import peak_memory
+from ..process.memory import peak_gb
 from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
 
 __all__ = ("write_animation_report", "write_report")
 
-GIGABYTE = 1e9
 SETTINGS = {
     *names_of_options(Style, StyleInScene, Kept, Advanced, KeptInScene).values(),
     *("region", "symmetry", "with_modifiers"),
@@ -71,8 +70,7 @@ def write_animation_report(
 
 def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
     """Return the peak of memory, and what tells a batch whether outputs are still of this run."""
-    peak = peak_memory()
-    about: dict[str, Any] = {"peak_gb": peak and round(peak / GIGABYTE, 3)}
+    about: dict[str, Any] = {"peak_gb": peak_gb()}
     if not options.worker:
         return about
     sizes = {path.name: path.stat().st_size for path in outputs}
