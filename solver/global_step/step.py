@@ -173,11 +173,12 @@ class GlobalStep:
 
 def _is_small(topology):
     """Return whether to factorize."""
-    if topology.largest_component <= FACTORIZED_VERTICES:
+    largest = topology.largest_component
+    if largest <= FACTORIZED_VERTICES:
         return True
     count = np.bincount(topology.part)
-    in_small_parts = count.mean() <= SMALL_PARTS and count.max() <= LARGEST_PART
-    return bool(in_small_parts) and topology.largest_component <= IN_SMALL_PARTS
+    is_loose = count.mean() <= SMALL_PARTS and count.max() <= LARGEST_PART
+    return bool(is_loose) and largest <= IN_SMALL_PARTS
 
 
 def _solver(L, is_held):
