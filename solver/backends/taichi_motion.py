@@ -90,8 +90,9 @@ class TaichiMotion:
     @alone
     def step(self, momentum, overshoot, keep_rotation):
         """Do one global step; see `Motion.step`."""
-        constraints = self._all_constraints(keep_rotation)
-        before = self.positions.copy() if constraints else None
+        parts = self._upright_parts(keep_rotation)
+        is_constrained = parts is not None or len(self._constraints) > 0
+        before = self.positions.copy() if is_constrained else None
         self._local.start_device()
         arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
         self._kernels.residual(*arguments)
@@ -99,29 +100,32 @@ class TaichiMotion:
         motion = np.column_stack([*self._whole(keep_rotation), momentum, overshoot])
         self._kernels.move(*self._move_arguments(motion))
         if before is not None:
-            return self._impose(constraints, before)
+            return self._impose(parts, before)
         displacement, distance, _ = self._largest[1].max(axis=0)
         return float(displacement), float(distance)
 
-    def _all_constraints(self, keep_rotation):
-        """Return the constraints of a step, with those of the parts that do not turn."""
+    def _upright_parts(self, keep_rotation):
+        """Return the UprightParts that a step has to obey, or None."""
         if not keep_rotation or self._is_anchored.all():
-            return self._constraints
+            return None
         parts = self._setup.global_step.upright_parts
-        return [parts, *self._constraints] if parts.is_kept.any() else self._constraints
+        return parts if parts.is_kept.any() else None
 
-    def _impose(self, constraints, before):
-        """Make the positions obey the constraints, and with them where the next local step looks.
+    def _impose(self, parts, before):
+        """Make the positions obey all constraints, and with them where the next local step looks.
 
         In NumPy: it takes the arrays from a GPU and back, but only those who ask for them wait.
         Return displacement and distance as `step`, of positions that obey them before and now.
         """
         arrays = self._local.arrays
-        for kept in (self._U, self.point):
-            values = np.array(arrays.fetch(kept))
-            for constraint in constraints:
-                constraint.impose(values)
-            arrays.put(kept, values)
+        kept = self._U, self.point
+        values = [np.array(arrays.fetch(places)) for places in kept]
+        if parts is not None:
+            parts.impose(*values)
+        for places, array in zip(kept, values, strict=True):
+            for constraint in self._constraints:
+                constraint.impose(array)
+            arrays.put(places, array)
         now = self.positions
         return largest(now - before), largest(now - self._setup.rest.V)
 

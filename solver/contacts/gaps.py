@@ -20,6 +20,7 @@ LEAST_ANGLE = np.radians(80.0)
 MOST_POINTS = 300_000
 """that the balls are measured against"""
 
+_UNKNOWN = -2
 _ROUNDS = 12
 _FACING = 0.3  # cosine between the way across and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
@@ -40,14 +41,25 @@ class Gaps:
         self._points = self._points[:: -(-max(len(self._points), 1) // MOST_POINTS)]
         self._nearest = Nearest(V[self._points]) if len(self._points) else None
         self.graph = graph_of(F, len(V))
+        # what is known of each vertex, on both sides: a round asks again for those of the last one
+        self._partner = np.full((2, len(V)), _UNKNOWN)
 
     def partners(self, chosen):
         """Return pairs i, j (k,) of chosen vertices (c,) and vertices across a gap beside them."""
-        chosen = chosen[self._normals[chosen].any(axis=1)]
-        if self._nearest is None or not len(chosen):
+        unknown = chosen[self._partner[0, chosen] == _UNKNOWN]
+        self._partner[:, unknown] = -1
+        for side, sign in enumerate((1.0, -1.0)):
+            i, j = self._pairs(unknown, sign)
+            self._partner[side, i] = j
+        i, j = np.concatenate([chosen, chosen]), self._partner[:, chosen].ravel()
+        return i[j >= 0], j[j >= 0]
+
+    def _pairs(self, chosen, sign):
+        """Return pairs i, j (k,) across gaps on one side of chosen vertices."""
+        i = chosen[self._normals[chosen].any(axis=1)]
+        if self._nearest is None or not len(i):
             return np.empty(0, np.intp), np.empty(0, np.intp)
-        ends = [self._across(chosen, sign) for sign in (1.0, -1.0)]
-        i, j = np.concatenate([chosen, chosen]), np.concatenate(ends)
+        j = self._across(i, sign)
         i, j = i[j >= 0], j[j >= 0]
         is_gap = self._is_facing(i, j)
         i, j = i[is_gap], j[is_gap]

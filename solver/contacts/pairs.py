@@ -67,22 +67,25 @@ def _closed_gaps(rest, gaps, region, U, R, is_wide):
 
     Widely, with them go the gaps beside that are narrower than any of these has been closed by:
     where one finger has gone through another, the rest of both would follow in the next round.
+    Between parts, the search does not spread from these: all leaves of a crown are beside others.
     """
     found_i, found_j, deepest = [], [], 0.0
+    part = rest.topology.part
     is_new, is_done = grown(gaps.graph, region, _RINGS), np.zeros(len(region), dtype=bool)
     for _ in range(_SPREADS):
         i, j = gaps.partners(np.flatnonzero(is_new))
         width = np.linalg.norm(rest.V[j] - rest.V[i], axis=1)
         openness = _openness(rest.V, U, R, i, j)
-        is_closed = openness < CLOSED
+        is_linked = is_closed = openness < CLOSED
         if is_wide:
             deepest = max(deepest, ((1.0 - openness) * width)[is_closed].max(initial=0.0))
-            is_closed |= width < deepest
-        found_i.append(i[is_closed])
-        found_j.append(j[is_closed])
+            is_linked = is_closed | (width < deepest)
+        found_i.append(i[is_linked])
+        found_j.append(j[is_linked])
         is_done |= is_new
+        spreads = is_closed | (is_linked & (part[i] == part[j]))
         beside = np.zeros(len(region), dtype=bool)
-        beside[found_i[-1]] = beside[found_j[-1]] = True
+        beside[i[spreads]] = beside[j[spreads]] = True
         is_new = grown(gaps.graph, beside, _RINGS) & ~is_done
         if not is_new.any():
             break

@@ -17,6 +17,9 @@ from .upright_parts import UprightParts
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid: where a run ends as soon with either, and the more of its time
 is set-up, the larger the mesh is; see `docs/benchmarks_explained.md`."""
+SMALL_PARTS, LARGEST_PART, IN_SMALL_PARTS = 200, 10_000, 250_000
+"""vertices of a part in the mean, of the largest one, and of all: what is only linked here and
+there is factorized in little time, and multigrid is far from its solution"""
 _CYCLES = 4
 """of multigrid, in place of the solution"""
 _POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
@@ -64,8 +67,7 @@ class GlobalStep:
         else:
             has_pin[:] = True
         self._is_held = is_held
-        is_small = rest.topology.largest_component <= FACTORIZED_VERTICES
-        self.is_factorized = is_small or not has_multigrid()
+        self.is_factorized = _is_small(rest.topology) or not has_multigrid()
         if self.is_factorized:
             self.solve = _solver(self._laplacian, is_held)
         else:
@@ -167,6 +169,16 @@ class GlobalStep:
             self.upright_parts.impose(result)
         self.centring.impose(result)
         return result
+
+
+def _is_small(topology):
+    """Return whether to factorize."""
+    largest = topology.largest_component
+    if largest <= FACTORIZED_VERTICES:
+        return True
+    count = np.bincount(topology.part)
+    is_loose = count.mean() <= SMALL_PARTS and count.max() <= LARGEST_PART
+    return bool(is_loose) and largest <= IN_SMALL_PARTS
 
 
 def _solver(L, is_held):

@@ -15,18 +15,22 @@ P_k = L^-1 (w_k x_k); the mu solve
 """
 
 import numpy as np
+import scipy.sparse as sp
 
 from ..algebra import AXIAL
 from ..proxy.samples import extents
 from .no_turning import SMALLEST
-from .tall_products import tall_product, transposed_product, weighted_sum
+from .tall_products import tall_product, weighted_sum
 
 LARGE = 0.05
 """extent of a part whose rotation is kept, relative to that of its component"""
 HELD = 0.6
 """share of the area of a part that is linked to others; with more, these determine its rotation"""
 MOST_PARTS = 32
-"""in a component; of more, the largest"""
+"""in a component; of more, those that stand out"""
+STAND_OUT = 1.5
+"""times the extent of the largest part that is not kept: of ten thousand blades of grass, no few
+are kept before the others, only the lawn is"""
 MOST_MEMORY = 2**28
 """bytes for the constraints of all components together; the largest components come first"""
 
@@ -55,8 +59,10 @@ class UprightParts:
         self.is_kept[list(groups)] = True
         of_all = slice(None) if len(is_free) == 1 else None  # which copies nothing
         self._rows = {c: of_all or groups[c][-1] for c in groups}
-        pulls = {c: [] for c in groups}
-        ways = {c: [] for c in groups}
+        pulls, ways = ({c: [] for c in groups} for _ in range(2))
+        place = np.arange(len(rest.V))  # of each vertex among those of its component
+        for c in groups if of_all is None else ():
+            place[groups[c][-1]] = np.arange(len(groups[c][-1]))
         # One solve serves all components, which have nothing to do with each other.
         for k in range(max(map(len, groups.values()), default=0)):
             pull = np.zeros_like(rest.V)
@@ -68,19 +74,27 @@ class UprightParts:
                 pull[vertices] = share[:, None] * (V - weighted_sum(share, V))
             P = solve(pull)
             for c in having:
-                rows = self._rows[c]
-                pulls[c].append(pull[rows])
+                rows, vertices = self._rows[c], groups[c][k]
+                pulls[c].append((place[vertices], pull[vertices]))
                 ways[c].append(P[rows] - _centroid(rest.weighing[rows], P[rows]))
-        self._pulls = {c: np.hstack(pulls[c]) for c in groups}
         self._ways = {c: np.hstack(ways[c]) for c in groups}
+        self._pulls = {c: _rows_of(pulls[c], len(self._ways[c])) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
 
-    def impose(self, U):
-        """Move positions U (n,3), in place, to the nearest in which no such part has turned."""
+    def impose(self, *positions):
+        """Move positions (n,3), in place, to the nearest in which no such part has turned.
+
+        Several are moved at once, which takes hardly longer than one of them.
+        """
         for c, rows in self._rows.items():
-            torques = transposed_product(self._pulls[c], U[rows]).reshape(-1, 9) @ AXIAL
-            mu = (self._inverses[c] @ -torques.ravel()).reshape(-1, 3)
-            U[rows] += tall_product(self._ways[c], (mu @ AXIAL.T).reshape(-1, 3))
+            U = np.hstack([here[rows] for here in positions])
+            twists = []
+            for moments in np.split(self._pulls[c] @ U, len(positions), axis=1):
+                mu = (self._inverses[c] @ -(moments.reshape(-1, 9) @ AXIAL).ravel()).reshape(-1, 3)
+                twists.append((mu @ AXIAL.T).reshape(-1, 3))
+            moves = tall_product(self._ways[c], np.hstack(twists))
+            for here, move in zip(positions, np.split(moves, len(positions), axis=1), strict=True):
+                here[rows] += move
 
 
 def _large_parts(rest, is_free):
@@ -95,11 +109,15 @@ def _large_parts(rest, is_free):
     vertices = np.bincount(component, minlength=len(is_free))
     groups, memory = {}, 0
     for c in sorted(np.flatnonzero(counts > 1), key=lambda c: -vertices[c]):
-        memory += 6 * 8 * vertices[c] * (1 + min(counts[c], MOST_PARTS))
+        parts = np.flatnonzero(is_large & (of_part == c))
+        parts = parts[np.argsort(-size[parts], kind="stable")]
+        if len(parts) > MOST_PARTS:
+            parts = parts[:MOST_PARTS][size[parts[:MOST_PARTS]] > STAND_OUT * size[parts[MOST_PARTS]]]
+        if not len(parts):
+            continue
+        memory += 3 * 8 * vertices[c] * (1 + len(parts))
         if memory > MOST_MEMORY:
             break
-        parts = np.flatnonzero(is_large & (of_part == c))
-        parts = parts[np.argsort(-size[parts], kind="stable")][:MOST_PARTS]
         groups[c] = [*(np.flatnonzero(part == p) for p in parts), np.flatnonzero(component == c)]
     return groups
 
@@ -109,10 +127,18 @@ def _centroid(weights, P):
     return weighted_sum(weights / weights.sum(), P)
 
 
+def _rows_of(pulls, count):
+    """Return the pulls (j,3) at some of the vertices, of each part, as a csr_matrix (3k,count)."""
+    columns = np.concatenate([np.tile(vertices, 3) for vertices, _ in pulls])
+    data = np.concatenate([pull.T.ravel() for _, pull in pulls])
+    start = np.append(0, np.cumsum(np.repeat([len(pull) for _, pull in pulls], 3)))
+    return sp.csr_matrix((data, columns, start), shape=(3 * len(pulls), count))
+
+
 def _inverse(pulls, ways):
     """Return the inverse (3k,3k) of the matrix that maps all mu to torques."""
-    count = pulls.shape[1] // 3
-    M = (pulls.T @ ways).reshape(count, 3, count, 3).swapaxes(1, 2)
+    count = pulls.shape[0] // 3
+    M = (pulls @ ways).reshape(count, 3, count, 3).swapaxes(1, 2)
     traces = np.trace(M, axis1=2, axis2=3)[:, :, None, None] * np.eye(3)
     matrix = (traces - M.swapaxes(2, 3)).swapaxes(1, 2).reshape(3 * count, 3 * count)
     return np.linalg.pinv(0.5 * (matrix + matrix.T), rcond=SMALLEST, hermitian=True)
