@@ -318,8 +318,12 @@ class Stylization(Stored):
     @property
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
-        U = self._motion.positions
-        return U if self.hardening is None else self.hardening.positions(U)
+        if self.hardening is None:
+            return self._motion.positions
+        U = self.hardening.positions(self._motion.positions)
+        for mirror in self.setup.mirrors:  # the crispness is of samples, which are not symmetric
+            mirror.impose(U)
+        return U
 
     @property
     def rotations(self) -> FloatArray:

@@ -307,7 +307,8 @@ class RunProperties:
     keep_symmetric: BoolProperty(
         name="Keep Symmetric",
         description="A mesh of which 99 % mirror each other about its origin, along X, Y or Z,"
-        " stays symmetric, if it is solved alone and its form and weights are symmetric, too",
+        " stays symmetric, if its form and weights are, too. So do objects solved together, such as"
+        " a body with clothes and eyes, about the plane that they share",
         default=Settings.keep_symmetric,
         options=_OPTIONS,
     )
