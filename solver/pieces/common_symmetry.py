@@ -3,10 +3,11 @@
 
 A character has clothes, eyes and shoes: some are their own image about the plane of its body, some
 are each other's. What holds on to each other, by links, is one figure. It has the planes of those
-of its pieces that are symmetric about their own axes; a plane counts if about all of the figure is
-symmetric about it. An eye is symmetric about a plane of its own, too, but its head is not: it is
-not held in that. A sword in one hand stays as it is, and does not make the halves of its owner
-differ. Planes contain the vertical, as what keeps its place on the floor is shifted afterward.
+of its pieces that are symmetric about their own axes; a plane counts if next to all of the figure
+is symmetric about it. An eye is symmetric about a plane of its own, too, but its head is not: it is
+not held in that. Planes contain the vertical, as what keeps its place on the floor is shifted
+afterward. With a sword in one hand, there is none: its links would be at odds with the projection,
+which then is no descent (a table with one of three legs in its plane lost much of its style).
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,11 +17,11 @@ import numpy as np
 
 from ..aliases import FloatArray
 from ..mesh.components import components
-from ..symmetry import LEAST_MATCHING, MATCHING, NO_PARTNER, Mirror, partners
+from ..symmetry import MATCHING, NO_PARTNER, Mirror, partners
 from .mirrored_styles import looks_alike
 from .piece import Piece
 from .reflection import flip
-from .shape import LEAST_MATCHING as LEAST_OF_PIECE
+from .shape import LEAST_MATCHING
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..rest import RestMesh
@@ -51,17 +52,15 @@ def common_planes(pieces: Sequence[Piece], rest: "RestMesh") -> tuple[Mirror, ..
             continue  # what was asked for is enough
         rows = np.flatnonzero(figure[of_vertex] == number)
         V, of_row = rest.input_positions[rows], np.searchsorted(chosen, of_vertex[rows])
-        planes, shares = [], []
         for linear, offset in _candidates(own):
             if not _is_likely(V, linear, offset):
                 continue
-            partner, share = _partners(V, V @ linear.T + offset, of_row, area[chosen])
+            partner = _partners(V, V @ linear.T + offset, of_row, area[chosen])
+            if partner is None:
+                continue
             everywhere = np.full(len(of_vertex), NO_PARTNER)
             everywhere[rows] = np.where(partner >= 0, rows[partner], NO_PARTNER)
-            planes.append(Mirror(everywhere, linear, offset))
-            shares.append(share)
-        least = max([LEAST_MATCHING, *shares])
-        found += [plane for plane, share in zip(planes, shares, strict=True) if share >= least]
+            found.append(Mirror(everywhere, linear, offset))
     return tuple(found)
 
 
@@ -127,15 +126,16 @@ def _is_likely(V, linear, offset):
 def _partners(V, image, of_row, area):
     """Return the partners (k,) within a figure, without those of pieces that have no image.
 
-    And how much of the figure (its area, by pieces) has one.
+    None if too much of the figure (its area, by pieces) has none.
     """
     found = partners(V, image, MATCHING * float(np.ptp(V, axis=0).max()))
     count = np.bincount(of_row, minlength=len(area))
-    has_image = np.bincount(of_row, found >= 0, len(area)) >= LEAST_OF_PIECE * count
+    has_image = np.bincount(of_row, found >= 0, len(area)) >= LEAST_MATCHING * count
     is_kept = has_image[of_row] & (found >= 0)
     is_kept &= has_image[of_row[found]]
-    share = area[has_image].sum() / max(area.sum(), 1e-300)
-    return np.where(is_kept, found, NO_PARTNER), share
+    if not is_kept.any() or area[has_image].sum() < LEAST_MATCHING * area.sum():
+        return None
+    return np.where(is_kept, found, NO_PARTNER)
 
 
 def _is_even(pieces, plane):
