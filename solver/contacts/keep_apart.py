@@ -9,7 +9,7 @@ add a term to the energy, so it falls in every step of a round. A round costs mu
 push, so what a round has left is pushed first if it is not much, and often nearly all parts.
 
 Cards, such as hair, give way: links would hold what they are on, and a head of a thousand cards
-would stay round. At the end, those that cross it ride on it (`riding.py`). That they cross each
+would stay round. At the end, they ride on it if some cross it (`riding.py`). That they cross each
 other does not count.
 """
 
@@ -133,13 +133,16 @@ class KeepApart:
         self._at_end, self._crossing = np.unique(best.pairs), best.pairs
 
     def conclude(self, stylization):
-        """Return the Stylization at the end, in which cards that cross what is none ride on it.
+        """Return the Stylization at the end, in which cards ride where some cross what is none.
 
         And count what then can be seen to cross.
         """
         crossing = self._triangles(self._crossing)
-        part = self._rest.topology.part
-        is_carried = np.isin(part, part[self._shown[crossing[self._is_card[crossing]], 0]])
+        component = self._rest.topology.component
+        is_carried = np.isin(
+            component, component[self._shown[crossing[self._is_card[crossing]], 0]]
+        )
+        is_carried &= self._rest.is_card & ~self._rest.is_sheet
         is_carried[stylization.setup.pinned] = False
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))

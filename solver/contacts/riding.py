@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cards that would go through what they lie on ride on it instead.
+"""Cards ride on what they lie on, where some of them would go through it.
 
 Hair keeps its place over the nearest point of the head, turned as the head is there. So it does not
-come to lie below the skin, and holds nothing: the head is as cubic as it is without hair.
+come to lie below the skin, and holds nothing: the head is as cubic as it is without hair. All cards
+of a figure do so, as those that become flat on their own stand out between the others.
 """
 
 from dataclasses import dataclass
