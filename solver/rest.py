@@ -23,7 +23,7 @@ from .proxy import InputMap, Links, ProxyOptions, no_links
 from .proxy.boxes import box_frames
 from .proxy.nearest import Nearest
 from .proxy.samples import extents
-from .proxy.sheets import extrusions, planar_sheets
+from .proxy.sheets import cards, extrusions, planar_sheets
 from .proxy.thickness import outward_sign
 from .values import Value
 
@@ -125,6 +125,12 @@ class RestMesh(Value):
         if self.unposed is not None:  # a flag that begins to wave stays one
             return self.unposed.is_sheet
         return planar_sheets(self.V, self.F, self.topology.part)[self.topology.part]
+
+    @cached_property
+    def is_card(self) -> BoolArray:
+        """(n,) bool, the vertices of small open sheets, see `proxy/sheets.py`."""
+        parts, component = self.topology.part, self.topology.component
+        return cards(self.V, self.F, parts, component)[parts]
 
     @property
     def cubic_normals(self) -> FloatArray:

@@ -53,7 +53,7 @@ class Result(Value):
     solve_seconds: float = field(compare=False)
     """time of the iterations"""
     crossings: int | None = None
-    """number of triangles that cross others and did not at rest; None if not looked for"""
+    """triangles that are seen to cross others and did not at rest; None if not looked for"""
     crossing_vertices: IntArray | None = None
     """(k,) int vertices of these triangles"""
 

@@ -323,7 +323,7 @@ class Run:
         if is_soft and self._is_hardened_itself:
             self._phase = self.harden
         else:
-            self.reason = self._end
+            self._conclude()
 
     def harden(self, before: FloatArray | None = None) -> None:
         """Make the sides of the soft shape flat; `before` as of `Stylization.hardened`.
@@ -361,15 +361,19 @@ class Run:
         """Leave soft what has come to cross, again and again while that helps."""
         looked = copy(apart)
         crossing = looked.look(self.stylization)
-        if fewest is not None and len(crossing) >= fewest:
-            self.stylization, self.reason = self._before, self._end
-            return
-        self._apart, self._before = looked, self.stylization
-        if not len(crossing):
-            self.reason = self._end
-            return
-        self.stylization = self.stylization.softened(crossing)
-        self._phase = partial(self._soften, apart, len(crossing))
+        if fewest is None or len(crossing) < fewest:
+            self._apart, self._before = looked, self.stylization
+            if len(crossing):
+                self.stylization = self.stylization.softened(crossing)
+                self._phase = partial(self._soften, apart, len(crossing))
+                return
+        self.stylization = self._before
+        self._conclude()
+
+    def _conclude(self) -> None:
+        self.reason = self._end
+        if self._apart is not None:
+            self.stylization = self._apart.conclude(self.stylization)
 
     def with_crispness(self, crispness: ArrayLike) -> "Run | None":
         """Return a Run with another crispness, as of a `Style`, that has only its end to find.

@@ -13,6 +13,7 @@ from .acceleration import Momentum
 from .aliases import FloatArray, IntArray
 from .backends import local_step_class
 from .coarse_to_fine.coarser import coarser_pose, coarser_style
+from .contacts.riding import Riding
 from .energy import Energy
 from .global_step.holds import Holds
 from .hardening.face_step import FaceStep
@@ -153,6 +154,7 @@ class Stylization(Stored):
         self._constraints = constraints
         self._motion = self._local.motion(setup, U, constraints)
         self._acceleration = self._momentum()
+        self._riding: Riding | None = None
         if R is not None:
             self._local.start_from(R)
 
@@ -234,6 +236,12 @@ class Stylization(Stored):
         assert self.hardening is not None
         other = copy(self)
         other.hardening = self.hardening.softened(self.rest, vertices)
+        return other
+
+    def with_riding(self, riding: Riding) -> "Stylization":
+        """Return one at the same point, its end, in which some vertices ride on others."""
+        other = copy(self)
+        other._riding = riding
         return other
 
     def moved(self, setup: Setup, pose: Pose | None = None) -> "Stylization":
@@ -319,13 +327,19 @@ class Stylization(Stored):
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
         U = self._motion.positions
-        return U if self.hardening is None else self.hardening.positions(U)
+        if self.hardening is not None:
+            U = self.hardening.positions(U)
+            for mirror in self.setup.mirrors:  # the crispness is of samples that are not symmetric
+                mirror.impose(U)
+        return U if self._riding is None else self._riding.carried(U, self.rotations)
 
     @property
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         R = self._local.R
-        return R if self.hardening is None else self.hardening.between(R)
+        if self.hardening is not None:
+            R = self.hardening.between(R)
+        return R if self._riding is None else self._riding.turned(R)
 
     @property
     def style(self) -> SolvedStyle:

@@ -78,7 +78,8 @@ def prepare(members: Sequence[Member], earlier: Sequence[MemberProblem] = ()) ->
     CubicCraftError
         They cannot be solved; the message names the objects.
     """
-    return join_pieces(placed(members), members[0].settings.proxy, earlier)
+    settings, keep = members[0].settings, len(members) > 1 and members[0].settings.keep_symmetric
+    return join_pieces(placed(members), settings.proxy, earlier, keep_symmetric=keep)
 
 
 def settings_of_all(problem: MemberProblem) -> Settings:

@@ -113,6 +113,8 @@ class StepwiseRun:
             if member.is_symmetric_by_itself and not member.whole.suits(original):
                 return False
             members.append(replace(member, shape=replace(member.shape, original=original)))
+        if not self.problem.suits(members):
+            return False
         posed = self.problem.posed(members)
         if not self.problem.setup.serves(posed.setup):
             return False

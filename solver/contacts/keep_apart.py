@@ -7,6 +7,10 @@ step is factorized anew, and the iteration goes on from where it is; up to four 
 the few that a round has left and pushing does not part: another round hardly does. The links only
 add a term to the energy, so it falls in every step of a round. A round costs much more than to
 push, so what a round has left is pushed first if it is not much, and often nearly all parts.
+
+Cards, such as hair, give way: links would hold what they are on, and a head of a thousand cards
+would stay round. At the end, they ride on it if some cross it (`riding.py`). That they cross each
+other does not count.
 """
 
 from dataclasses import dataclass
@@ -19,6 +23,8 @@ from .crossings import crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
 from .push import pushed
+from .riding import riding
+from .shown import shown
 
 ROUNDS = 4
 FEW = 1.0 / 2000.0
@@ -38,9 +44,9 @@ class _State:
     """A state of the run, and what crosses in it."""
 
     count: int
-    """of triangles that cross and did not at rest"""
+    """of triangles that cross and did not at rest, but for cards"""
     pairs: IntArray
-    """(k,2) int of triangles"""
+    """(k,2) int of triangles, with cards"""
     U: FloatArray
     R: FloatArray
     is_pushed: bool = False
@@ -55,18 +61,20 @@ class KeepApart:
     Attributes
     ----------
     crossings : int
-        Number of triangles of the input that cross and did not at rest.
+        Number of triangles of the input that can be seen to cross and did not cross at rest.
     vertices : (k,) int array
         Their vertices in the input.
     """
 
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
+        self._is_card = rest.is_card[rest.shown[:, 0]]
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._now: _State | None = None
         self._best: _State | None = None
         self._progress = 0, 0
         self._at_end = np.empty(0, np.intp)
+        self._crossing = np.empty((0, 2), np.intp)
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
 
     def look(self, stylization):
@@ -74,10 +82,8 @@ class KeepApart:
 
         What has crossed there does not count.
         """
-        pairs = self._new(stylization.positions)
-        crossing = self._triangles(pairs)
-        self.crossings = len(np.unique(crossing))
-        self.vertices = np.unique(self._rest.triangles[crossing])
+        self._crossing = self._new(stylization.positions)
+        pairs = self._firm(self._crossing)
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
         return np.unique(self._shown[pairs])
 
@@ -109,7 +115,7 @@ class KeepApart:
         U, R = stylization.positions, stylization.rotations
         is_wide = self._rounds > 0  # fewer links have not been enough
         assert self._now is not None, "there has been no check"
-        pairs = self._now.pairs
+        pairs = self._firm(self._now.pairs)
         step = len(pairs) // SAMPLE
         looks = [(pairs[::step], 0.5 * HELPED)] if step > 1 and not is_wide else []
         found = no_links()
@@ -130,28 +136,55 @@ class KeepApart:
             best = self._best_so_far()
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
-        crossing = self._triangles(best.pairs)
-        self._at_end = np.unique(best.pairs)
+        self._at_end, self._crossing = np.unique(best.pairs), best.pairs
+
+    def conclude(self, stylization):
+        """Return the Stylization at the end, in which cards ride where some cross what is none.
+
+        And count what then can be seen to cross.
+        """
+        crossing = self._triangles(self._crossing)
+        component = self._rest.topology.component
+        is_carried = np.isin(
+            component, component[self._shown[crossing[self._is_card[crossing]], 0]]
+        )
+        is_carried &= self._rest.is_card & ~self._rest.is_sheet
+        is_carried[stylization.setup.pinned] = False
+        if is_carried.any():
+            stylization = stylization.with_riding(riding(self._rest, is_carried))
+            self._crossing = self._new(stylization.positions)
+        is_shown = shown(stylization.positions, self._shown, self._crossing)
+        crossing = self._triangles(self._crossing[is_shown])
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
+        return stylization
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""
+        pairs = self._firm(state.pairs)
         is_free = np.ones(len(state.U), dtype=bool)
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
-        U = pushed(V, state.U, shown, state.pairs, self._counts, is_free, impose)
-        is_moved = (U != state.U).any(axis=1)[shown].any(axis=1)
-        pairs = state.pairs[~is_moved[state.pairs].any(axis=1)]
-        pairs = np.concatenate([pairs, self._new(U, is_moved)])
+        U = pushed(V, state.U, shown, pairs, self._counts, is_free, impose)
+        pairs = self._pairs_after(state, U)
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
+
+    def _pairs_after(self, state, U):
+        """Return the pairs that cross after some vertices of a state have been moved."""
+        is_moved = (U != state.U).any(axis=1)[self._shown].any(axis=1)
+        pairs = state.pairs[~is_moved[state.pairs].any(axis=1)]
+        return np.concatenate([pairs, self._new(U, is_moved)])
 
     def _best_so_far(self) -> "_State":
         assert self._best is not None, "there has been no check"
         return self._best
 
+    def _firm(self, pairs):
+        """Return the pairs without those of cards."""
+        return pairs[~self._is_card[pairs].any(axis=1)]
+
     def _count(self, pairs):
-        return len(np.unique(self._triangles(pairs)))
+        return len(np.unique(self._triangles(self._firm(pairs))))
 
     def _keep(self, state):
         if self._best is None or state.count < self._best.count:
@@ -169,8 +202,9 @@ class KeepApart:
         return pairs[self._counts(pairs)]
 
     def _counts(self, pairs):
-        """Return which pairs (k,2) count: not those of triangles that both crossed at rest."""
-        return ~self._rest.crosses_at_rest(pairs).all(axis=1)
+        """Return which pairs (k,2) count: not two cards, nor what both crossed at rest."""
+        is_new = ~self._rest.crosses_at_rest(pairs).all(axis=1)
+        return is_new & ~self._is_card[pairs].all(axis=1)
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

@@ -7,6 +7,7 @@ midpoints of alike thickness are one node, and nodes that meet on the surface ar
 graph, whose paths lead along a spring and not from one of its turns to the next, nor from finger to
 finger. Around each node, in windows on this graph, the nodes are measured: their extent along their
 main direction, beside the width of what they are the middle of, says how much of a limb they are.
+What tapers, such as a horn, has no midpoints near its tip; there, the vertices say how far it goes.
 Neighbors that lie the same way are one straight piece of it, as a bone is; where such a piece bends
 a little, as a leg does between thigh and shank, it is cut into short ones.
 """
@@ -36,6 +37,8 @@ NONE, FULL = 1.6, 2.2
 """lengths, in widths: below is no limb, above is one in full"""
 STRAIGHT = np.cos(np.radians(20.0))
 """between the directions of one straight piece"""
+TAPER = 0.25
+"""of the thickness per length: what tapers so goes on to its tip, where no ball has an end"""
 FAR = 8.0
 """thicknesses, of the thickest: beyond, distances along the graph are not asked for"""
 SHORT = 0.8
@@ -57,6 +60,9 @@ TOGETHER = 500
 FEWEST = 6
 """links; of fewer, nothing is found"""
 
+_WAYS = np.array([way for way in np.ndindex(3, 3, 3) if way != (1, 1, 1)]) - 1.0
+"""to the corners, edges and sides of a cube"""
+
 
 class Skeleton(NamedTuple):
     """The nodes, m of them."""
@@ -69,11 +75,14 @@ class Skeleton(NamedTuple):
     """(n,) int of each vertex, -1 where a part has none"""
     graph: sp.csr_matrix
     """(m,m) lengths between neighbors"""
+    reach: FloatArray
+    """(m,d,3) the vertices of each that are farthest in each of `_WAYS`"""
 
     def part(self, nodes):
         """Return the Skeleton of some of the nodes (k,)."""
         graph = self.graph[nodes][:, nodes]
-        return Skeleton(self.place[nodes], self.thickness[nodes], self.node, graph)
+        place, thickness = self.place[nodes], self.thickness[nodes]
+        return Skeleton(place, thickness, self.node, graph, self.reach[nodes])
 
 
 def limbs_of_shape(V, skin, links, part):
@@ -164,7 +173,18 @@ def skeleton_of(V, skin, links, part):
     of_end[ends] = of_link[first % len(i)]
     node = of_end[np.where(source >= 0, source, len(V))]
     graph = _graph(place, thickness, node[row], node[skin.indices], spacing)
-    return Skeleton(place, thickness, node, graph)
+    return Skeleton(place, thickness, node, graph, _farthest(V, node, place))
+
+
+def _farthest(V, node, place):
+    """Return the vertices (m,d,3) of each node that are farthest in each of `_WAYS`, or itself."""
+    used = np.flatnonzero(node >= 0)
+    found = np.repeat(place[:, None], len(_WAYS), axis=1)
+    for number, way in enumerate(_WAYS):
+        order = used[np.lexsort((V[used] @ way, node[used]))]
+        last = np.append(np.flatnonzero(np.diff(node[order])), len(order) - 1)
+        found[node[order[last]], number] = V[order[last]]
+    return found
 
 
 def _graph(place, thickness, one, other, spacing):
@@ -201,10 +221,14 @@ def _measured(skeleton):
         spread = np.sqrt(12.0 * np.maximum(spread, 0.0))  # of a uniform line, its length
         thick = window @ thickness / total[:, 0]
         width = thick + spread[:, 1]
-    length = spread[:, 2] + END * thick
+    axis, length = axes[:, :, 2], spread[:, 2] + END * thick
+    moment = window @ (place * thickness[:, None]) / total - mean * thick[:, None]
+    slope = np.abs((moment * axis).sum(axis=1)) / np.maximum(spread[:, 2] ** 2 / 12.0, 1e-12)
+    for k in np.flatnonzero(slope > TAPER):
+        length[k] = max(length[k], np.ptp(skeleton.reach[window[k] > 0.0] @ axis[k]))
     x = np.clip((length / width - NONE) / (FULL - NONE), 0.0, 1.0)
     own = x * x * (3.0 - 2.0 * x)
-    return axes[:, :, 2], (window * own[:, None]).max(axis=0), width, distance
+    return axis, (window * own[:, None]).max(axis=0), width, distance
 
 
 def _pieces(graph, direction, confidence, width):
@@ -236,13 +260,15 @@ def _pieces(graph, direction, confidence, width):
 def _without_short(piece, directions, skeleton, width, distance):
     """Give the nodes of short pieces to the next long one along the graph, or to none.
 
-    Where limbs meet, what is around a node lies across them, and such a piece is no limb.
+    Where limbs meet, what is around a node lies across them, and such a piece is no limb. What
+    tapers has few midpoints, but long sides.
     """
     is_long = np.zeros(len(directions), dtype=bool)
     for number, direction in enumerate(directions):
         rows = np.flatnonzero(piece == number)
-        length = np.ptp(skeleton.place[rows] @ direction)
-        is_long[number] = length > SHORT * width[rows].mean()
+        lengths = [np.ptp(x[rows] @ direction) for x in (skeleton.place, skeleton.reach)]
+        least = np.array([SHORT, NONE]) * width[rows].mean()
+        is_long[number] = (lengths > least).any()
     is_given = (piece >= 0) & ~is_long[piece]
     is_there = (piece >= 0) & is_long[piece]
     if not is_there.any():

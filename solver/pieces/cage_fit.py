@@ -21,6 +21,9 @@ NEARNESS = 0.2
 """weight of a vertex of the cage that stays with the surface, relative to the same"""
 DIRECTION = 3.0
 """weight of edges of the surface, relative to places of vertices: where it faces is what counts"""
+FINE, FIRMEST = 500.0, 8.0
+"""vertices of a cage from which on it is firmer and nearer, up to so many times: the surface of a
+finer one needs less, and tells less of where narrow faces are"""
 PER_VERTEX = 16.0
 """vertices of the surface for each of the cage after two levels"""
 SHORTEST = 0.05
@@ -56,6 +59,7 @@ class CageFit:
         median = np.median(length)
         length = np.maximum(length, SHORTEST * median + 1e-300)
         fineness = smooth.shape[0] / (PER_VERTEX * len(at_rest))
+        fineness *= np.clip((len(at_rest) / FINE) ** 1.5, 1.0, FIRMEST)
         firmness = FIRMNESS * fineness * (median / length) ** 4
         self._firm = (self._across.T @ sp.diags(firmness)).tocsr()
         self._near = NEARNESS * fineness

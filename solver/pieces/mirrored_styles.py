@@ -59,12 +59,12 @@ def _look_alike(turn, placement):
     is_captured = placement.style.capture is not None
     for style in placement.styles:
         Q = np.asarray(style.orientation)
-        if not _looks_alike(Q @ turn @ Q.T, style.form, is_captured):
+        if not looks_alike(Q @ turn @ Q.T, style.form, is_captured):
             return False
     return True
 
 
-def _looks_alike(turn, form, is_captured):
+def looks_alike(turn, form, is_captured):
     """Return whether the form looks the same after a turn or reflection; captures never do."""
     if is_captured:
         return np.abs(turn - np.eye(3)).max() <= _ALIKE

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..aliases import BoolArray, FloatArray
 from ..errors import CubicCraftError
-from ..symmetry import NO_PARTNER
+from ..symmetry import NO_PARTNER, Mirror
+from .common_symmetry import common_planes, even_planes, suits
 from .floor import Floor
 from .holds import Hold, holds_of
 from .joined_style import joined_style
@@ -58,6 +59,8 @@ class Problem(Generic[P]):
     holds: Sequence[Hold]
     seconds: float
     """time to read and factorize"""
+    planes: Sequence[Mirror] | None = None
+    """about which the pieces are symmetric at rest, see `common_symmetry.py`; None if not asked"""
 
     @property
     def name(self) -> str:
@@ -104,6 +107,10 @@ class Problem(Generic[P]):
 
         targets = np.concatenate([piece.targets for piece in self.pieces])
         return Pose(targets=targets, hold_matrices=[hold.matrix for hold in self.holds])
+
+    def suits(self, pieces: Sequence[P]) -> bool:
+        """Return whether the same objects with other positions are as symmetric as these are."""
+        return not self.planes or suits(self.planes, _positions(pieces))
 
     def stylization(self, options: "SolverOptions | None" = None) -> "Stylization":
         """Return a new Stylization of the pieces.
@@ -175,6 +182,8 @@ def join_pieces(
     pieces: Sequence[P],
     proxy: "ProxyOptions | None" = None,
     earlier: Sequence[Problem[P]] = (),
+    *,
+    keep_symmetric: bool = False,
 ) -> Problem[P]:
     """Join pieces into one mesh, and factorize it.
 
@@ -186,6 +195,8 @@ def join_pieces(
         How to prepare the surface; by default as in the paper.
     earlier : sequence of Problem
         What has not changed is reused.
+    keep_symmetric : bool
+        Whether figures of several pieces that are symmetric about a plane stay so.
 
     Raises
     ------
@@ -227,20 +238,24 @@ def join_pieces(
     is_still, is_held = _is_still(pieces), _is_held(pieces)
     try:
         rest = _rest(pieces, proxy, earlier)
-        known = (one.without_holds for one in earlier if _has_setup(one, pieces, rest, is_still))
+        planes = _planes(pieces, rest, earlier) if keep_symmetric else None
+        even = even_planes(pieces, planes or ())
+        known = (
+            one.without_holds for one in earlier if _has_setup(one, pieces, rest, is_still, even)
+        )
         setup = next(known, None)
         if setup is None:
             # The solver needs at least one free vertex.
             is_some_free = not (is_still | is_held).all()
             still = is_still if is_some_free and is_still.any() else None
-            setup = Setup(rest, np.flatnonzero(is_held), still, _mirrors(pieces))
+            setup = Setup(rest, np.flatnonzero(is_held), still, [*_mirrors(pieces), *even])
         without_holds, holds = setup, holds_of(pieces, rest)
         if holds:
             setup = _with_holds(setup, holds, earlier)
     except CubicCraftError as error:
         raise CubicCraftError(f"{listed([piece.name for piece in pieces])}: {error}") from error
     seconds = time.perf_counter() - begin + sum(piece.seconds for piece in pieces)
-    return Problem(tuple(pieces), setup, is_still, without_holds, holds, seconds)
+    return Problem(tuple(pieces), setup, is_still, without_holds, holds, seconds, planes)
 
 
 def _rest(pieces, proxy, earlier):
@@ -255,6 +270,14 @@ def _rest(pieces, proxy, earlier):
             return rest
     triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
     return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy, _faces(pieces))
+
+
+def _planes(pieces, rest, earlier):
+    """Find the planes about which the pieces are symmetric, or reuse those of the same shapes."""
+    for other in earlier:
+        if other.planes is not None and other.setup.rest.topology is rest.topology:
+            return other.planes
+    return common_planes(pieces, rest)
 
 
 def _faces(pieces):
@@ -291,8 +314,11 @@ def _has_shapes(problem, pieces):
     )
 
 
-def _has_setup(problem, pieces, rest, is_still):
+def _has_setup(problem, pieces, rest, is_still, even):
     if problem.setup.rest is not rest or not np.array_equal(problem.is_still, is_still):
+        return False
+    others = even_planes(problem.pieces, problem.planes or ())
+    if list(map(id, others)) != list(map(id, even)):
         return False
     pairs = zip(problem.pieces, pieces, strict=True)
     if any(one.whole.mirrored != other.whole.mirrored for one, other in pairs):

@@ -9,7 +9,9 @@ it is alone. The smaller sheets ride along with what they are linked to.
 import numpy as np
 
 from ..mesh.rest_measures import triangle_areas_and_normals
+from ..mesh.triangles import Triangles
 from .samples import extents
+from .thickness import outward_sign
 
 PLANAR = 0.9999
 """share of the area that faces one way, or the opposite one"""
@@ -17,6 +19,8 @@ LARGER = 1.5
 """times the extent of another part: then a sheet is its ground"""
 SCENE = 2.0
 """times the largest part: what is larger than that is a scene"""
+CARD = 0.02
+"""of the area of what it is linked to: an open sheet with less is a card"""
 SQUARE = 0.01
 """how far cosines may be from those of the planes of an extruded outline, and of its rim"""
 CAPS, SHARE = 0.3, 0.98
@@ -57,6 +61,26 @@ def extrusions(V, F, part):
         np.bincount(of_face, area * rows, len(total)) for rows in (is_cap, is_cap | is_rim)
     )
     return (caps > CAPS * total) & (both > SHARE * total)
+
+
+def cards(V, F, part, component):
+    """Return which parts (p,) are cards: small open sheets, such as strands of hair, or lashes.
+
+    They come in hundreds that lie through each other, and must not hold what they are on.
+
+    Parameters
+    ----------
+    V, F, part
+        As of `planar_sheets`.
+    component : (n,) int array
+        What is linked; a card is small beside that.
+    """
+    is_open = outward_sign(Triangles(V, F), part) == 0.0
+    area, _ = triangle_areas_and_normals(V, F)
+    of_part = np.bincount(part[F[:, 0]], area, len(is_open))
+    whole = np.zeros(len(is_open))
+    whole[part[F[:, 0]]] = np.bincount(component[F[:, 0]], area)[component[F[:, 0]]]
+    return is_open & (of_part < CARD * whole)
 
 
 def moments_of_normals(area, normal, of_face, count):

@@ -180,7 +180,8 @@ def test_there_is_no_round_where_hardly_anything_can_be_linked(monkeypatch):
     whole, rounds = rounds_of(state)
     assert rounds == 0
     result = whole.result()
-    assert result.crossings == len(new_crossings(V, result.positions, F)) > 40
+    # some of them inside the hand, where nobody sees them
+    assert 40 < result.crossings < len(new_crossings(V, result.positions, F))
     assert result.iterations == run(stylization(V, F, apart=False, options=COARSE)).iterations
 
 

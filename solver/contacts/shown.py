@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which crossings can be seen from outside.
+
+Where an arm goes into a body, or a root of hair below the skin, faces cross that nobody sees. A
+crossing shows if some ray leaves from the middle of the line that both triangles have in common
+and meets no other triangle. For each of some directions, triangles and lines are looked at from
+there, in the cells of a grid.
+"""
+
+import numpy as np
+
+DIRECTIONS = 32
+"""evenly over the sphere"""
+_MOST_CELLS = 512  # of a side of the grid
+_OFF = 1e-6  # of the extent: what blocks is farther away
+
+
+def shown(V, F, pairs):
+    """Return which pairs of crossing triangles (k,2) can be seen from outside, (k,) bool.
+
+    Parameters
+    ----------
+    V : (n,3) float array
+        Finite.
+    F : (m,3) int array
+    """
+    is_shown = np.zeros(len(pairs), dtype=bool)
+    if not len(pairs):
+        return is_shown
+    points = _meeting_points(V, F, pairs)
+    size = float(np.ptp(V, axis=0).max())
+    k = np.arange(DIRECTIONS) + 0.5
+    z, angle = 1.0 - 2.0 * k / DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * k
+    flat = np.sqrt(1.0 - z * z)
+    for direction in np.column_stack([flat * np.cos(angle), flat * np.sin(angle), z]):
+        rows = np.flatnonzero(~is_shown)
+        if not len(rows):
+            break
+        turn = np.linalg.svd(direction[None])[2][[1, 2, 0]]  # the last row is along it
+        turn[2] = direction
+        looked = V @ turn.T, points[rows] @ turn.T
+        is_shown[rows] = ~_is_blocked(*looked, F, pairs[rows], _OFF * size)
+    return is_shown
+
+
+def _meeting_points(V, F, pairs):
+    """Return the middle (k,3) of what both triangles of each pair have in common."""
+    ends = np.concatenate([_cut(V, F, *pairs.T), _cut(V, F, *pairs.T[::-1])], axis=1)
+    line = ends - ends[:, :1]
+    farthest = (line * line).sum(axis=2).argmax(axis=1)
+    along = np.einsum("kex,kx->ke", line, line[np.arange(len(line)), farthest])
+    inner = np.argsort(along, axis=1)[:, 1:3]
+    return np.take_along_axis(ends, inner[:, :, None], axis=1).mean(axis=1)
+
+
+def _cut(V, F, one, other):
+    """Return the ends (k,2,3) of what the planes of other triangles cut out of triangles (k,)."""
+    a, b, c = (V[F[other, k]] for k in range(3))
+    corners = V[F[one]]
+    height = np.einsum("kcx,kx->kc", corners - a[:, None], np.cross(b - a, c - a))
+    is_above = height > 0.0
+    is_rare = is_above == (is_above.sum(axis=1, keepdims=True) == 1)
+    first = is_rare.argmax(axis=1)  # the corner that is alone on its side
+    rows, found = np.arange(len(one)), []
+    for step in (1, 2):
+        next_ = (first + step) % 3
+        h, g = height[rows, first], height[rows, next_]
+        share = h / np.where(h == g, 1.0, h - g)
+        found.append(
+            corners[rows, first] + share[:, None] * (corners[rows, next_] - corners[rows, first])
+        )
+    return np.stack(found, axis=1)
+
+
+def _is_blocked(V, points, F, pairs, least):
+    """Return which points (k,3) have a triangle above, farther than `least` along Z.
+
+    Not one of the two (k,2) that they lie on.
+    """
+    low, size = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
+    side = int(np.clip(np.sqrt(len(F)), 8, _MOST_CELLS))
+    scale = side / max(size, 1e-300) * (1.0 - 1e-9)
+    cell = ((points[:, :2] - low) * scale).astype(np.intp).clip(0, side - 1)
+    corners = V[F]
+    first, last = (
+        ((end - low) * scale).astype(np.intp).clip(0, side - 1)
+        for end in (corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1))
+    )
+    count = np.zeros((side + 1, side + 1), dtype=np.intp)
+    np.add.at(count, (cell[:, 0] + 1, cell[:, 1] + 1), 1)
+    count = count.cumsum(axis=0).cumsum(axis=1)
+    (x, y), (right, top) = first.T, (last + 1).T
+    inside = count[right, top] - count[x, top] - count[right, y] + count[x, y]
+    near = np.flatnonzero((inside > 0) & (corners[:, :, 2].max(axis=1) > points[:, 2].min()))
+    triangle, of_cell = _cells(near, first[near], last[near], side)
+    number = cell[:, 0] * side + cell[:, 1]
+    order = np.argsort(number, kind="stable")
+    begin = np.searchsorted(number[order], of_cell)
+    times = np.searchsorted(number[order], of_cell, "right") - begin
+    triangle = np.repeat(triangle, times)
+    within = np.arange(len(triangle)) - np.repeat(np.cumsum(times) - times, times)
+    point = order[np.repeat(begin, times) + within]
+    is_other = (pairs[point] != triangle[:, None]).all(axis=1)
+    point, triangle = point[is_other], triangle[is_other]
+    is_above = _height(corners[triangle], points[point]) > least
+    is_blocked = np.zeros(len(points), dtype=bool)
+    is_blocked[point[is_above]] = True
+    return is_blocked
+
+
+def _cells(triangles, first, last, side):
+    """Return triangles (e,), each as often as it has cells, and these (e,)."""
+    wide, high = (last - first + 1).T
+    times = wide * high
+    at = np.repeat(np.arange(len(triangles)), times)
+    within = np.arange(len(at)) - np.repeat(np.cumsum(times) - times, times)
+    x, y = first[at, 0] + within // high[at], first[at, 1] + within % high[at]
+    return triangles[at], x * side + y
+
+
+def _height(corners, points):
+    """Return how high triangles (k,3,3) lie above points (k,3), -inf where they do not."""
+    a, b, c = corners.transpose(1, 0, 2)
+    u, v, w = b - a, c - a, points - a
+    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    whole = np.where(area == 0.0, 1.0, area)
+    s = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / whole
+    t = (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / whole
+    is_inside = (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0) & (area != 0.0)
+    return np.where(is_inside, s * u[:, 2] + t * v[:, 2] - w[:, 2], -np.inf)

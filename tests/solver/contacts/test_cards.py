@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hair gives way: it does not keep a head round, and does not go below its skin."""
+
+import numpy as np
+import pytest
+from contact_shapes import joined
+from proxy_shapes import uv_sphere
+
+from solver import ProxyOptions, stylize
+from solver.proxy.sheets import cards
+
+COUNT, ROWS = 150, 6
+
+
+def hair():
+    """Return cards that hang down around the upper half of a ball, through each other."""
+    rng = np.random.default_rng(0)
+    z, a = rng.uniform(0.1, 1.0, COUNT), rng.uniform(0.0, 2.0 * np.pi, COUNT)
+    flat = np.sqrt(1.0 - z * z)
+    p = np.stack([flat * np.cos(a), flat * np.sin(a), z], axis=1)
+    down = 0.3 * rng.normal(size=p.shape) - [0.0, 0.0, 1.0]
+    down -= p * (p * down).sum(axis=1)[:, None]
+    down /= np.linalg.norm(down, axis=1)[:, None]
+    t = np.linspace(0.0, 1.0, ROWS)
+    angle, height = 0.5 * t, 1.01 + 0.02 * rng.random(COUNT)[:, None] + 0.08 * t
+    along = p[:, None] * np.cos(angle)[:, None] + down[:, None] * np.sin(angle)[:, None]
+    across = 0.05 * np.cross(p, down)[:, None] * (1.0 - 0.6 * t)[:, None]
+    middle = along * height[..., None]
+    V = np.stack([middle - across, middle + across], axis=2).reshape(-1, 3)
+    i = (2 * ROWS * np.arange(COUNT)[:, None] + 2 * np.arange(ROWS - 1)).ravel()
+    return V, np.concatenate([np.stack([i, i + 2, i + 1], 1), np.stack([i + 1, i + 2, i + 3], 1)])
+
+
+def angle_to_axes(U, F):
+    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
+    size = np.linalg.norm(normal, axis=1)
+    cosine = np.abs(normal).max(axis=1) / np.maximum(size, 1e-12)
+    return np.degrees(np.average(np.arccos(np.minimum(cosine, 1.0)), weights=size))
+
+
+@pytest.mark.parametrize("crispness", [0.0, 0.9])
+def test_a_head_becomes_as_cubic_as_without_keep_apart(crispness):
+    head = uv_sphere(32, 16)
+    V, F = joined(head, hair())
+    n, results = len(head[0]), []
+    for keep_apart in (False, True):
+        proxy = ProxyOptions(keep_apart=keep_apart)
+        results.append(stylize(V, F, proxy=proxy, keep_rotation=True, crispness=crispness))
+    free, kept = (angle_to_axes(result.positions[:n], head[1]) for result in results)
+    assert kept < free + 0.3
+    before, after = (_below(result.positions, n, head[1]) for result in results)
+    assert after < 0.4 * before + 2
+
+
+def _below(U, n, F):
+    """Return how many vertices of cards are inside the head, by solid angles."""
+    a, b, c = (U[F[:, k]][None] - U[n:, None] for k in range(3))
+    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
+    volume = np.einsum("pfx,pfx->pf", a, np.cross(b, c))
+    rest = la * lb * lc + (a * b).sum(2) * lc + (b * c).sum(2) * la + (c * a).sum(2) * lb
+    return int((np.arctan2(volume, rest).sum(axis=1) > np.pi).sum())
+
+
+def test_what_is_large_or_closed_is_no_card():
+    head, (V, F) = uv_sphere(32, 16), hair()
+    shirt = 1.1 * head[0], head[1][: len(head[1]) // 2]
+    V, F = joined(head, (V, F), shirt, (0.1 * head[0] + [2.0, 0, 0], head[1]))
+    sizes = [len(head[0]), *[2 * ROWS] * COUNT, len(head[0]), len(head[0])]
+    part = np.repeat(np.arange(len(sizes)), sizes)
+    found = cards(V, F, part, np.zeros(len(V), int))
+    assert found.tolist() == [False, *[True] * COUNT, False, False]
