@@ -194,8 +194,8 @@ class KeptInScene:
     keep_symmetric: bool = setting(True, paper=False, in_animation=False)(
         "Keep Symmetric",
         "A mesh of which 99 % mirror each other about its origin, along X, Y or Z, stays"
-        " symmetric, if its form and weights are, too. So do objects solved together, such as a body"
-        " with clothes and eyes, about the plane that they share",
+        " symmetric, if its form and weights are, too. So do objects solved together, such as a"
+        " body with clothes and eyes, about the plane that they share",
     )
     symmetry: tuple[bool, bool, bool] = setting(
         (False,) * 3, subtype="XYZ", in_animation=(False,) * 3

@@ -35,7 +35,8 @@ HELP = {
     "--pin": "vertex groups that stay in place",
     "--handles": "parts of the mesh that are held or moved, see below",
     "--symmetry": "x, y, z or several: halves that are mirror images about the object's origin "
-    "stay so; auto: those that are so in 99 %%, of a mesh or of what is solved together; off (default: auto)",
+    "stay so; auto: those that are so in 99 %%, of a mesh or of what is solved together; off "
+    "(default: auto)",
     "--with-modifiers": "take what is seen: meshes with their modifiers applied, texts, curves, "
     "surfaces and metaballs as meshes",
     "--output": "(default: cubic_craft.png)",
