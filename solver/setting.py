@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is declared of a setting: a word for each of those that have it."""
+"""How a setting is declared, for Blender, the command lines and the library alike."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import field, fields
@@ -64,9 +64,9 @@ def setting(default: Any, numbers: Sequence[int] = (), **about: Any) -> Callable
     def declare(label: str, text: str, help: str | None = None, choices: Any = ()) -> Any:
         if isinstance(choices, dict):
             choices = [(name, *words.split(": ", 1)) for name, words in choices.items()]
-        every = tuple((*c, n) for c, n in zip(choices, numbers, strict=False))
-        words = {"label": label, "text": text, "help": help, "choices": every or tuple(choices)}
-        found = Setting(default, **words, **about)
+        if numbers:
+            choices = [(*words, number) for words, number in zip(choices, numbers, strict=True)]
+        found = Setting(default, label, text, help, choices=tuple(choices), **about)
         return field(default=default, metadata={"setting": found})
 
     return declare
