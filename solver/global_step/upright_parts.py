@@ -112,7 +112,9 @@ def _large_parts(rest, is_free):
         parts = np.flatnonzero(is_large & (of_part == c))
         parts = parts[np.argsort(-size[parts], kind="stable")]
         if len(parts) > MOST_PARTS:
-            parts = parts[:MOST_PARTS][size[parts[:MOST_PARTS]] > STAND_OUT * size[parts[MOST_PARTS]]]
+            parts = parts[:MOST_PARTS][
+                size[parts[:MOST_PARTS]] > STAND_OUT * size[parts[MOST_PARTS]]
+            ]
         if not len(parts):
             continue
         memory += 3 * 8 * vertices[c] * (1 + len(parts))
