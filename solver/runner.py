@@ -176,7 +176,7 @@ class Run:
         self.reason: Reason | None = None
         self._last = max_iterations
         self._tolerance = tolerance
-        self._rule = StopRule(tolerance, stylization.resolution)
+        self._rule = self._new_rule()
         self._phase: Callable[[], None] = self._local_step
         self._seconds = 0.0
         self._coarse_iterations = 0
@@ -261,6 +261,11 @@ class Run:
             self._coarse_iterations, self._coarse_energy = coarse.iterations, coarse.energy
             self._coarse = None
 
+    def _new_rule(self) -> StopRule:
+        state = self.stylization
+        may_swing = not state.is_coarse and state.rest.topology.has_linked_parts
+        return StopRule(self._tolerance, state.resolution, may_swing)
+
     def _local_step(self):
         self.stylization.local_step()
         self._phase = self._global_step
@@ -282,9 +287,8 @@ class Run:
             self._ended("max_iterations")
 
     def _rise(self) -> None:
-        """Go on with a higher cubeness, see `from_below.py`."""
-        self._below.rise(self.stylization)
-        self._rule = StopRule(self._tolerance, self.stylization.resolution)
+        self._below.rise(self.stylization)  # to a higher cubeness, see `from_below.py`
+        self._rule = self._new_rule()
         self._phase = self._local_step
 
     def _ended(self, reason: Reason) -> None:
@@ -309,7 +313,7 @@ class Run:
             self._phase = partial(self._finish, apart)
             return
         self.stylization = renewed
-        self._rule = StopRule(self._tolerance, self.stylization.resolution)
+        self._rule = self._new_rule()
         self._last = self.stylization.iteration + self._round
         self._phase = self._local_step
 

@@ -6,6 +6,11 @@ ENERGY_WINDOW = 10
 ENERGY_SHARE = 0.1
 """limit of the fall per iteration relative to the total fall, as a fraction of the tolerance"""
 
+SWINGING_WINDOW = 20
+"""the same where parts may swing..."""
+SWINGING_SHARE = 1e-3
+"""...and the limit there, whatever still moves"""
+
 
 class StopRule:
     """Converged when the shape no longer moves and the energy no longer falls.
@@ -19,6 +24,9 @@ class StopRule:
         Largest displacement in one iteration, relative to the largest distance from the rest shape.
     resolution : float
         Distance below which differences are rounding errors.
+    may_swing : bool
+        Whether parts are linked. One that hangs by a corner, such as a leaf, may swing for a
+        thousand iterations, and carries next to none of the energy: it is not waited for.
 
     See Also
     --------
@@ -34,9 +42,10 @@ class StopRule:
     [False, True]
     """
 
-    def __init__(self, tolerance: float, resolution: float = 1e-9):
+    def __init__(self, tolerance: float, resolution: float = 1e-9, may_swing: bool = False):
         self._tolerance = tolerance
         self._resolution = resolution
+        self._may_swing = may_swing
         self._energies: list[float] = []
 
     def is_converged(self, energy: float, displacement: float, distance: float) -> bool:
@@ -53,7 +62,7 @@ class StopRule:
         """
         self._energies.append(energy)
         if displacement > self._tolerance * distance + self._resolution:
-            return False
+            return self._may_swing and self._only_swings()
         if distance <= self._resolution:
             # The first iterations of the ADMM may leave all rotations at the identity.
             return len(self._energies) > 2
@@ -61,3 +70,12 @@ class StopRule:
         fall = (window[0] - energy) / max(len(window) - 1, 1)
         whole = self._energies[0] - energy
         return len(window) > 1 and fall <= ENERGY_SHARE * self._tolerance * max(whole, 0.0)
+
+    def _only_swings(self) -> bool:
+        """Return whether what moves carries next to nothing; the energy may rise in between."""
+        before = self._energies[:-SWINGING_WINDOW]
+        if not before:
+            return False
+        least = min(self._energies)
+        fall = (min(before) - least) / SWINGING_WINDOW
+        return fall <= SWINGING_SHARE * self._tolerance * (self._energies[0] - least)

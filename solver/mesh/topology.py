@@ -60,6 +60,11 @@ class Topology(Value):
         """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
 
+    @cached_property
+    def has_linked_parts(self):
+        """Whether a component has more than one part."""
+        return bool(self.part.max() >= self.component_count)
+
     def sum_parts_at(self, vertices, values) -> Any:
         """Sum values (k,) that belong to vertices (k,) over each component."""
         return np.bincount(self.component[vertices], values, self.component_count)

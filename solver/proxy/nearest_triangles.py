@@ -19,6 +19,7 @@ SMALL = 256
 """triangles of a part; one with more is also looked at alone, as too many are near each other"""
 
 _CANDIDATES = 6  # triangles of a large part, by their centers, among which the nearest is searched
+_CORNERS = 8  # of small parts, around a vertex, by which the search for their triangles is bounded
 _BLOCK = 1 << 18  # pairs that are compared at once
 
 
@@ -47,6 +48,7 @@ class NearestTriangles:
 
     def __init__(self, V, corners, part, chosen, sizes, reach):
         self._V, self._corners, self._chosen = by_columns(V), corners, chosen
+        self._of_corner = part
         self._of_vertex, self._of_face = part[chosen], part[corners[:, 0]]
         self._from = take(self._V, chosen)
         self.triangle = np.full(len(chosen), -1)
@@ -120,7 +122,9 @@ class NearestTriangles:
 
     def _ask_boxes(self, triangles):
         """Compare vertices with the triangles of small parts whose boxes are within their reach."""
-        reach, corners = np.sqrt(self._squared)[:, None], self._places(triangles)
+        squared, corners = self._squared.copy(), self._places(triangles)
+        self._bound(triangles, squared)
+        reach = np.sqrt(squared)[:, None]
         low = np.concatenate([self._from - reach, np.min(corners, axis=0)])
         high = np.concatenate([self._from + reach, np.max(corners, axis=0)])
         origin = low.min(axis=0)
@@ -133,6 +137,26 @@ class NearestTriangles:
             j = triangles[j - count]
             is_other = self._of_vertex[i] != self._of_face[j]
             self._compare(i[is_other], j[is_other])
+
+    def _bound(self, triangles, squared):
+        """Lower the squares of distances (k,) to where corners of other parts of these are.
+
+        It takes little time, and leaves most boxes that would overlap out.
+        """
+        corners = np.unique(self._corners[triangles])
+        places, part = take(self._V, corners), np.append(self._of_corner[corners], -1)
+        count = min(_CORNERS, len(corners))
+        nearest, reach = Nearest(places), float(squared.max()) ** 0.5
+        places = np.concatenate([places, np.full((1, 3), np.inf)])
+        for block in np.array_split(np.arange(len(squared)), -(-len(squared) * count // _BLOCK)):
+            here = self._from[block]
+            found = nearest(here, k=count, distance_upper_bound=reach).reshape(-1, count)
+            for column in found.T:
+                is_other = part[column] != self._of_vertex[block]
+                d = _squared(places[column] - here)
+                # a little more than it is, so that the triangle of this corner is found itself
+                d = np.where(is_other, (1.0 + 1e-9) * d + 1e-24, np.inf)
+                squared[block] = np.minimum(squared[block], d)
 
     def _compare(self, rows, triangles):
         """Keep the triangles that are nearer than what has been found from the vertices so far."""

@@ -17,7 +17,6 @@ Nor is a planar sheet to smaller parts, see `sheets.py`.
 import numpy as np
 
 from ..algebra import dot
-from .arms import arms
 from .links import links_to_triangles, no_links
 from .nearest_triangles import FEW, NearestTriangles, is_in_box
 from .samples import extents, surface_samples
@@ -74,9 +73,7 @@ def neighbour_links(V, F, normals, areas, part, count):
     is_kept = _is_accepted(V[corners[triangle]], normals[i], sizes[both], d)
     is_kept &= (weights > LEAST_WEIGHT) & ~is_ground(V, F, part, *both)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
-    joints = i, corners[triangle], barycentric
-    links = links_to_triangles(*joints, weights[is_kept])
-    return links.joined(arms(V, areas, part, sizes, joints))
+    return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
 
 
 def _near_others(V, part, count):

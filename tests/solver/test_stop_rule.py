@@ -58,3 +58,15 @@ def test_progress_rises_to_one():
     assert values == sorted(values)
     assert 0.0 < values[0] < 0.2
     assert values[-1] == 1.0
+
+
+def test_parts_that_only_swing_are_not_waited_for():
+    swinging = geometric(0.7, 1.0)
+    assert iterations(StopRule(1e-3, may_swing=True), swinging) == pytest.approx(40, abs=15)
+
+
+def test_parts_that_may_swing_are_waited_for_while_the_energy_falls_or_rises():
+    steady = ((10.0 - 1e-3 * k, 1.0) for k in range(5000))
+    assert iterations(StopRule(1e-3, may_swing=True), steady) is None
+    rising = ((10.0 - (k % 15) - 1e-2 * k, 1.0) for k in range(900))
+    assert iterations(StopRule(1e-3, may_swing=True), rising) is None
