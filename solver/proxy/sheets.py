@@ -75,12 +75,14 @@ def cards(V, F, part, component):
     component : (n,) int array
         What is linked; a card is small beside that.
     """
-    is_open = outward_sign(Triangles(V, F), part) == 0.0
     area, _ = triangle_areas_and_normals(V, F)
-    of_part = np.bincount(part[F[:, 0]], area, len(is_open))
-    whole = np.zeros(len(is_open))
-    whole[part[F[:, 0]]] = np.bincount(component[F[:, 0]], area)[component[F[:, 0]]]
-    return is_open & (of_part < CARD * whole)
+    own, linked = part[F[:, 0]], component[F[:, 0]]
+    whole = np.zeros(int(part.max()) + 1)
+    whole[own] = np.bincount(linked, area)[linked]
+    is_small = np.bincount(own, area, len(whole)) < CARD * whole
+    if is_small.any():
+        is_small &= outward_sign(Triangles(V, F), part) == 0.0
+    return is_small
 
 
 def moments_of_normals(area, normal, of_face, count):
