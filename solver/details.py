@@ -24,6 +24,8 @@ rest more.
 
 import numpy as np
 
+from .aliases import FloatArray
+
 WEIGHT = 1.75
 """of the cubeness where all normals agree"""
 SMALL_PART = 2.0
@@ -59,7 +61,7 @@ def radii(size, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
 
 
-def smoothed(graph, radius, coupling, outward=1.0, rounds=ROUNDS):
+def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     Parameters

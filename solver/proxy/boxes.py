@@ -6,6 +6,8 @@ it cannot turn to the cube, and the cubic term would skew it. So each such part,
 shape or a staircase, gets its own cube, along its own sides.
 """
 
+from typing import Any
+
 import numpy as np
 
 from ..mesh.rest_measures import triangle_areas_and_normals
@@ -37,7 +39,7 @@ def box_frames(V, F, part):
     second -= (second * first).sum(axis=1)[:, None] * first
     length = np.linalg.norm(second, axis=1)
     second /= np.where(length > 0.0, length, 1.0)[:, None]
-    frames = np.stack([first, second, np.cross(first, second)], axis=1)
+    frames: Any = np.stack([first, second, np.cross(first, second)], axis=1)
     along = np.abs(np.einsum("fij,fj->fi", frames[of_face], unit)).max(axis=1)
     boxed = np.bincount(of_face, area * (along > TOLERANCE), count)
     is_box = (boxed >= SHARE * total) & (length > 0.0) & (total > 0.0)

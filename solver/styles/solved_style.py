@@ -83,7 +83,7 @@ class SolvedStyle(Value):
         turned = after.normals - before.normals
         if self.forms or self.captures:
             turned = turned * after.outward
-        is_drawn = self.normals.any(axis=1)
+        is_drawn = np.any(self.normals, axis=1)
         normals = unit(np.where(is_drawn[:, None], self.normals + turned, 0.0))
         return replace(self, normals=normals)
 

@@ -325,7 +325,7 @@ def crate_with(text):
 
 
 def test_a_crash_of_an_importer_is_one_line(folder):
-    """With an importer that is not there for one that crashes: Blender 5.3 has none known."""
+    """An importer that is not there stands in for it: none of Blender 5.3 is known to crash."""
     (folder / "a.usda").write_text(USDA + "}")
     command = [sys.executable, "-c", CRASH, folder / "a.usda"]
     said = subprocess.run(command, capture_output=True, text=True, check=False).stderr
