@@ -90,7 +90,8 @@ class UprightParts:
             U = np.hstack([here[rows] for here in positions])
             twists = []
             for moments in np.split(self._pulls[c] @ U, len(positions), axis=1):
-                mu = (self._inverses[c] @ -(moments.reshape(-1, 9) @ AXIAL).ravel()).reshape(-1, 3)
+                torques = moments.reshape(-1, 9) @ AXIAL
+                mu = np.negative(self._inverses[c] @ torques.ravel()).reshape(-1, 3)
                 twists.append((mu @ AXIAL.T).reshape(-1, 3))
             moves = tall_product(self._ways[c], np.hstack(twists))
             for here, move in zip(positions, np.split(moves, len(positions), axis=1), strict=True):
