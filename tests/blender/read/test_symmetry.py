@@ -59,6 +59,19 @@ def test_halves_end_as_mirror_images_bit_for_bit():
     assert "507 of 507 match" in obj.cubic_craft.status
 
 
+def test_objects_that_are_solved_together_share_a_plane():
+    head, *eyes = add_monkey(), add_ball("Left"), add_ball("Right")
+    for eye, x in zip(eyes, (0.4, -0.4), strict=True):
+        eye.location, eye.scale = (x, -0.9, 0.25), (0.2, 0.2, 0.2)
+    bpy.context.view_layer.update()
+    select(head, *eyes)
+    cubify()
+    left, right = (position_of(eye.data) * eye.scale + eye.location for eye in eyes)
+    images = in_order(np.round(right * FLIP_X, 4))
+    np.testing.assert_allclose(in_order(np.round(left, 4)), images, atol=2e-4)
+    assert np.ptp(left, axis=0).max() > 0.3
+
+
 def test_without_symmetry_they_do_not():
     obj = add_lump()
     partner = partner_of(position_of(obj.data), 1e-4)
