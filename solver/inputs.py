@@ -100,7 +100,7 @@ def switch(value: Any, name: str) -> bool:
     """Return a truth value, and not what Python would take for one."""
     if not isinstance(value, bool | np.bool_):
         raise CubicCraftError(f"{name} must be True or False, not {value!r}")
-    return bool(value)
+    return bool(value)  # pyright: ignore[reportUnknownArgumentType]
 
 
 def instance(value: Any, name: str, kind: type[T]) -> T:

@@ -29,7 +29,7 @@ def read_directions(text: str) -> np.ndarray:
     try:
         rows = np.array([[float(word) for word in row.split()] for row in text.split(",")])
     except ValueError:
-        rows = np.empty(0)
+        rows = np.empty((0, 0))
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise CubicCraftError(
             f'"{text[:40]}" is not a list of directions; write three numbers for each, such as'

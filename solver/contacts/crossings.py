@@ -36,7 +36,7 @@ def crossings(V, F, is_asked=None):
     """
     V = np.asarray(V, dtype=np.float64)
     F = np.asarray(F)
-    used = np.flatnonzero(np.isfinite(V).all(axis=1)[F].all(axis=1))
+    used = np.flatnonzero(np.all(np.all(np.isfinite(V), axis=1)[F], axis=1))
     if len(used) < 2 or not (is_asked is None or is_asked[used].any()):
         return np.empty((0, 2), np.intp)
     low, high = _boxes(V, F[used])

@@ -194,7 +194,7 @@ class KeepApart:
         """Return the share of pairs (k,2) of triangles that both have a vertex with a link."""
         is_linked = np.zeros(len(self._rest.V), dtype=bool)
         is_linked[links.vertices[links.coefficients != 0.0]] = True
-        return is_linked[self._shown].any(axis=1)[pairs].all(axis=1).mean()
+        return np.any(is_linked[self._shown], axis=1)[pairs].all(axis=1).mean()
 
     def _new(self, U, is_asked=None):
         """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""

@@ -47,7 +47,7 @@ class Edges:
         is_same = ~self._is_new
         is_same[is_same] = is_edge[self.number.ravel()[self._order[is_same]]]
         other = np.flatnonzero(is_same)
-        m = self.number.shape[1]
+        m = self.number.shape[1]  # pyright: ignore[reportGeneralTypeIssues]
         edge = self.number.ravel()[self._order[other]]
         return self._order[other - 1] % m, self._order[other] % m, edge
 

@@ -114,8 +114,8 @@ def spokes_and_rims(V, F, C, edges=None):
             flux = vectors[:, 0] * weights[:, block]
             g_start, g_end = flux[[2, 0, 1]] - flux, flux - flux[[1, 2, 0]]
             is_backward = edges.is_backward[:, block]
-            g_lower[:, block] = np.where(is_backward, g_end, g_start)
-            g_upper[:, block] = np.where(is_backward, g_start, g_end)
+            g_lower[:, block] = np.where(is_backward, g_end, g_start)  # pyright: ignore[reportIndexIssue]
+            g_upper[:, block] = np.where(is_backward, g_start, g_end)  # pyright: ignore[reportIndexIssue]
         below[:, c], above[:, c] = pattern.sum_at_edges(g_lower), pattern.sum_at_edges(g_upper)
     del g_lower, g_upper
     gather = pattern.filled(above, below)

@@ -147,7 +147,7 @@ class Subdivided(Whole):
 
     def cage(self, points: RealArray) -> FloatArray:
         """Return points (n,3) of the mesh, float64, with their images (k,3)."""
-        return super().images(points)
+        return super().images(points)  # pyright: ignore[reportArgumentType]
 
     def fitted(
         self, surface: FloatArray, at_rest: FloatArray, goal: FloatArray, is_held: BoolArray

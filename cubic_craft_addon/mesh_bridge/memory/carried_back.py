@@ -100,7 +100,7 @@ def _sizes(points: np.ndarray, back: np.ndarray) -> np.ndarray:
 
 
 def _is_near(points: np.ndarray, target: np.ndarray, reach: np.ndarray) -> np.ndarray:
-    return (np.abs(points.astype(np.float64) - target) <= reach[:, None]).all(axis=1)
+    return np.all(np.abs(points.astype(np.float64) - target) <= reach[:, None], axis=1)
 
 
 def _is_flattened(recognised: Recognised, count: int) -> np.ndarray:

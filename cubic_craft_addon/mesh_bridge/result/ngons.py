@@ -4,6 +4,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import bmesh
 import bpy
@@ -94,7 +95,7 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
     if "custom_normal" in mesh.attributes:  # of the smooth shape
         mesh.attributes.remove(mesh.attributes["custom_normal"])
     face_of = _faces_of_triangles(mesh)
-    source = {
+    source: dict[Any, tuple[int, int]] = {
         (part, polygons.places[vertex]): (face, vertex)
         for part, face, corners in zip(
             polygons.parts.tolist(), face_of, polygons.triangles.tolist(), strict=True
