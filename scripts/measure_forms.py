@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from benchmark.shapes import ball
 from figures.forms import HALF_LENGTH, HOUSE
 
-from solver import Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
+from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
 from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles import forms
 from solver.styles.hulls import simple_hull, spiral
@@ -34,9 +34,9 @@ def main():
     V, F = ball(LEVELS)
     print(f"{len(V):,} vertices, cubeness {CUBENESS}")
     for name, form in bodies().items():
-        stylize(V, F, CUBENESS, form=form, max_iterations=2)  # compiles
+        stylize(V, F, CUBENESS, form=form, max_iterations=2, proxy=PAPER)  # compiles
         begin = time.perf_counter()
-        result = stylize(V, F, CUBENESS, form=form)
+        result = stylize(V, F, CUBENESS, form=form, proxy=PAPER)
         seconds = time.perf_counter() - begin
         before, after = (share(U, F, form.normals) for U in (V, result.positions))
         print(
@@ -74,7 +74,7 @@ def share(U, F, directions):
 def rises(V, F, form):
     """Return in how many steps of the plain iteration the energy rises."""
     options = SolverOptions(is_accelerated=False)
-    run = Stylization(Setup(rest_mesh(V, F)), Style(CUBENESS, form=form), options=options)
+    run = Stylization(Setup(rest_mesh(V, F, PAPER)), Style(CUBENESS, form=form), options=options)
     energies = []
     for _ in range(STEPS):
         run.step()

@@ -8,7 +8,7 @@ which the whole shape is turned; they are no measure for a run that begins at re
 
 import time
 
-from solver import Run, Setup, SolverOptions, Stylization, rest_mesh
+from solver import PAPER, Run, Setup, SolverOptions, Stylization, rest_mesh
 
 from .meshes import read
 from .our_solver import energy_of
@@ -19,7 +19,7 @@ PATIENCE, ENOUGH = 200, 1e-8
 
 def find_best(path, cubeness, seconds):
     """Return the lowest energy found and what found it; so long in each of two descents."""
-    setup = Setup(rest_mesh(*read(path)))
+    setup = Setup(rest_mesh(*read(path), proxy=PAPER))
     state = Stylization(setup, cubeness)
     positions = _descend(state, Run(state, tolerance=1e-12, max_iterations=10**9).advance, seconds)
     accelerated = energy_of(setup, cubeness, positions)
@@ -36,9 +36,9 @@ def _descend(state, advance, seconds):
     end = time.perf_counter() + seconds
     marks = []
     while time.perf_counter() < end:
-        before = state.iteration
+        before = state.iterations
         advance()
-        if state.iteration > before:
+        if state.iterations > before:
             marks.append(state.energy.total)
         if len(marks) > PATIENCE and marks[-PATIENCE] - min(marks[-10:]) < ENOUGH * marks[-1]:
             break

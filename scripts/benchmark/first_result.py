@@ -50,9 +50,9 @@ def bpy():
 
 def solver():
     """Stylize a sphere without Blender."""
-    from solver import stylize
+    from solver import PAPER, stylize
 
     from .shapes import sphere
 
-    stylize(*sphere(32, 16), 0.4)
+    stylize(*sphere(32, 16), 0.4, proxy=PAPER)
     os._exit(0)

@@ -201,7 +201,8 @@ def test_a_forked_process_has_numpy_instead_of_waiting_for_threads():
             go_on()
 
         in_child(lambda: new_run(CPU))  # it has not started yet
-        stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device="cpu"))
+        options = SolverOptions(device="cpu")
+        stylization = Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=options)
         stylization.step()
         in_child(all_of_it)
         in_child(lambda: None)
@@ -242,6 +243,6 @@ def test_the_module_of_a_frame_is_the_one_that_inspect_finds(tmp_path):
         assert expected[0] is elsewhere
         with quick_module_search():
             assert list(map(inspect.getmodule, frames)) == expected
-            assert inspect.getmodule(stylize) is sys.modules["solver.one_call"]
+            assert inspect.getmodule(solver.stylize) is sys.modules["solver.one_call"]
         """
     )
