@@ -1,9 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cubic stylization without Blender: NumPy, SciPy and, if installed, Taichi or Quadrants.
+"""`stylize` turns a mesh into a cubic sculpture, and `stylize_mesh` one of trimesh or meshio.
 
-The names below are imported on first use, so that Blender can show the panel of the extension
-without loading SciPy, and even if SciPy is missing. They are listed once: type checkers read the
-imports as they stand, and at run time `_exports` reads them from the source of this file.
+    from solver import ball, stylize
+
+    V, F = ball()  # positions (n,3) and triangles (m,3)
+    result = stylize(V, F, 0.4, form="octahedron")
+    print(result.positions, result.converged)
+
+All is as in Blender, unless it is told otherwise; `PAPER` is the method of the paper. Step by step,
+`rest_mesh`, `Setup`, `Style` and `Stylization` lead to `run`; `piece_of` and `join_pieces` are for
+several objects, handles, mirrors and regions. Blender is not needed: NumPy and SciPy are, and
+Taichi or Quadrants are used if they are installed.
+
+The names are imported on first use, so that Blender can show the panel of the extension without
+loading SciPy, and even if SciPy is missing.
 """
 
 from typing import TYPE_CHECKING
@@ -31,6 +41,7 @@ if TYPE_CHECKING:
     from .limbs import placed_limbs as placed_limbs
     from .limbs.frames import pose_frames as pose_frames
     from .loading import loading_steps as loading_steps
+    from .mesh.ball import ball as ball
     from .mesh.edge_distances import edge_distances as edge_distances
     from .mesh.edge_distances import nearest_distances as nearest_distances
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
@@ -69,17 +80,46 @@ if TYPE_CHECKING:
 
     __version__: str
 else:
-
-    def _exports():
-        """Return the module of each name that the block above imports."""
-        import ast
-
-        tree = ast.parse(__spec__.loader.get_source(__name__))
-        block = next(node for node in tree.body if isinstance(node, ast.If))
-        lines = (line for line in block.body if isinstance(line, ast.ImportFrom))
-        return {alias.name: f".{line.module}" for line in lines for alias in line.names}
-
-    _MODULES = _exports()
+    _NAMES = {
+        "backends": "DEVICES engine_name problem_with_engine set_cache_folder",
+        "energy": "Energy",
+        "errors": "CubicCraftError",
+        "facets.low_poly": "LowPoly low_poly",
+        "flatten": "Flattened flatten_facets",
+        "frames.sequence": "FrameSequence SequenceState",
+        "frames.steadiness": "MOST_JUMPS Frames frame_of least_width",
+        "limbs": "KnownLimbs joined_limbs limbs_of_bones placed_limbs",
+        "limbs.frames": "pose_frames",
+        "loading": "loading_steps",
+        "mesh.ball": "ball",
+        "mesh.edge_distances": "edge_distances nearest_distances",
+        "mesh.rest_measures": "triangle_areas_and_normals",
+        "meshes": "stylize_mesh",
+        "normal_capture": "NormalCapture",
+        "one_call": "stylize",
+        "options": "SolverOptions",
+        "orientation.auto_orientation": "auto_orient",
+        "pieces.from_mesh": "piece_of",
+        "pieces.handle_pose": "HandlePose",
+        "pieces.piece": "Piece",
+        "pieces.problem": "Problem join_pieces",
+        "pieces.reflection": "Reflection flip",
+        "pose": "Pose",
+        "preparation": "rest_mesh",
+        "progress": "Progress",
+        "proxy.options": "PAPER ProxyOptions",
+        "rest": "RestMesh",
+        "result": "Result",
+        "rotation_fit": "svd_rotations",
+        "runner": "Run run",
+        "setup": "Setup",
+        "stop_rule": "StopRule",
+        "styles.cube": "nearest_to_identity",
+        "styles.style": "Style",
+        "stylization": "Stylization",
+        "symmetry": "MATCHING NO_PARTNER Mirror commuting partners",
+    }
+    _MODULES = {name: f".{room}" for room, names in _NAMES.items() for name in names.split()}
 
     __all__ = sorted(_MODULES)
 

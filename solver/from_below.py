@@ -49,7 +49,7 @@ class FromBelow:
 
     def rise(self, stylization):
         """Take a Stylization to the next stage, or to the cubeness itself."""
-        done = stylization.iteration
+        done = stylization.iterations
         if done >= self._most:
             self._left = [math.inf]
         self._end = min(done + ITERATIONS, self._most) if done else self._most

@@ -42,12 +42,31 @@ def vectors(values: ArrayLike, name: str) -> FloatArray:
     return found.reshape(-1, 3)
 
 
+def matrix_of(values: ArrayLike, name: str) -> FloatArray:
+    """Return an affine map as a matrix (4,4) of finite numbers."""
+    found = real_numbers(values, name)
+    if found.shape not in ((4, 4), (16,)) or not np.isfinite(found).all():
+        raise CubicCraftError(f"{name} must be 4x4 finite numbers, row by row")
+    return found.reshape(4, 4)
+
+
 def real_number(value: ArrayLike, name: str) -> float:
     """Return a single number."""
     found = real_numbers(value, name)
     if found.ndim:
         raise CubicCraftError(f"{name} must be one number, not {found.shape}")
     return float(found)
+
+
+def whole_number(value: Any, name: str, least: int) -> int:
+    """Return a single integer of at least so much."""
+    number: Any = value
+    is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not (is_whole and number >= least):
+        raise CubicCraftError(
+            f"{name} must be a whole number of at least {least}, not {_short(value)}"
+        )
+    return int(number)
 
 
 def whole_numbers(values: ArrayLike, name: str) -> IntArray:
@@ -115,17 +134,32 @@ def instances(values: Any, name: str, kind: type[T]) -> list[T]:
     if isinstance(values, kind):
         return [values]
     several = cast("Sequence[Any]", values)
-    if not isinstance(values, Sequence) or isinstance(values, str) or not len(several):
+    if not isinstance(values, Sequence) or isinstance(values, str):
         raise CubicCraftError(f"{name} must be of the type {kind.__name__}, not {_kind(values)}")
+    if not len(several):
+        raise CubicCraftError(f"{name} must have at least one {kind.__name__}")
     return [instance(value, name, kind) for value in several]
 
 
 def array_of(values: Any, name: str) -> NDArray[Any]:
     """Return any array, as NumPy makes it."""
+    refuse_mask(values, name)
     try:
         return np.asarray(values)
     except ValueError:
         raise CubicCraftError(f"{name} must be an array, whose rows are of one length") from None
+
+
+def refuse_mask(values: Any, name: str) -> None:
+    """Refuse an array of which some values are masked: NumPy would take what lies below."""
+    if isinstance(values, np.ma.MaskedArray) and bool(np.any(cast("Any", values).mask)):
+        raise CubicCraftError(f"{name} must have no masked values; fill them, as filled() does")
+
+
+def _short(value: Any) -> str:
+    """Return a number as it is written, and what anything else is."""
+    is_number = isinstance(value, bool | int | float | np.generic)
+    return str(value) if is_number else _kind(value)
 
 
 def _kind(value: Any) -> str:

@@ -4,6 +4,8 @@
 Neither library is imported.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from copy import deepcopy
 from typing import Any, Concatenate, ParamSpec, TypeVar
@@ -33,18 +35,18 @@ def _with_arguments_of(
 
 @_with_arguments_of(stylize)
 def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **options: Any) -> M:
-    """Return the cubic version of a mesh of trimesh or meshio.
+    """Return the cubic version of a mesh or a scene of trimesh, or of a mesh of meshio.
 
     Colors, UVs, materials and other data stay. Normals of points that meshio has read turn with the
     surface; trimesh computes its own anew.
 
     Parameters
     ----------
-    mesh : trimesh.Trimesh or meshio.Mesh
-        It is not changed. Lines and points of meshio stay where they are, unless they belong to the
-        surface.
+    mesh : trimesh.Trimesh, trimesh.Scene or meshio.Mesh
+        It is not changed. Lines and points stay where they are, unless they belong to the surface.
+        The meshes of a scene are solved together, where it places them.
     cubeness : float or (n,) numpy array
-        As for `stylize`.
+        As for `stylize`; the vertices of a scene are those of its nodes, in their order.
     pinned : (k,) numpy int array or (n,) numpy bool array
         As for `stylize`.
     **options
@@ -52,8 +54,8 @@ def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **o
 
     Returns
     -------
-    trimesh.Trimesh or meshio.Mesh
-        A new mesh of the same type.
+    trimesh.Trimesh, trimesh.Scene or meshio.Mesh
+        A new one of the same type. A mesh that a scene has in several places becomes one for each.
 
     Raises
     ------
@@ -68,25 +70,23 @@ def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **o
     --------
     >>> from types import SimpleNamespace
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import stylize_mesh
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import ball, stylize_mesh
+    >>> V, F = ball()
     >>> mesh = SimpleNamespace(vertices=V, faces=F)  # instead of a trimesh.Trimesh
-    >>> cubic = stylize_mesh(mesh, 0.6, keep_rotation=True, device="numpy")
+    >>> cubic = stylize_mesh(mesh, 0.6, device="numpy")
     >>> round(float(np.linalg.norm(cubic.vertices - V, axis=1).max()), 2)  # the largest movement
-    0.25
+    0.26
     """
+    given, made = _any(mesh), _any(deepcopy(mesh))
     if hasattr(mesh, "points") and hasattr(mesh, "cells"):
-        return _stylized_meshio(mesh, cubeness, pinned, options)
+        return _stylized_meshio(given, made, (cubeness, pinned), options)
+    if hasattr(mesh, "geometry") and hasattr(mesh, "graph"):
+        return _stylized_scene(given, made, (cubeness, pinned), options)
     if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
         raise CubicCraftError(
             "the mesh must have vertices and faces, as those of trimesh, or points and cells, as"
-            f" those of meshio, which a {type(mesh).__name__} does not"
+            f" those of meshio, which a {type(mesh).__name__} does not; load it with one of them"
         )
-    given, made = _any(mesh), _any(deepcopy(mesh))
     made.vertices = stylize(given.vertices, given.faces, cubeness, pinned, **options).positions
     return made
 
@@ -113,8 +113,7 @@ def _any(mesh: object) -> Any:
     return mesh
 
 
-def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: dict[str, Any]) -> M:
-    given, made = _any(mesh), _any(deepcopy(mesh))
+def _stylized_meshio(given: Any, made: Any, style: Any, options: dict[str, Any]) -> Any:
     faces: list[NDArray[Any]] = []
     for block in given.cells:
         if block.type in FACES and len(block.data):
@@ -125,8 +124,37 @@ def _stylized_meshio(mesh: M, cubeness: ArrayLike, pinned: ArrayLike, options: d
                 " and polygons"
             )
     triangles = np.concatenate(faces) if faces else np.empty((0, 3), int)
-    result = stylize(given.points, triangles, cubeness, pinned, **options)
+    result = stylize(given.points, triangles, *style, **options)
     points = np.asarray(given.points)
     made.points = result.positions.astype(points.dtype if points.dtype.kind == "f" else float)
     made.point_data = with_turned_normals(given.point_data, result.rotations)
+    return made
+
+
+def _stylized_scene(given: Any, made: Any, style: Any, options: dict[str, Any]) -> Any:
+    points, faces = [np.empty((0, 3))], [np.empty((0, 3), int)]
+    places: list[tuple[str, str, NDArray[Any], slice]] = []
+    count = 0
+    for node in given.graph.nodes_geometry:
+        place, name = given.graph[node]
+        mesh = given.geometry[name]
+        if not hasattr(mesh, "faces"):
+            continue  # lines and points
+        turn = np.linalg.det(place[:3, :3])
+        if turn == 0.0:
+            raise CubicCraftError(f"the node {node!r} has a scale of zero; apply its scale")
+        points.append(mesh.vertices @ place[:3, :3].T + place[:3, 3])
+        faces.append(count + (mesh.faces if turn > 0.0 else mesh.faces[:, ::-1]))
+        places.append((node, name, place, slice(count, count + len(mesh.vertices))))
+        count += len(mesh.vertices)
+    result = stylize(np.concatenate(points), np.concatenate(faces), *style, **options)
+    used: set[str] = set()
+    for node, name, place, part in places:
+        mesh = made.geometry[name]
+        if name in used:
+            mesh, name = given.geometry[name].copy(), f"{name} of {node}"
+            made.geometry[name] = mesh
+            made.graph.update(node, matrix=made.graph.get(node)[0], geometry=name)
+        used.add(name)
+        mesh.vertices = (result.positions[part] - place[:3, 3]) @ np.linalg.inv(place[:3, :3]).T
     return made

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A complete run in one call: mesh in, cubic mesh out."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np
@@ -8,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from .aliases import Device, Faces, Precision
 from .limbs import KnownLimbs
+from .mesh.mesh_checks import check_mesh, check_winding
 from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
@@ -18,7 +21,7 @@ from .runner import OnIteration, run
 from .setup import Setup
 from .styles.admm import AdmmOptions
 from .styles.polytope import Polytope
-from .styles.style import Style
+from .styles.style import CRISPNESS, Style
 from .stylization import Stylization
 
 
@@ -28,28 +31,30 @@ def stylize(
     cubeness: ArrayLike = 0.4,
     pinned: ArrayLike = (),
     *,
+    proxy: ProxyOptions | None = None,
+    crispness: ArrayLike | None = None,
+    keep_rotation: bool | None = None,
+    form: str | Polytope | Sequence[str | Polytope] | None = None,
+    form_of: ArrayLike | None = None,
+    orientation: ArrayLike | None = None,
+    detail_strength: ArrayLike = 1.0,
+    targets: ArrayLike | None = None,
+    limbs: KnownLimbs | None = None,
+    capture: NormalCapture | Sequence[NormalCapture] | None = None,
+    capture_strength: ArrayLike = 0.0,
+    capture_of: ArrayLike | None = None,
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
     on_iteration: OnIteration | None = None,
     progress: bool = False,
-    proxy: ProxyOptions = PAPER,
-    orientation: ArrayLike | None = None,
-    targets: ArrayLike | None = None,
-    form: Polytope | Sequence[Polytope] | None = None,
-    form_of: ArrayLike | None = None,
-    capture: NormalCapture | Sequence[NormalCapture] | None = None,
-    capture_strength: ArrayLike = 0.0,
-    capture_of: ArrayLike | None = None,
-    crispness: ArrayLike = 0.0,
-    detail_strength: ArrayLike = 1.0,
-    limbs: KnownLimbs | None = None,
-    keep_rotation: bool = False,
     device: Device = "auto",
     precision: Precision | None = None,
     admm: AdmmOptions | None = None,
     is_accelerated: bool = True,
 ) -> Result:
     """Return the cubic version of a mesh.
+
+    All is as in Blender, unless it is told otherwise.
 
     Parameters
     ----------
@@ -61,42 +66,45 @@ def stylize(
         0 keeps the shape; 0.1 to 1 are common.
     pinned : (k,) numpy int array or (n,) numpy bool array
         Vertices held exactly in place: their numbers, or a mask.
-    max_iterations : int
-        Limit, even if the run has not converged.
-    tolerance : float
-        See `StopRule`.
-    on_iteration : callable, optional
-        Called with the Stylization after each iteration; a true value cancels the run.
-    progress : bool
-        Whether to show a progress bar on standard error.
-    proxy : ProxyOptions
+    proxy : ProxyOptions, optional
         How to prepare the surface: weld it, refine it, and link it to its neighbors and its
-        opposite side. By default nothing is done, as in the paper; ``ProxyOptions()`` has the
-        defaults of the extension.
-    orientation : (3,3) or (n,3,3) numpy array, optional
-        See `Style`.
-    targets : (n,3) numpy array, optional
-        Where the pinned vertices go; by default they stay.
-    form : Polytope or sequence of Polytopes, optional
-        What a ball would become; by default the cube.
+        opposite side. By default as in the extension; `PAPER` is the method of the paper, on the
+        surface exactly as it is.
+    crispness : float or (n,) numpy array, optional
+        From 0 to 1: how far sides are made flat and edges straight in the end. By default 0.9; with
+        `PAPER`, 0.
+    keep_rotation : bool, optional
+        Whether each component keeps its orientation, see `SolverOptions`. By default it does; not
+        with `PAPER`.
+    form : str, Polytope or sequence of them, optional
+        What a ball would become, such as "octahedron"; by default the cube. `styles.forms` has all.
     form_of : (n,) numpy int array, optional
         Which of several forms each vertex has.
+    orientation : (3,3) or (n,3,3) numpy array, optional
+        See `Style`.
+    detail_strength : float or (n,) numpy array
+        How high details stand out, relative to those at rest; see `ProxyOptions.detail`.
+    targets : (n,3) numpy array, optional
+        Where the pinned vertices go; by default they stay.
+    limbs : KnownLimbs, optional
+        Limbs that are known, as from bones; see `Pose`.
     capture : NormalCapture or sequence of NormalCaptures, optional
         How the normals should turn.
     capture_strength : float or (n,) numpy array
         How strongly they do.
     capture_of : (n,) numpy int array, optional
         Which of several captures each vertex has.
-    crispness : float or (n,) numpy array
-        From 0 to 1: how far sides are made flat and edges straight in the end.
-    detail_strength : float or (n,) numpy array
-        How high details stand out, relative to those at rest; see `ProxyOptions.detail`.
-    limbs : KnownLimbs, optional
-        Limbs that are known, as from bones; see `Pose`.
-    keep_rotation : bool
-        Whether each component keeps its orientation; see `SolverOptions`, also for all that follow.
+    max_iterations : int
+        Limit, even if the run has not converged.
+    tolerance : float
+        See `StopRule`.
+    on_iteration : callable, optional
+        Called with the Stylization after each iteration, also on coarser meshes (`is_coarse`); a
+        true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
     device : {"auto", "cpu", "gpu", "numpy"}
-        What computes.
+        What computes; see `SolverOptions`, also for all that follow.
     precision : "f64" or "f32", optional
         Of the local step in Taichi.
     admm : AdmmOptions, optional
@@ -115,6 +123,7 @@ def stylize(
 
     See Also
     --------
+    stylize_mesh : The same for a mesh of trimesh or meshio.
     run : The same for a prepared Stylization.
     auto_orient : Finds an orientation for ``orientation``.
 
@@ -125,23 +134,28 @@ def stylize(
 
     Examples
     --------
-    A ball becomes a cube with round corners: much more of its surface then faces an axis.
+    A ball becomes a cube: nearly all of its surface then faces an axis.
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import stylize, triangle_areas_and_normals
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
+    >>> from solver import PAPER, ball, stylize, triangle_areas_and_normals
+    >>> V, F = ball()
+    >>> result = stylize(V, F, 0.6, device="numpy")
     >>> for positions in (V, result.positions):
     ...     areas, normals = triangle_areas_and_normals(positions, F)
     ...     faces_an_axis = np.abs(normals).max(axis=1) > 0.98  # within 11 degrees
     ...     print(f"{areas[faces_an_axis].sum() / areas.sum():.2f} of the area")
     0.06 of the area
-    0.67 of the area
+    0.97 of the area
+
+    A form with a name, and the method of the paper:
+
+    >>> gem = stylize(V, F, form="octahedron", device="numpy")
+    >>> soft = stylize(V, F, 0.6, proxy=PAPER, device="numpy")
     """
+    V, F = check_mesh(V, F)
+    check_winding(F, len(V))
+    proxy = ProxyOptions() if proxy is None else proxy
+    is_paper = proxy == PAPER
     setup = Setup(rest_mesh(V, F, proxy), pinned)
     style = Style(
         cubeness,
@@ -151,7 +165,7 @@ def stylize(
         capture=capture,
         capture_strength=capture_strength,
         capture_of=capture_of,
-        crispness=crispness,
+        crispness=(0.0 if is_paper else CRISPNESS) if crispness is None else crispness,
         detail_strength=detail_strength,
     )
     options = SolverOptions(
@@ -159,7 +173,7 @@ def stylize(
         precision=precision,
         admm=admm,
         is_accelerated=is_accelerated,
-        keep_rotation=keep_rotation,
+        keep_rotation=not is_paper if keep_rotation is None else keep_rotation,
     )
     stylization = Stylization(setup, style, Pose(targets=targets, limbs=limbs), options)
     return run(stylization, max_iterations, tolerance, on_iteration, progress)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pose in which a mesh is solved: where its handles go, and which way its limbs lie."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -34,17 +36,13 @@ class Pose(Value):
     The lower half of a ball is pinned, and a tenth of it moves down:
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import Pose, Setup, SolverOptions, Stylization, rest_mesh, run
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> setup = Setup(rest_mesh(V, F), pinned=z < 0)
-    >>> lower = np.where((z < -0.8)[:, None], V - [0, 0, 0.5], V)
+    >>> from solver import Pose, Setup, SolverOptions, Stylization, ball, rest_mesh, run
+    >>> V, F = ball()
+    >>> setup = Setup(rest_mesh(V, F), pinned=V[:, 2] < 0)
+    >>> lower = np.where(V[:, 2:] < -0.8, V - [0, 0, 0.5], V)
     >>> options = SolverOptions(device="numpy")
     >>> result = run(Stylization(setup, 0.4, Pose(targets=lower), options))
-    >>> np.array_equal(result.positions[z < 0], lower[z < 0])
+    >>> np.array_equal(result.positions[setup.pinned_input], lower[setup.pinned_input])
     True
     """
 

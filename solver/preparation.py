@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prepare a mesh: all that is computed once, regardless of cubeness, orientation and pins."""
 
+from __future__ import annotations
+
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
@@ -18,7 +20,7 @@ from .mesh.rest_measures import areas_and_normals
 from .mesh.spokes_and_rims import spokes_and_rims
 from .mesh.topology import topology
 from .mesh.triangles import Triangles
-from .proxy import PAPER, Links, ProxyOptions, no_links, surface_of
+from .proxy import Links, ProxyOptions, no_links, surface_of
 from .proxy.cavities import cavity_links
 from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
@@ -29,7 +31,7 @@ from .rest import LIGHT, RestMesh
 
 
 def rest_mesh(
-    V: ArrayLike, F: Faces, proxy: ProxyOptions = PAPER, faces: ArrayLike | None = None
+    V: ArrayLike, F: Faces, proxy: ProxyOptions | None = None, faces: ArrayLike | None = None
 ) -> RestMesh:
     """Build the RestMesh of a mesh.
 
@@ -39,8 +41,8 @@ def rest_mesh(
         Rest positions, in any unit.
     F : (m,3) numpy int array, or faces with more corners
         Triangles. Polygons (m,s), or rows of any length, are split into triangles.
-    proxy : ProxyOptions
-        How to prepare the surface; by default nothing is done, as in the paper.
+    proxy : ProxyOptions, optional
+        How to prepare the surface; by default as in the extension. With `PAPER`, nothing is done.
     faces : (m,) numpy int array, optional
         The face of a coarser mesh that each triangle is a piece of: *Crispness* gives it one side.
 
@@ -64,20 +66,16 @@ def rest_mesh(
 
     Examples
     --------
-    A coarse ball is solved as it is, or on a finer copy, as the extension does:
+    A coarse ball is solved on a finer copy, or as it is, as in the paper:
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import ProxyOptions, rest_mesh
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
-    >>> len(rest_mesh(V, F).V), len(rest_mesh(V, F, ProxyOptions()).V) > 4000
-    (700, True)
+    >>> from solver import PAPER, ball, rest_mesh
+    >>> V, F = ball()
+    >>> len(rest_mesh(V, F).V) > 4000, len(rest_mesh(V, F, PAPER).V)
+    (True, 700)
     """
     input_positions, F = check_mesh(V, F)
-    instance(proxy, "proxy", ProxyOptions)
+    proxy = ProxyOptions() if proxy is None else instance(proxy, "proxy", ProxyOptions)
     given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
     if faces is not None:

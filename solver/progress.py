@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The progress of a run as one number, for a progress bar."""
 
+from __future__ import annotations
+
 import math
 
 from .stylization import Stylization
@@ -27,18 +29,14 @@ class Progress:
     Examples
     --------
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import Progress, Setup, SolverOptions, Stylization, rest_mesh, run
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import Progress, Setup, SolverOptions, Stylization, ball, rest_mesh, run
+    >>> V, F = ball()
     >>> progress, shown = Progress(max_iterations=1000, tolerance=1e-3), []
     >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> stylization = Stylization(Setup(rest_mesh(V, F)), 0.6, options=options)
     >>> _ = run(stylization, on_iteration=lambda state: shown.append(progress.update(state)))
     >>> [f"{shown[done - 1]:.2f}" for done in (1, 5, 10, 20)]  # iterations
-    ['0.00', '0.30', '0.51', '0.78']
+    ['0.00', '0.35', '0.59', '0.86']
     """
 
     def __init__(self, max_iterations: int, tolerance: float):
@@ -48,9 +46,14 @@ class Progress:
         self._largest = 0.0
 
     def update(self, stylization: Stylization) -> float:
-        """Record one iteration of a Stylization and return the fraction done."""
-        fraction = stylization.iteration / self._max_iterations
-        if stylization.iteration > 1 and stylization.distance > 0.0:
+        """Record one iteration of a Stylization and return the fraction done.
+
+        Those on coarser meshes do not count: they have an end of their own.
+        """
+        if stylization.is_coarse:
+            return self._fraction
+        fraction = stylization.iterations / self._max_iterations
+        if stylization.iterations > 1 and stylization.distance > 0.0:
             relative = stylization.displacement / stylization.distance
             self._largest = max(self._largest, relative)
             if 0.0 < self._tolerance < self._largest and relative > 0.0:

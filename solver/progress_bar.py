@@ -21,7 +21,7 @@ def progress_bar(max_iterations: int, tolerance: float) -> Iterator[Callable[[St
         nonlocal shown
         done = progress.update(stylization)
         bar = ("#" * round(WIDTH * done)).ljust(WIDTH, ".")
-        line = f"\r{done:4.0%} [{bar}] iteration {stylization.iteration}"
+        line = f"\r{done:4.0%} [{bar}] iteration {stylization.iterations}"
         if line != shown and sys.stderr is not None:  # a program without a console has none
             shown = line
             sys.stderr.write(line)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is known of a mesh, regardless of cubeness, orientation and pins."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -19,7 +21,7 @@ from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
 from .mesh.topology import Topology
 from .mesh.triangles import Triangles
 from .mesh.unit_box import UnitBox
-from .proxy import InputMap, Links, ProxyOptions, no_links
+from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links
 from .proxy.boxes import box_frames
 from .proxy.nearest import Nearest
 from .proxy.samples import extents
@@ -46,8 +48,8 @@ class RestMesh(Value):
 
     Examples
     --------
-    >>> from solver import rest_mesh
-    >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0], [9, 9, 9]], [[0, 1, 2]])
+    >>> from solver import PAPER, rest_mesh
+    >>> rest = rest_mesh([[0, 0, 0], [2, 0, 0], [0, 2, 0], [9, 9, 9]], [[0, 1, 2]], PAPER)
     >>> rest.V.shape, rest.input_positions.shape  # the last vertex is loose
     ((3, 3), (4, 3))
     """
@@ -85,7 +87,7 @@ class RestMesh(Value):
     """(k,3) int32 triangles of the input, as given"""
     whole: IntArray | None = None
     """(m,) int the triangle before refinement, or the face, that each is a piece of, or None"""
-    unposed: "RestMesh | None" = None
+    unposed: RestMesh | None = None
     """the mesh that this is a pose of"""
 
     @property
@@ -176,7 +178,7 @@ class RestMesh(Value):
         of_walls = self.to_other_side.joined(self.across_cavities)
         return self.to_neighbours.joined(of_walls.scaled(self.options.solidity))
 
-    def with_options(self, options: ProxyOptions) -> "RestMesh | None":
+    def with_options(self, options: ProxyOptions) -> RestMesh | None:
         """Return the RestMesh with other options, or None if its surface would be another one."""
         now = self.options
         if (options.together, options.refine) != (now.together, now.refine):
@@ -294,7 +296,7 @@ class RestMesh(Value):
         """Which triangles of the input cross others at rest."""
         return CrossingTriangles(self.V, self.shown)
 
-    def linked(self, links: Links) -> "RestMesh":
+    def linked(self, links: Links) -> RestMesh:
         """Return the mesh with further links, which change nothing in what covers what."""
         to_neighbours = self.to_neighbours.joined(links)
         linked = replace(
@@ -308,7 +310,7 @@ class RestMesh(Value):
         linked.__dict__.update(known)
         return linked
 
-    def posed(self, input_positions: ArrayLike) -> "RestMesh":
+    def posed(self, input_positions: ArrayLike) -> RestMesh:
         """Return the same mesh in another pose, with all weights and links of this one.
 
         Its Laplacian is the same, so what has been factorized can be reused.
@@ -356,7 +358,7 @@ class RestMesh(Value):
         return 0.75 * quadratic - trace
 
     @cached_property
-    def coarse(self) -> "Coarsening | None":
+    def coarse(self) -> Coarsening | None:
         """The Coarsening, or None if it is not available."""
         neighbours = self.skin.matrix(self.skin.laplacian)
         contracted = contract(self.V, self.F, neighbours, self.topology.part)
@@ -365,7 +367,7 @@ class RestMesh(Value):
         V, F, cluster = contracted
         from .preparation import rest_mesh
 
-        coarse = rest_mesh(V, F)
+        coarse = rest_mesh(V, F, PAPER)
         at = cluster if coarse.input_map.order is None else coarse.place[1][cluster]
         return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
 

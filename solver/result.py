@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run ends with."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
@@ -24,17 +26,13 @@ class Result(Value):
     Examples
     --------
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import stylize
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import ball, stylize
+    >>> V, F = ball()
     >>> result = stylize(V, F, 0.6, keep_rotation=True, device="numpy")
     >>> result.reason, result.device, result.positions.shape, result.rotations.shape
     ('converged', 'numpy', (700, 3), (700, 3, 3))
     >>> round(float(np.linalg.norm(result.positions - V, axis=1).max()), 2)  # the largest movement
-    0.25
+    0.26
     """
 
     positions: FloatArray

@@ -10,6 +10,8 @@ signed singular values as eigenvalues. So the result is certified, and what Newt
 certify (reflections, rank 1, far-off guesses) gets a singular value decomposition.
 """
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

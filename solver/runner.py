@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run from the first iteration to the last, in one call or phase by phase."""
 
+from __future__ import annotations
+
 import logging
 import math
 import time
@@ -24,7 +26,7 @@ from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
 from .hardening.hardening import ROUNDS
-from .inputs import instance, real_number, switch
+from .inputs import instance, real_number, switch, whole_number
 from .progress_bar import progress_bar
 from .result import Reason, Result
 from .stop_rule import StopRule
@@ -57,7 +59,8 @@ def run(
     tolerance : float
         See `StopRule`.
     on_iteration : callable, optional
-        Called with the Stylization after each iteration; a true value cancels the run.
+        Called with the Stylization after each iteration, also on coarser meshes (`is_coarse`); a
+        true value cancels the run.
     progress : bool
         Whether to show a progress bar on standard error.
 
@@ -68,7 +71,7 @@ def run(
     Raises
     ------
     CubicCraftError
-        The tolerance is not positive, or max_iterations is less than 1.
+        The tolerance is not positive, or max_iterations is no whole number from 1.
 
     See Also
     --------
@@ -80,20 +83,16 @@ def run(
     How far the surface moves, with one factorization for three values of cubeness:
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import Setup, SolverOptions, Stylization, rest_mesh, run
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import Setup, SolverOptions, Stylization, ball, rest_mesh, run
+    >>> V, F = ball()
     >>> setup = Setup(rest_mesh(V, F))
     >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> for cubeness in (0.0, 0.1, 0.6):
     ...     result = run(Stylization(setup, cubeness, options=options))
     ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
     0.00
-    0.07
-    0.25
+    0.17
+    0.26
     """
     steps = Run(stylization, max_iterations, tolerance)
     if switch(progress, "progress"):
@@ -131,7 +130,7 @@ class Run:
     Raises
     ------
     CubicCraftError
-        The tolerance is not positive, or max_iterations is less than 1.
+        The tolerance is not positive, or max_iterations is no whole number from 1.
 
     See Also
     --------
@@ -140,22 +139,18 @@ class Run:
     Examples
     --------
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import Run, Setup, SolverOptions, Stylization, rest_mesh
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import Run, Setup, SolverOptions, Stylization, ball, rest_mesh
+    >>> V, F = ball()
     >>> options = SolverOptions(keep_rotation=True, device="numpy")
     >>> run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, options=options))
     >>> for _ in range(4):
     ...     run.advance()  # a local or a global step
     >>> round(float(np.linalg.norm(run.positions() - V, axis=1).max()), 2)  # on its way
-    0.12
+    0.18
     >>> while run.reason is None:
     ...     run.advance()
     >>> round(float(np.linalg.norm(run.positions() - V, axis=1).max()), 2)
-    0.25
+    0.26
     """
 
     def __init__(
@@ -170,8 +165,7 @@ class Run:
         tolerance = real_number(tolerance, "tolerance")
         if not (math.isfinite(tolerance) and tolerance > 0.0):
             raise CubicCraftError(f"tolerance must be finite and positive, not {tolerance}")
-        if not real_number(max_iterations, "max_iterations") >= 1:
-            raise CubicCraftError(f"max_iterations must be at least 1, not {max_iterations}")
+        max_iterations = whole_number(max_iterations, "max_iterations", 1)
         self.stylization = stylization
         self.reason: Reason | None = None
         self._last = max_iterations
@@ -226,12 +220,12 @@ class Run:
     def iterations(self) -> int:
         """Number of iterations done, including those on coarser meshes, up to the soft shape."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
-        return coarse + self.soft.iteration
+        return coarse + self.soft.iterations
 
     @property
     def steps(self) -> int:
         """Number of all global steps, those after the soft shape included."""
-        return self.iterations - self.soft.iteration + self.stylization.iteration
+        return self.iterations - self.soft.iterations + self.stylization.iterations
 
     @property
     def energy(self) -> Energy | None:
@@ -249,17 +243,20 @@ class Run:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
         if self._coarse is not None:
-            self._advance_coarse(self._coarse)
+            self._coarse.advance()
+            if self._coarse.reason is not None:
+                self._leave(self._coarse)
         else:
             self._phase()
         self._seconds += time.perf_counter() - begin
 
-    def _advance_coarse(self, coarse: "Run") -> None:
-        coarse.advance()
-        if coarse.reason is not None:
-            prolongate(coarse.stylization, self.stylization)
-            self._coarse_iterations, self._coarse_energy = coarse.iterations, coarse.energy
-            self._coarse = None
+    def _leave(self, coarse: Run) -> None:
+        """Begin on the mesh itself, from where the coarser one is."""
+        if coarse._coarse is not None:
+            coarse._leave(coarse._coarse)
+        prolongate(coarse.stylization, self.stylization)
+        self._coarse_iterations, self._coarse_energy = coarse.iterations, coarse.energy
+        self._coarse = None
 
     def _new_rule(self) -> StopRule:
         state = self.stylization
@@ -279,11 +276,11 @@ class Run:
             state.energy.total, state.displacement, state.distance
         )
         if not self._below.is_done:
-            if self._below.is_over(state.iteration, is_converged):
+            if self._below.is_over(state.iterations, is_converged):
                 self._phase = self._rise
         elif is_converged:
             self._ended("converged")
-        elif state.iteration >= self._last:
+        elif state.iterations >= self._last:
             self._ended("max_iterations")
 
     def _rise(self) -> None:
@@ -299,7 +296,7 @@ class Run:
             self._phase()
             return
         if not self._round:
-            done = self.stylization.iteration
+            done = self.stylization.iterations
             self._end, self._round = reason, min(max(done // OF_ROUND, LEAST_ROUND), done)
         self._phase = partial(self._check, self._apart)
 
@@ -314,7 +311,7 @@ class Run:
             return
         self.stylization = renewed
         self._rule = self._new_rule()
-        self._last = self.stylization.iteration + self._round
+        self._last = self.stylization.iterations + self._round
         self._phase = self._local_step
 
     def _finish(self, apart: KeepApart) -> None:
@@ -346,7 +343,7 @@ class Run:
     def _hard_global_step(self) -> None:
         self.stylization.global_step()
         self._phase = self._hard_local_step
-        done = self.stylization.iteration - self.soft.iteration
+        done = self.stylization.iterations - self.soft.iterations
         if done == ROUNDS // 2:
             self.stylization.give_back_volume()
         if done < ROUNDS:
@@ -379,7 +376,7 @@ class Run:
         if self._apart is not None:
             self.stylization = self._apart.conclude(self.stylization)
 
-    def with_crispness(self, crispness: ArrayLike) -> "Run | None":
+    def with_crispness(self, crispness: ArrayLike) -> Run | None:
         """Return a Run with another crispness, as of a `Style`, that has only its end to find.
 
         It comes to the same end as a new one. None if this one has not come so far, or if sides
@@ -398,11 +395,16 @@ class Run:
     def complete(self, on_iteration: OnIteration | None = None) -> None:
         """Advance to the end; `on_iteration` as in `run`."""
         while self.reason is None:
-            before = self.stylization.iteration
+            state = self._advanced
+            before = state.iterations
             self.advance()
-            is_new = self.stylization.iteration > before
-            if is_new and on_iteration is not None and on_iteration(self.stylization):
-                self.reason = "cancelled"
+            if on_iteration and state.iterations > before and on_iteration(state):
+                self.reason = self.reason or "cancelled"
+
+    @property
+    def _advanced(self) -> Stylization:
+        """The Stylization that the next phase is of, maybe on a coarser mesh."""
+        return self.stylization if self._coarse is None else self._coarse._advanced
 
     def positions(self) -> FloatArray:
         """Return the current positions (n,3), in the units of the input.
@@ -426,7 +428,9 @@ class Run:
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""
         begin = time.perf_counter()
-        if self.stylization.is_limited:  # cancelled
+        if self._coarse is not None:  # cancelled
+            self._leave(self._coarse)
+        if self.stylization.is_limited:
             self.stylization.limit_cubeness(math.inf)
         energy = self.soft.energy if self.is_hardening else self.stylization.finish()
         self._seconds += time.perf_counter() - begin
@@ -449,7 +453,7 @@ class Run:
             positions,
             rotations,
             energy,
-            self.soft.iteration,
+            self.soft.iterations,
             self.reason or "cancelled",
             self.soft.device,
             self.soft.compile_seconds,

@@ -7,6 +7,8 @@ and triangulation, this is the global step among symmetric positions. If it is s
 a few vertices or diagonals, the projection keeps the halves from diverging.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -88,7 +90,7 @@ class Mirror(Value):
         images = self.linear @ rotations[inside] @ inverse
         rotations[inside] = svd_rotations((rotations[inside] + images).swapaxes(1, 2))
 
-    def without(self, is_held: BoolArray) -> "Mirror":
+    def without(self, is_held: BoolArray) -> Mirror:
         """Return the mirror without the vertices of a mask (n,) and without their partners."""
         partner = self.partner.copy()
         partner[is_held | is_held[partner]] = NO_PARTNER

@@ -50,9 +50,9 @@ class LiveMesh:
         return self.run is not None and self.run.is_working
 
     @property
-    def iteration(self):
+    def iterations(self):
         """Number of iterations done."""
-        return self.run.iteration if self.run else 0
+        return self.run.iterations if self.run else 0
 
     @property
     def status(self):

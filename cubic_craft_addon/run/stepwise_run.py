@@ -212,9 +212,9 @@ class StepwiseRun:
             self._reset([f"{self.problem.name}: {error}"])
 
     @property
-    def iteration(self):
+    def iterations(self):
         """Number of iterations done."""
-        return self._run.stylization.iteration if self._run else 0
+        return self._run.stylization.iterations if self._run else 0
 
     @property
     def status(self):
@@ -241,7 +241,7 @@ class StepwiseRun:
         energy = self._run.stylization.energy if self._run else None
         if energy is None:
             return ""
-        return f"Iteration {self.iteration}, energy {max(energy.total, 0.0):.5f}"
+        return f"Iteration {self.iterations}, energy {max(energy.total, 0.0):.5f}"
 
     # -- current state ---------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ import trimesh
 from matplotlib import cm
 from matplotlib.figure import Figure
 
-from cubic_craft import stylize
+from cubic_craft import stylize_mesh
 
 CUBENESS = (0.0, 0.1, 0.4, 1.0)
 LARGEST_ANGLE = 55.0  # degrees, between a diagonal and the axes
@@ -26,8 +26,7 @@ def angles(mesh):
 torus = trimesh.creation.torus(1.0, 0.45, major_sections=64, minor_sections=32)
 figure = Figure(figsize=(12, 3.2), layout="constrained")
 for number, cubeness in enumerate(CUBENESS, start=1):
-    result = torus.copy()
-    result.vertices = stylize(torus.vertices, torus.faces, cubeness).positions
+    result = stylize_mesh(torus, cubeness)
     axes = figure.add_subplot(1, len(CUBENESS), number, projection="3d")
     surface = axes.plot_trisurf(*result.vertices.T, triangles=result.faces, antialiased=False)
     surface.set_facecolor(cm.viridis(angles(result) / LARGEST_ANGLE))

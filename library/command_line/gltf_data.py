@@ -21,6 +21,10 @@ _HEAD = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<II")
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+_COMPRESSED = frozenset(
+    ("EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression")
+)
+"""beside which some files hold the same once more, but programs read the compressed"""
 _URI = "data:application/octet-stream;base64,"
 
 
@@ -45,7 +49,7 @@ class GltfData:
         Raises
         ------
         InputError
-            It refers to another file, or is cut off; the message lacks the path.
+            It refers to another file, is compressed or cut off; the message lacks the path.
         """
         content = path.read_bytes()
         if not content.startswith(_MAGIC):
@@ -64,6 +68,10 @@ class GltfData:
 
     @classmethod
     def _joined(cls, tree: dict[str, Any], chunk: bytes) -> "GltfData":
+        found = _COMPRESSED.intersection(tree.get("extensionsUsed", ()))
+        if found:
+            name = min(found)
+            raise InputError(f"its data is compressed ({name}); export it without compression")
         binary, starts = bytearray(), list[int]()
         for buffer in tree.get("buffers", ()):
             uri, length = buffer.pop("uri", None), buffer["byteLength"]
@@ -80,26 +88,37 @@ class GltfData:
             view["buffer"] = 0
         return cls(tree, binary)
 
-    def accessor(self, number: int) -> np.ndarray:
-        """Return the values (k,w) of an accessor, which can be written to.
+    def values(self, number: int) -> np.ndarray:
+        """Return a copy (k,w) of the values of an accessor; fractions that are stored as integers.
 
         Raises
         ------
         InputError
-            They are stored in a way that is not known here.
+            They are cut off, or nowhere.
         """
         accessor = self.tree["accessors"][number]
-        if "sparse" in accessor or "bufferView" not in accessor:
-            raise InputError("has sparse or compressed data; export it without compression")
-        view = self.tree["bufferViews"][accessor["bufferView"]]
-        kind, width = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]]
-        size = width * kind.itemsize
+        if "bufferView" not in accessor:
+            raise InputError("has data that is stored nowhere; export it again")
+        kind, width = accessor["componentType"], _WIDTHS[accessor["type"]]
+        values = self.stored(accessor, accessor["count"], kind, width).copy()
+        if "sparse" in accessor:
+            sparse = accessor["sparse"]
+            of_rows = sparse["indices"]
+            rows = self.stored(of_rows, sparse["count"], of_rows["componentType"], 1)
+            values[rows.ravel()] = self.stored(sparse["values"], sparse["count"], kind, width)
+        if accessor.get("normalized"):
+            values = np.maximum(values / np.iinfo(values.dtype).max, -1.0)
+        return values
+
+    def stored(self, place: dict[str, Any], count: int, kind: int, width: int) -> np.ndarray:
+        """Return what lies (count,width) at a place in a view, which can be written to."""
+        view, dtype = self.tree["bufferViews"][place["bufferView"]], np.dtype(_TYPES[kind])
+        size = width * dtype.itemsize
         stride = view.get("byteStride", size)
-        begin, count = view["byteOffset"] + accessor.get("byteOffset", 0), accessor["count"]
+        begin = view["byteOffset"] + place.get("byteOffset", 0)
         if begin < 0 or count < 1 or begin + (count - 1) * stride + size > len(self.binary):
             raise InputError("its data is cut off; export it again")
-        strides = (stride, kind.itemsize)
-        return np.ndarray((count, width), kind, self.binary, begin, strides)
+        return np.ndarray((count, width), dtype, self.binary, begin, (stride, dtype.itemsize))
 
     def add(self, values: np.ndarray, **of_accessor: Any) -> int:
         """Store values at the end, and return the number of their accessor."""

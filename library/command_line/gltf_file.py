@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface in a glTF file, of which only positions, normals and tangents are replaced.
 
-Scenes, materials, textures, UVs, bones and animations stay as they are. The surface is the
-triangles of all meshes where their nodes place them, so that parts are solved as they stand.
+Materials, textures, UVs, bones and animations stay as they are. The surface is the triangles of the
+scene that is shown first, where its nodes or their bones place them, so that parts are solved as
+they stand. No library does this: trimesh drops bones, animations and extensions of materials, and
+takes integers that stand for fractions as they are; pygltflib keeps all, but knows no surface.
 """
 
 import struct
+from collections import Counter, defaultdict, deque
+from collections.abc import Iterable, Iterator
+from copy import deepcopy
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,6 +26,17 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _FLOAT, _UNSIGNED = 5126, 5125
 _WRONG = (ValueError, LookupError, TypeError, AttributeError, RecursionError, struct.error)
 """what a file raises that is not what it says, or not at all JSON"""
+
+
+class _Part(NamedTuple):
+    """Vertices of a mesh where a node shows them."""
+
+    rows: slice
+    """of the points"""
+    linear: np.ndarray
+    """(1,3,3), or (k,3,3) by bones"""
+    offset: np.ndarray
+    """(1,3) or (k,3)"""
 
 
 class GltfFile:
@@ -52,88 +68,170 @@ class GltfFile:
             raise InputError(f"cannot be read as {name} ({reason}); export it again") from error
 
     def _find(self) -> None:
+        tree = self._data.tree
         points, triangles = [np.empty((0, 3))], [np.empty((0, 3), np.int64)]
-        self._places: dict[int, tuple[int, np.ndarray]] = {}  # accessor: first point, matrix
-        self._turned: dict[int, tuple[int, np.ndarray]] = {}  # and the same of directions
-        used: dict[int, np.ndarray] = {}
-        count = 0
-        for mesh, matrix in self._placed():
-            if not np.array_equal(used.setdefault(mesh, matrix), matrix):
-                raise InputError("a mesh is used in several places; make it a copy in each")
-            for primitive in self._data.tree["meshes"][mesh]["primitives"]:
-                mode, attributes = primitive.get("mode", _TRIANGLES), primitive["attributes"]
-                if mode < _TRIANGLES:
-                    continue  # points and lines
+        self._parts: dict[tuple[int, int], _Part] = {}  # by node and accessor of its positions
+        nodes = tree.get("nodes", [])
+        children = {child for node in nodes for child in node.get("children", ())}
+        roots = [number for number in range(len(nodes)) if number not in children]
+        world = dict(self._walk(roots))
+        scenes = tree.get("scenes")
+        shown = scenes[tree.get("scene", 0)].get("nodes", ()) if scenes else roots
+        self._shown = [number for number, _ in self._walk(shown) if "mesh" in nodes[number]]
+        for number, primitive in self._primitives():
+            position = primitive["attributes"]["POSITION"]
+            if (number, position) not in self._parts:
+                values = self._data.values(position)
+                begin = sum(map(len, points))
+                rows = slice(begin, begin + len(values))
+                part = _Part(rows, *self._place(number, primitive["attributes"], world))
+                self._parts[number, position] = part
+                placed = (part.linear @ values[:, :3, None])[..., 0] + part.offset
+                points.append(placed)
+            part = self._parts[number, position]
+            corners = self._corners(primitive, part.rows.stop - part.rows.start)
+            is_mirrored = np.linalg.det(part.linear).mean() < 0.0
+            triangles.append(part.rows.start + (corners[:, ::-1] if is_mirrored else corners))
+        self.points, self.triangles = np.concatenate(points), np.concatenate(triangles)
+
+    def _walk(self, roots: Iterable[int]) -> Iterator[tuple[int, np.ndarray]]:
+        """Give nodes and all below them once, and the matrix (4,4) of each in the scene."""
+        nodes, seen = self._data.tree.get("nodes", []), set[int]()
+        queue = deque((root, np.eye(4)) for root in roots)
+        while queue:
+            number, outer = queue.popleft()
+            if number in seen:
+                continue
+            seen.add(number)
+            matrix = outer @ _matrix_of(nodes[number])
+            yield number, matrix
+            queue.extend((child, matrix) for child in nodes[number].get("children", ()))
+
+    def _primitives(self) -> Iterator[tuple[int, dict[str, Any]]]:
+        """Give the triangles of each node that is shown."""
+        tree = self._data.tree
+        for number in self._shown:
+            node = tree["nodes"][number]
+            if "EXT_mesh_gpu_instancing" in node.get("extensions", ()):
+                raise InputError("has instances of a node; make them nodes of their own")
+            for primitive in tree["meshes"][node["mesh"]]["primitives"]:
+                mode = primitive.get("mode", _TRIANGLES)
                 if mode in (_STRIP, _FAN):
                     raise InputError("has strips or fans of triangles; export plain triangles")
-                position = attributes["POSITION"]
-                values = self._data.accessor(position)
-                if values.dtype != np.float32 or values.shape[1] != 3:
-                    raise InputError("its positions are compressed; export it without compression")
-                if position not in self._places:
-                    self._places[position] = count, matrix
-                    points.append(values @ matrix[:3, :3].T + matrix[:3, 3])
-                    count += len(values)
-                first, own = self._places[position]
-                if not np.array_equal(own, matrix):
-                    raise InputError("a mesh is used in several places; make it a copy in each")
-                triangles.append(first + self._corners(primitive, len(values)))
-                linear = matrix[:3, :3]
-                if not abs(np.linalg.det(linear)) > 0.0:
-                    raise InputError("a node with a mesh has a scale of zero; apply its scale")
-                of_normals = np.linalg.inv(linear).T
-                for name, own in (("NORMAL", of_normals), ("TANGENT", linear)):
-                    if name in attributes:
-                        self._turned.setdefault(attributes[name], (first, own))
-        self.points, self.triangles = np.concatenate(points), np.concatenate(triangles)
+                if mode == _TRIANGLES:  # not points and lines
+                    yield number, primitive
+
+    def _place(
+        self, number: int, attributes: dict[str, int], world: dict[int, np.ndarray]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return where a node shows its vertices: by its matrix, or by those of its bones."""
+        node, matrices = self._data.tree["nodes"][number], world[number][None]
+        if "skin" in node and "JOINTS_0" in attributes:
+            skin = self._data.tree["skins"][node["skin"]]
+            joints = np.stack([world[joint] for joint in skin["joints"]])
+            if "inverseBindMatrices" in skin:
+                at_rest = self._data.values(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
+                joints = joints @ at_rest.swapaxes(1, 2)
+            matrices = np.zeros((1, 4, 4))
+            for name in (name for name in attributes if name.startswith("JOINTS_")):
+                weights = self._data.values(attributes[name.replace("JOINTS", "WEIGHTS")])
+                for bones, weight in zip(
+                    self._data.values(attributes[name]).T, weights.T, strict=True
+                ):
+                    matrices = matrices + weight[:, None, None] * joints[bones]
+            matrices /= matrices[:, 3:, 3:]  # the sum of the weights
+        linear = matrices[:, :3, :3]
+        if not (abs(np.linalg.det(linear)) > 0.0).all():
+            raise InputError("a node or a bone has a scale of zero; apply its scale")
+        return linear, matrices[:, :3, 3]
 
     def _corners(self, primitive: dict[str, Any], count: int) -> np.ndarray:
         if "indices" not in primitive:
             return np.arange(count - count % 3).reshape(-1, 3)
-        corners = self._data.accessor(primitive["indices"]).ravel().astype(np.int64)
+        corners = self._data.values(primitive["indices"]).ravel().astype(np.int64)
         if corners.max(initial=0) >= count:
             raise InputError(f"a face refers to a vertex that is not among the {count}")
         return corners[: len(corners) - len(corners) % 3].reshape(-1, 3)
 
-    def _placed(self):
-        """Give each mesh in the scene and its matrix (4,4); that of a skin does not count."""
-        tree = self._data.tree
-        nodes = tree.get("nodes", [])
-        children = {child for node in nodes for child in node.get("children", ())}
-        stack = [(number, np.eye(4)) for number in range(len(nodes)) if number not in children]
-        for _ in nodes:  # no more than there are, whatever refers to what
-            if not stack:
-                return
-            number, outer = stack.pop()
-            node = nodes[number]
-            matrix = outer @ _matrix_of(node)
-            if "mesh" in node:
-                yield node["mesh"], np.eye(4) if "skin" in node else matrix
-            stack += [(child, matrix) for child in node.get("children", ())]
-
     def write(self, path: Path, positions: np.ndarray, rotations: np.ndarray) -> list[str]:
-        """Write the file with other positions; return notes of what does not fit them."""
-        for number, (first, matrix) in self._places.items():
-            values = self._data.accessor(number)
-            place = slice(first, first + len(values))
-            back = np.linalg.inv(matrix)
-            values[:] = positions[place] @ back[:3, :3].T + back[:3, 3]
-            accessor = self._data.tree["accessors"][number]
-            accessor["min"], accessor["max"] = (
-                each(values, axis=0).tolist() for each in (np.min, np.max)
-            )
-        for number, (first, linear) in self._turned.items():
-            values = self._data.accessor(number)
-            R = rotations[first : first + len(values)]
-            vectors = np.einsum("nij,nj->ni", R, values[:, :3] @ linear.T)
-            vectors = vectors @ np.linalg.inv(linear).T
-            lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-            values[:, :3] = vectors / np.where(lengths > 0.0, lengths, 1.0)
+        """Write the file with other positions; return notes of what does not fit them.
+
+        A mesh that several nodes show becomes one for each.
+        """
+        tree = self._data.tree
+        uses = Counter(node.get("mesh") for node in tree["nodes"])
+        for number in self._shown:
+            node = tree["nodes"][number]
+            if uses[node["mesh"]] > 1:
+                uses[node["mesh"]] -= 1
+                tree["meshes"].append(deepcopy(tree["meshes"][node["mesh"]]))
+                node["mesh"] = len(tree["meshes"]) - 1
+        users = self._users()
+        made: dict[tuple[int, int, int], int] = {}
+        for number, primitive in self._primitives():
+            attributes = primitive["attributes"]
+            position = attributes["POSITION"]
+            part = self._parts[number, position]
+            R, L, back = rotations[part.rows], part.linear, np.linalg.inv(part.linear)
+            maps = {"POSITION": back, "TANGENT": back @ R @ L}
+            maps["NORMAL"] = L.swapaxes(1, 2) @ R @ back.swapaxes(1, 2)
+            for name in maps.keys() & attributes.keys():
+                accessor = attributes[name]
+                if (number, position, accessor) not in made:
+                    values = self._data.values(accessor).astype(np.float64)
+                    is_place = name == "POSITION"
+                    vectors = positions[part.rows] - part.offset if is_place else values[:, :3]
+                    vectors = (maps[name] @ vectors[..., None])[..., 0]
+                    if not is_place:
+                        lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+                        vectors /= np.where(lengths > 0.0, lengths, 1.0)
+                    values[:, :3] = vectors
+                    new = self._replaced(accessor, values, users, is_normal=not is_place)
+                    made[number, position, accessor] = new
+                attributes[name] = made[number, position, accessor]
         self._data.write(path)
-        meshes = self._data.tree.get("meshes", ())
-        if any("targets" in x for mesh in meshes for x in mesh["primitives"]):
-            return ["morph targets keep their offsets"]
-        return []
+        notes = []
+        if any("targets" in primitive for _, primitive in self._primitives()):
+            notes.append("morph targets keep their offsets")
+        if len(tree.get("scenes", ())) > 1:
+            notes.append("only the scene that is shown first is changed")
+        return notes
+
+    def _users(self) -> dict[tuple[int, int], set[Any]]:
+        """Return what uses the values at a place: meshes, and which of their vertices."""
+        users: dict[tuple[int, int], set[Any]] = defaultdict(set)
+        for number, mesh in enumerate(self._data.tree["meshes"]):
+            for primitive in mesh["primitives"]:
+                attributes = primitive["attributes"]
+                for accessor in attributes.values():
+                    users[self._begin(accessor)].add((number, attributes["POSITION"]))
+                for target in primitive.get("targets", ()):
+                    for accessor in target.values():
+                        users[self._begin(accessor)].add(None)
+        return users
+
+    def _begin(self, number: int) -> tuple[int, int]:
+        accessor = self._data.tree["accessors"][number]
+        return accessor.get("bufferView", -1), accessor.get("byteOffset", 0)
+
+    def _replaced(
+        self, number: int, values: np.ndarray, users: dict[Any, set[Any]], *, is_normal: bool
+    ) -> int:
+        """Return the accessor of new values (k,w): the same if nothing else uses its own."""
+        accessor = self._data.tree["accessors"][number]
+        kind, ends = accessor["componentType"], {}
+        is_alone = len(users[self._begin(number)]) == 1 and "sparse" not in accessor
+        if not (is_alone and (kind == _FLOAT or (is_normal and accessor.get("normalized")))):
+            values = values.astype(np.float32)
+            ends = {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
+            return self._data.add(values, componentType=_FLOAT, type=accessor["type"], **ends)
+        stored = self._data.stored(accessor, len(values), kind, values.shape[1])
+        whole = 1 if kind == _FLOAT else np.iinfo(stored.dtype).max
+        stored[:] = values if kind == _FLOAT else np.round(values * whole)
+        for name, end in (("min", stored.min(axis=0)), ("max", stored.max(axis=0))):
+            if name in accessor:
+                accessor[name] = end.tolist()
+        return number
 
 
 def write_surface(path: Path, points: np.ndarray, triangles: np.ndarray) -> None:

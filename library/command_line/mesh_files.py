@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Read and write mesh files through meshio.
 
-See `obj_text`, `ply_header`, `vtk_file` and `decompression` for what it gets wrong, and
-`gltf_file` for a format that it does not know.
+See `obj_text`, `ply_header` and `decompression` for what it gets wrong, and `gltf_file` for a
+format that it does not know.
 
 meshio prints its messages, and ends the process where a file cannot be read. Here they become
 errors, and notes of what a format cannot hold.
@@ -28,7 +28,6 @@ from .gltf_file import GltfFile, write_surface
 from .obj_text import ObjText
 from .ply_header import readable_ply
 from .surface import Surface
-from .vtk_file import read_vtk, with_quoted_names
 
 __all__ = ("MeshFile", "read", "write")
 
@@ -147,9 +146,8 @@ def _read_with_meshio(path: Path) -> Any:
         try:
             if kind.name == "ply":
                 return meshio.read(io.BytesIO(readable_ply(path.read_bytes())), "ply")
-            mesh = read_vtk(path) if kind.name == "vtk" else None
             with within_memory():
-                return meshio.read(path, kind.name) if mesh is None else mesh
+                return meshio.read(path, kind.name)
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
         except (Exception, SystemExit) as error:  # its readers raise anything
@@ -210,8 +208,6 @@ def _fitting(
         notes.append(f"left out of the cells: {', '.join(cell_data)}")
         cell_data = {}
     point_data = with_turned_normals(point_data, rotations)
-    if kind.name == "vtk":
-        point_data, cell_data = with_quoted_names(point_data), with_quoted_names(cell_data)
     lost = [x for x, data in point_data.items() if not kind.has_point_data or _too_wide(data, kind)]
     if lost:
         notes.append(f"left out of the points: {', '.join(lost)}")

@@ -38,7 +38,7 @@ def compose(meshes: FigureMeshes) -> list[Group]:
     mesh = model.object.data
     mesh.calc_loop_triangles()
     F = np.array([triangle.vertices for triangle in mesh.loop_triangles])
-    each = stylize(posed, F, CUBENESS, proxy=ProxyOptions(), keep_rotation=True)
+    each = stylize(posed, F, CUBENESS, proxy=ProxyOptions(), keep_rotation=True, crispness=0.0)
     pairs = (
         (model.original, "original", "grey"),
         (posed, "its pose", "grey"),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame of the form at each vertex, in which limbs keep their direction."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -51,12 +53,8 @@ def pose_frames(
     A ball that is drawn out along a line 30 degrees from Z is a limb, and its form leans with it:
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import pose_frames
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import ball, pose_frames
+    >>> V, F = ball()
     >>> c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
     >>> limb = V * [0.2, 0.2, 1] @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
     >>> up = pose_frames(limb, F)[350].T @ [0, 0, 1]  # in the middle

@@ -6,10 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..aliases import Faces, FloatArray
+from ..aliases import Faces, FloatArray, IntArray
 from ..errors import CubicCraftError
-from ..inputs import array_of, real_numbers
+from ..inputs import array_of, real_numbers, refuse_mask
+from .edges import Edges
 from .polygons import triangulate
+
+MOST_REVERSED = 0.05
+"""share of edges whose two triangles face opposite ways; single ones are common, and do no harm"""
 
 
 def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
@@ -58,8 +62,31 @@ def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
     return V, np.ascontiguousarray(F, dtype=np.int32)
 
 
+def check_winding(F: IntArray, count: int) -> None:
+    """Refuse triangles (m,3) between so many vertices of which many face the other way.
+
+    Where triangles face away from each other, normals cancel out, and nothing becomes cubic.
+
+    Raises
+    ------
+    CubicCraftError
+    """
+    edges = Edges(F, count)
+    number = edges.number.ravel()
+    has_two = np.bincount(number) == 2
+    backward = np.bincount(number, edges.is_backward.ravel())
+    share = float((has_two & (backward != 1)).sum()) / max(1, int(has_two.sum()))
+    if share > MOST_REVERSED:
+        raise CubicCraftError(
+            f"at {share:.0%} of its edges, one of two triangles faces the other way; make their"
+            " corners run one way around, as Recalculate Outside of Blender and fix_normals of"
+            " trimesh do"
+        )
+
+
 def _blocks(F: Any) -> list[NDArray[Any]]:
     """Return the faces in blocks (k,s) of those with s corners."""
+    refuse_mask(F, "triangles")
     try:
         F = np.asarray(F)
     except ValueError:  # of different lengths

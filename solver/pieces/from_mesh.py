@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A piece of plain arrays, for callers without an object in Blender."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from ..aliases import Faces
 from ..errors import CubicCraftError
-from ..inputs import instance, whole_numbers
-from ..mesh.mesh_checks import check_mesh
-from ..styles.style import Style
+from ..inputs import instance, instances, matrix_of, real_numbers, switch, whole_numbers
+from ..mesh.mesh_checks import check_mesh, check_winding
+from ..styles.style import CRISPNESS, Style
 from .handle_pose import HandlePose
 from .piece import Piece
 from .placement import placement_by
@@ -19,6 +21,8 @@ from .reach import rest_weights
 from .reflection import Reflection
 from .shape import Shape
 from .whole import Whole
+
+_ROUNDING = 1e-4  # of shares that add up to 1, which may be of 32 bits
 
 
 def piece_of(
@@ -47,8 +51,8 @@ def piece_of(
     F : (m,3) int array, or faces with more corners
         Triangles. Polygons are split into triangles.
     style : Style, optional
-        What it is turned toward, the same for all vertices; by default a cube of cubeness 0.4 along
-        the axes of the world. Its capture is also that of the regions.
+        What it is turned toward, the same for all vertices; by default a crisp cube of cubeness 0.4
+        along the axes of the world. Its capture is also that of the regions.
     name : str
         For messages.
     matrix : (4,4) array, optional
@@ -75,8 +79,8 @@ def piece_of(
     Raises
     ------
     CubicCraftError
-        The mesh is invalid, an array has another shape than the mesh asks for, a vertex belongs to
-        a handle that is not there, or a style differs from vertex to vertex.
+        The mesh is invalid, an array has another shape or other values than it asks for, a vertex
+        belongs to a handle that is not there, or a style differs from vertex to vertex.
 
     See Also
     --------
@@ -84,49 +88,107 @@ def piece_of(
 
     Examples
     --------
+    A mirror completes a half, with which it is solved:
+
     >>> import numpy as np
-    >>> from solver import flip, piece_of
+    >>> from solver import HandlePose, SolverOptions, Style, ball, flip, join_pieces, piece_of, run
     >>> half = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     >>> F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3]])
     >>> piece = piece_of(half, F, mirrors=[flip(0)])
     >>> piece.vertices, piece.solved, len(piece.F)
     (4, 5, 6)
+
+    A region has a style of its own, here the upper half of a ball that becomes an octahedron; and a
+    handle moves its vertices, here those at the bottom:
+
+    >>> V, F = ball()
+    >>> shares = np.eye(2)[np.where(V[:, 2] > 0, 1, 0)]  # of the style, and of the region
+    >>> gem = piece_of(V, F, regions=[Style(0.6, form="octahedron")], region_shares=shares)
+    >>> down = np.eye(4)
+    >>> down[2, 3] = -0.5
+    >>> of_handle = np.where(V[:, 2] < -0.9, 0, -1)
+    >>> pulled = piece_of(V, F, handles=[HandlePose(matrix=down)], handle_of=of_handle)
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
+    >>> for piece in (gem, pulled):
+    ...     problem = join_pieces([piece])
+    ...     result = run(problem.stylization(options))
+    ...     ((positions, _),) = problem.split(result.positions, result.rotations)
+    ...     print(f"from {positions[:, 2].min():.2f} to {positions[:, 2].max():.2f}")
+    from -0.63 to 1.25
+    from -1.50 to 0.07
     """
     original, triangles = check_mesh(V, F)
+    check_winding(triangles, len(original))
     count = len(original)
-    own = _uniform(Style(0.4) if style is None else style, "style")
+    own = _uniform(Style(0.4, crispness=CRISPNESS) if style is None else style, "style")
+    regions = _several(regions, "regions", Style)
+    handles = _several(handles, "handles", HandlePose)
     others = [_without_capture(_uniform(region, "regions")) for region in regions]
-    placement = placement_by(np.eye(4) if matrix is None else matrix, (own, *others))
+    place = matrix_of(np.eye(4) if matrix is None else matrix, "matrix")
+    if abs(np.linalg.det(place[:3, :3])) == 0.0:
+        raise CubicCraftError("matrix flattens the object: a scale is zero; give another one")
     numbers = np.full(count, -1) if handle_of is None else whole_numbers(handle_of, "handle_of")
-    shares = None if region_shares is None else np.asarray(region_shares, dtype=np.float64)
-    weights = 1.0 if map_weights is None else np.asarray(map_weights, dtype=np.float64)
-    _check(numbers.shape == (count,), "handle_of", (count,))
+    _check(numbers.shape, "handle_of", (count,))
     if numbers.min() < -1 or numbers.max() >= len(handles):
         raise CubicCraftError(
             f"handle_of refers to handles {numbers.min()} to {numbers.max()}, but there are only"
             f" {len(handles)}; -1 is for none"
         )
-    _check(np.shape(weights) in ((), (count,)), "map_weights", (count,))
-    of_details = 1.0 if detail_weights is None else np.asarray(detail_weights, dtype=np.float64)
-    _check(np.shape(of_details) in ((), (count,)), "detail_weights", (count,))
-    expected = (count, 1 + len(regions))
-    _check((shares is None) == (not regions), "region_shares", expected)
-    _check(shares is None or shares.shape == expected, "region_shares", expected)
+    if np.shape(symmetry) != (3,):
+        raise CubicCraftError("symmetry must be True or False for each of the three axes")
+    placement = placement_by(place, (own, *others))
     far = None
-    if hold_rest:
+    if switch(hold_rest, "hold_rest"):
         far = rest_weights(handles, numbers, placement.place(original), triangles)
+    axes = tuple(switch(axis, "symmetry") for axis in symmetry)
     return Piece(
         name=name,
         shape=Shape(original, triangles),
-        whole=Whole(original, triangles, tuple(mirrors), tuple(symmetry)),
+        whole=Whole(original, triangles, tuple(_several(mirrors, "mirrors", Reflection)), axes),
         placement=placement,
         handles=tuple(handles),
         handle_of=numbers,
         rest_weights=far,
-        map_weights=weights,
-        detail_weights=of_details,
-        region_shares=shares,
+        map_weights=_factors(map_weights, "map_weights", count),
+        detail_weights=_factors(detail_weights, "detail_weights", count),
+        region_shares=_shares(region_shares, count, len(regions)),
     )
+
+
+def _several(values, name, kind):
+    """Return values of a class of ours as a list, which may be empty."""
+    if isinstance(values, kind):
+        raise CubicCraftError(f"{name} must be a list, even of one: give [{name}]")
+    return instances(values, name, kind) if len(values) else []
+
+
+def _factors(values, name, count):
+    """Return factors (n,) of the vertices, or 1 for all."""
+    if values is None:
+        return 1.0
+    factors = real_numbers(values, name)
+    _check(factors.shape, name, (), (count,))
+    if not np.isfinite(factors).all() or (factors < 0.0).any():
+        raise CubicCraftError(f"{name} must be finite and not negative")
+    return factors if factors.ndim else float(factors)
+
+
+def _shares(values, count, regions):
+    """Return shares (n,1+k) of the style and of regions, None if there are none."""
+    expected = (count, 1 + regions)
+    if values is None:
+        if regions:
+            raise CubicCraftError(f"regions need region_shares, an array of shape {expected}")
+        return None
+    if not regions:
+        raise CubicCraftError("region_shares needs regions, a list of styles")
+    shares = real_numbers(values, "region_shares")
+    _check(shares.shape, "region_shares", expected)
+    if not (np.abs(shares.sum(axis=1) - 1.0) < _ROUNDING).all() or (shares < 0.0).any():
+        raise CubicCraftError(
+            "each row of region_shares must add up to 1, without negative ones; divide by the sums"
+        )
+    return shares
 
 
 def _uniform(style, name):
@@ -135,8 +197,11 @@ def _uniform(style, name):
     numbers = style.cubeness, style.capture_strength, style.crispness, style.detail_strength
     is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)
     if not is_one or len(forms) > 1 or len(captures) > 1:
-        raise CubicCraftError(f"{name} must be the same for all vertices of a piece")
-    return replace(style, form=next(iter(forms), None), capture=next(iter(captures), None))
+        raise CubicCraftError(
+            f"{name} must be the same for all vertices of a piece; use map_weights or regions"
+        )
+    form, capture = next(iter(forms), None), next(iter(captures), None)
+    return replace(style, form=form, form_of=None, capture=capture, capture_of=None)
 
 
 def _without_capture(style):
@@ -145,6 +210,7 @@ def _without_capture(style):
     return style
 
 
-def _check(is_right, name, shape):
-    if not is_right:
-        raise CubicCraftError(f"{name} must be an array of shape {shape}")
+def _check(shape, name, *expected):
+    if shape not in expected:
+        shapes = " or ".join(map(str, expected))
+        raise CubicCraftError(f"{name} must be an array of shape {shapes}, not {shape}")

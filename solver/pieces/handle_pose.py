@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where handles take their vertices."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray, IntArray
+from ..inputs import matrix_of, switch
 
 IDENTITY = tuple(np.eye(4).ravel().tolist())
 
@@ -14,6 +18,11 @@ IDENTITY = tuple(np.eye(4).ravel().tolist())
 @dataclass(frozen=True, kw_only=True)
 class HandlePose:
     """How a handle keeps or moves its vertices.
+
+    Raises
+    ------
+    CubicCraftError
+        The matrix is not one of finite numbers.
 
     See Also
     --------
@@ -25,14 +34,21 @@ class HandlePose:
     >>> from solver import HandlePose
     >>> raised = np.eye(4)
     >>> raised[2, 3] = 0.5
-    >>> HandlePose().is_moved, HandlePose(matrix=tuple(raised.ravel())).is_moved
+    >>> HandlePose().is_moved, HandlePose(matrix=raised).is_moved
     (False, True)
     """
 
-    matrix: tuple[float, ...] = IDENTITY
-    """4x4, row by row: affine map of positions at rest, in the coordinates of the object"""
+    matrix: ArrayLike = IDENTITY
+    """(4,4), or its 16 numbers row by row, as which it is kept: affine map of positions at rest, in
+    the coordinates of the object"""
     is_cubic: bool = False
     """whether only its position and rotation are kept, and its surface becomes cubic"""
+
+    def __post_init__(self):
+        if not isinstance(self.matrix, tuple) or len(self.matrix) != 16:
+            numbers = matrix_of(self.matrix, "the matrix of a handle").ravel()
+            object.__setattr__(self, "matrix", tuple(numbers.tolist()))  # frozen
+        switch(self.is_cubic, "is_cubic")
 
     @property
     def is_moved(self) -> bool:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One object, placed where it is solved."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -9,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..aliases import BoolArray, FloatArray, IntArray
+from ..values import described
 from .bones import Bones
 from .handle_pose import HandlePose, targets
 from .placement import Placement
@@ -17,7 +20,7 @@ from .subdivided import Subdivided
 from .whole import Whole
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Piece:
     """An object with its handles, regions and symmetry, as plain values.
 
@@ -58,6 +61,10 @@ class Piece:
     """what moves it; None if limbs are found from the shape"""
     seconds: float = 0.0
     """time to read it"""
+
+    def __repr__(self) -> str:
+        names = ("name", "vertices", "triangles")
+        return described(type(self), [(name, getattr(self, name)) for name in names])
 
     @property
     def vertices(self) -> int:

@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is solved at once: one piece, or several that are kept together."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic
+from typing import TYPE_CHECKING, Any, Generic, cast
 
 import numpy as np
 
 from ..aliases import BoolArray, FloatArray
 from ..errors import CubicCraftError
+from ..inputs import instance, instances
 from ..symmetry import NO_PARTNER, Mirror
+from ..values import described
 from .common_symmetry import common_planes, even_planes, suits
 from .floor import Floor
 from .holds import Hold, holds_of
 from .joined_style import joined_style
-from .piece import P, parts_of
+from .piece import P, Piece, parts_of
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..options import SolverOptions
@@ -27,7 +31,7 @@ if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..stylization import Stylization
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Problem(Generic[P]):
     """Pieces joined into one mesh, with everything that is computed once per shape and handles.
 
@@ -38,12 +42,8 @@ class Problem(Generic[P]):
     Examples
     --------
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import join_pieces, piece_of
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import ball, join_pieces, piece_of
+    >>> V, F = ball()
     >>> pieces = [piece_of(V, F, name="head"), piece_of(0.2 * V - [0, 1, 0], F, name="eye")]
     >>> problem = join_pieces(pieces)
     >>> problem.name, problem.vertices, problem.components
@@ -51,16 +51,20 @@ class Problem(Generic[P]):
     """
 
     pieces: tuple[P, ...]
-    setup: "Setup"
+    setup: Setup
     is_still: BoolArray
     """(N,) bool, the vertices that should not change, which the setup was made with"""
-    without_holds: "Setup"
+    without_holds: Setup
     """the setup before groups were held"""
     holds: Sequence[Hold]
     seconds: float
     """time to read and factorize"""
     planes: Sequence[Mirror] | None = None
     """about which the pieces are symmetric at rest, see `common_symmetry.py`; None if not asked"""
+
+    def __repr__(self) -> str:
+        names = ("name", "vertices", "triangles", "components")
+        return described(Problem, [(name, getattr(self, name)) for name in names])
 
     @property
     def name(self) -> str:
@@ -87,12 +91,12 @@ class Problem(Generic[P]):
         return sum(piece.shape.components for piece in self.pieces)
 
     @property
-    def style(self) -> "Style":
+    def style(self) -> Style:
         """What the vertices of all pieces are turned toward."""
         return joined_style(self.pieces)
 
     @property
-    def pose(self) -> "Pose":
+    def pose(self) -> Pose:
         """Where handles take the vertices and the groups that are held, and the limbs of bones."""
         from ..limbs import joined_limbs
 
@@ -101,7 +105,7 @@ class Problem(Generic[P]):
         return replace(self.pose_of_handles, limbs=joined_limbs(limbs, counts))
 
     @property
-    def pose_of_handles(self) -> "Pose":
+    def pose_of_handles(self) -> Pose:
         """The pose without limbs, which take time: all that `Stylization.moved` looks at."""
         from ..pose import Pose
 
@@ -112,7 +116,7 @@ class Problem(Generic[P]):
         """Return whether the same objects with other positions are as symmetric as these are."""
         return not self.planes or suits(self.planes, _positions(pieces))
 
-    def stylization(self, options: "SolverOptions | None" = None) -> "Stylization":
+    def stylization(self, options: SolverOptions | None = None) -> Stylization:
         """Return a new Stylization of the pieces.
 
         Parameters
@@ -131,7 +135,7 @@ class Problem(Generic[P]):
         options = SolverOptions(keep_rotation=True) if options is None else options
         return Stylization(self.setup, self.style, self.pose, options)
 
-    def posed(self, pieces: Sequence[P]) -> "Problem[P]":
+    def posed(self, pieces: Sequence[P]) -> Problem[P]:
         """Return the same objects in another pose and with other settings, without a factorization.
 
         Parameters
@@ -166,6 +170,11 @@ class Problem(Generic[P]):
         `keep_floor` moves what stood on the ground back to it, with all feet; see `Floor`.
         """
         at_rest = self.setup.rest.input_positions
+        if np.shape(positions) != at_rest.shape:
+            raise CubicCraftError(
+                f"the positions of {self.name} must have the shape {at_rest.shape}, as a Result of"
+                f" its stylization has them, not {np.shape(positions)}"
+            )
         if keep_floor:
             positions = self._floor.kept(positions, only_standing=only_standing)
         is_held = np.zeros(len(at_rest), dtype=bool)
@@ -180,7 +189,7 @@ class Problem(Generic[P]):
 
 def join_pieces(
     pieces: Sequence[P],
-    proxy: "ProxyOptions | None" = None,
+    proxy: ProxyOptions | None = None,
     earlier: Sequence[Problem[P]] = (),
     *,
     keep_symmetric: bool = False,
@@ -192,7 +201,7 @@ def join_pieces(
     pieces : sequence of Piece
         In the same coordinates.
     proxy : ProxyOptions, optional
-        How to prepare the surface; by default as in the paper.
+        How to prepare the surface; by default as in the extension.
     earlier : sequence of Problem
         What has not changed is reused.
     keep_symmetric : bool
@@ -209,32 +218,31 @@ def join_pieces(
 
     Examples
     --------
-    A head becomes cubic. By default the eye in its face stays where it was; with the links of
-    `ProxyOptions` it goes along with the face:
+    A head becomes cubic, and the eye in its face goes along. As in the paper, without links, it
+    stays where it was:
 
     >>> import numpy as np
-    >>> from scipy.spatial import ConvexHull
-    >>> from solver import PAPER, ProxyOptions, SolverOptions, Style, join_pieces, piece_of, run
-    >>> z, a = np.linspace(-1, 1, 700), 2.4 * np.arange(700)  # a ball
-    >>> V = np.stack([*(np.sqrt(1 - z**2) * [np.cos(a), np.sin(a)]), z], axis=1)
-    >>> F = ConvexHull(V).simplices
-    >>> F = np.where((np.linalg.det(V[F]) > 0)[:, None], F, F[:, ::-1])
+    >>> from solver import PAPER, SolverOptions, Style, ball, join_pieces, piece_of, run
+    >>> V, F = ball()
     >>> place = np.eye(4)
     >>> place[:3, 3] = 0, -1, 0
     >>> head = piece_of(V, F, Style(0.6), name="head")
     >>> eye = piece_of(0.2 * V, F, Style(0.0), name="eye", matrix=place)
     >>> options = SolverOptions(keep_rotation=True, device="numpy")
-    >>> for proxy in (PAPER, ProxyOptions()):
+    >>> for proxy in (None, PAPER):
     ...     problem = join_pieces([head, eye], proxy)
     ...     result = run(problem.stylization(options))
     ...     _, (positions, _) = problem.split(result.positions, result.rotations)
     ...     print(f"{np.linalg.norm((positions - 0.2 * V).mean(axis=0)):.2f}")
-    0.00
     0.16
+    0.00
     """
     from ..setup import Setup
 
     begin = time.perf_counter()
+    pieces = cast("Sequence[P]", instances(pieces, "pieces", Piece))
+    for one in earlier:
+        instance(one, "earlier", Problem)
     is_still, is_held = _is_still(pieces), _is_held(pieces)
     try:
         rest = _rest(pieces, proxy, earlier)
@@ -261,9 +269,9 @@ def join_pieces(
 def _rest(pieces, proxy, earlier):
     """Build the RestMesh, or reuse an earlier one of the same shapes with its links."""
     from ..preparation import rest_mesh
-    from ..proxy.options import PAPER
+    from ..proxy.options import ProxyOptions
 
-    proxy = proxy or PAPER
+    proxy = ProxyOptions() if proxy is None else instance(proxy, "proxy", ProxyOptions)
     for other in earlier:
         rest = other.setup.rest.with_options(proxy) if _has_shapes(other, pieces) else None
         if rest is not None:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reflections in the coordinates of an object."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..aliases import BoolArray, FloatArray, IntArray
+from ..errors import CubicCraftError
 from ..symmetry import Mirror
 
 
@@ -57,18 +60,18 @@ class Reflection:
         apart = np.linalg.norm(self.image(points) - points, axis=1)
         return apart <= max(self.tolerance, least)
 
-    def is_like(self, other: "Reflection") -> bool:
+    def is_like(self, other: Reflection) -> bool:
         """Return whether both are the same reflection."""
         return np.allclose(self.linear + self.offset, other.linear + other.offset)
 
-    def commutes_with(self, other: "Reflection") -> bool:
+    def commutes_with(self, other: Reflection) -> bool:
         """Return whether the order of both does not matter."""
         points = np.vstack([np.zeros(3), np.eye(3)])
         size = 1.0 + np.abs(self.offset).max() + np.abs(other.offset).max()
         apart = self.image(other.image(points)) - other.image(self.image(points))
         return bool(np.abs(apart).max() <= 1e-5 * size)
 
-    def placed(self, place: FloatArray, tolerance: float) -> "Reflection":
+    def placed(self, place: FloatArray, tolerance: float) -> Reflection:
         """Return it in other coordinates, by their matrix (4,4), with a tolerance."""
         if np.array_equal(place, np.eye(4)):
             return Reflection(self.linear, self.offset, tolerance)
@@ -82,6 +85,11 @@ class Reflection:
 def flip(axis: int) -> Reflection:
     """Return the reflection along an axis of the object, about its origin.
 
+    Raises
+    ------
+    CubicCraftError
+        The axis is none of 0, 1 and 2.
+
     See Also
     --------
     piece_of : An object with mirrors.
@@ -92,6 +100,8 @@ def flip(axis: int) -> Reflection:
     >>> flip(2).normal.round(2).tolist()
     [0.0, 0.0, 1.0]
     """
+    if axis not in (0, 1, 2):
+        raise CubicCraftError(f"an axis must be 0, 1 or 2, not {axis!r}")
     linear = np.eye(3)
     linear[axis, axis] = -1.0
     return Reflection(tuple(linear.ravel().tolist()), (0.0, 0.0, 0.0), 0.0)

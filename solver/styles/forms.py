@@ -6,6 +6,8 @@ convex: a star or an hourglass would be its convex hull. Where nothing else is a
 local step has code of its own, which is faster.
 """
 
+from __future__ import annotations
+
 import itertools
 from collections.abc import Sequence
 from functools import cache, partial
@@ -13,7 +15,8 @@ from functools import cache, partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..inputs import real_numbers
+from ..errors import CubicCraftError
+from ..inputs import real_numbers, whole_number
 from .polytope import EXACT, Polytope, from_directions
 
 GOLDEN = (1.0 + np.sqrt(5.0)) / 2.0
@@ -46,6 +49,8 @@ def box(weights: ArrayLike) -> Polytope:
     that slabs form; with (0, 0, 1), walls become vertical, but keep their outline.
     """
     sizes = np.maximum(real_numbers(weights, "the weights of a box"), LEAST_WEIGHT)
+    if sizes.shape != (3,):
+        raise CubicCraftError(f"the weights of a box must be three numbers, not {sizes.shape}")
     body = _exactly(np.concatenate([np.eye(3), -np.eye(3)]), np.tile(sizes, 2))
     return body.scaled(sizes.min() / body.offsets.min())
 
@@ -125,7 +130,7 @@ WITH_SIDES = {"prism": prism, "pyramid": pyramid}
 """forms with a number of sides"""
 
 
-def named(name: str, sides: int, weights: Sequence[float]) -> Polytope | None:
+def named(name: str, sides: int = 6, weights: Sequence[float] = (1.0, 1.0, 1.0)) -> Polytope | None:
     """Return the form of a name, None for the cube.
 
     Parameters
@@ -137,17 +142,27 @@ def named(name: str, sides: int, weights: Sequence[float]) -> Polytope | None:
     weights : sequence of 3 floats
         Of a box.
 
+    Raises
+    ------
+    CubicCraftError
+        There is no such form.
+
     Examples
     --------
     >>> from solver.styles.forms import named
-    >>> len(named("prism", 5, (1.0, 1.0, 1.0)).normals)
+    >>> len(named("prism", 5).normals)
     7
     """
     if name == "cube":
         return None
     if name == "box":
         return None if all(weight == 1.0 for weight in weights) else box(weights)
-    return WITH_SIDES[name](sides) if name in WITH_SIDES else PLAIN[name]()
+    if name in WITH_SIDES:
+        return WITH_SIDES[name](sides)
+    if name not in PLAIN:
+        names = ", ".join(["cube", "box", *PLAIN, *WITH_SIDES])
+        raise CubicCraftError(f"there is no form {name!r}; give one of {names}, or a Polytope")
+    return PLAIN[name]()
 
 
 def _signs(count):
@@ -159,5 +174,6 @@ def _cyclic(vectors):
 
 
 def _ring(sides):
+    sides = whole_number(sides, "the number of sides of a form", 3)
     angles = 2.0 * np.pi * np.arange(sides) / sides
     return [(np.cos(angle), np.sin(angle), 0.0) for angle in angles]

@@ -7,6 +7,8 @@ it makes surfaces flat that face these ways (Wulff, Zeitschrift fuer Krystallogr
 The cube with half size 1 has the cost |x|_1 of Liu and Jacobson's cubic stylization.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -107,11 +109,11 @@ class Polytope:
         """Largest distance of a vertex from the origin."""
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
-    def scaled(self, factor: float) -> "Polytope":
+    def scaled(self, factor: float) -> Polytope:
         """Return the body in another size: its costs are as many times those of this one."""
         return replace(self, offsets=factor * self.offsets, vertices=factor * self.vertices)
 
-    def turned(self, turn: FloatArray) -> "Polytope":
+    def turned(self, turn: FloatArray) -> Polytope:
         """Return the body whose cost at x is that of this one at ``turn x``, for (3,3) rotations.
 
         Reflections are welcome, too.

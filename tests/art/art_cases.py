@@ -163,7 +163,7 @@ def angle_of_the_whole(V, U, F, size=0.06):
     """Return `angle_to_axes` of the surface smoothed over a share of the size: without details."""
     F = measures.welded(V, F)
     F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
     sums = np.zeros((len(V), 3))
     for corner in F.T:

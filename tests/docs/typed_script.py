@@ -49,17 +49,17 @@ print(run(stylization).converged, Run(stylization).iterations, stylization.posit
 print(setup.rest.areas.sum(), setup.posed(V).pinned, cubic_craft.__version__.upper())
 print(flatten_facets(V, F, np.eye(3), angle=0.3, tolerance=0.1).positions.shape)
 
-print(stylize_mesh(MESH, 0.4, [0], keep_rotation=True, form=forms.prism(5)).vertices)
+print(stylize_mesh(MESH, 0.4, [0], keep_rotation=True, form="prism").vertices)
 
 stylize(V, F, orientaton=Q)  # wrong
 stylize_mesh(MESH, orientaton=Q)  # wrong
 stylize_mesh(MESH, device="cuda")  # wrong
 stylize(V, F, device="cuda")  # wrong
 stylize(V, F, keep_rotation="no")  # wrong
-stylize(V, F, form="octahedron")  # wrong
+stylize(V, F, form=8)  # wrong
 SolverOptions(precision="f16")  # wrong
 Stylization(setup, 0.4, Q)  # wrong
-Style(0.4, form="octahedron")  # wrong
+Style(0.4, form=8)  # wrong
 ProxyOptions(solidity="much")  # wrong
 print(result.position)  # wrong
 cubic_craft.stilize(V, F)  # wrong

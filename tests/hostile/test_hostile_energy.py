@@ -8,7 +8,7 @@ from hostile_runs import DEVICES, NOTHING, ROUNDING, cases, check_result, prepar
 from hypothesis import given
 from pieces import PIECES
 
-from solver import stylize
+from solver import PAPER, stylize
 
 
 @examples(40)
@@ -32,9 +32,11 @@ def test_thousands_of_parts(device):
     V = sizes * (part.V @ turns.swapaxes(1, 2)) + rng.random((count, 1, 3))
     n = len(part.V)
     F = part.triangles + n * np.arange(count)[:, None, None]
-    result = stylize(V.reshape(-1, 3), F.reshape(-1, 3), 0.4, device=device, max_iterations=5)
+    result = stylize(
+        V.reshape(-1, 3), F.reshape(-1, 3), 0.4, device=device, max_iterations=5, proxy=PAPER
+    )
     moved = (result.positions.reshape(V.shape) - V) / sizes
     assert np.isfinite(moved).all()
     assert np.abs(moved).max() < 1.0
-    alone = stylize(V[7], part.triangles, 0.4, device=device, max_iterations=5)
+    alone = stylize(V[7], part.triangles, 0.4, device=device, max_iterations=5, proxy=PAPER)
     assert np.abs((alone.positions - V[7]) / sizes[7] - moved[7]).max() < 1e-6

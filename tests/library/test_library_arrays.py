@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from cubic_craft import CubicCraftError, ProxyOptions, rest_mesh, stylize
+from cubic_craft import PAPER, CubicCraftError, rest_mesh, stylize
 from scripts.benchmark.shapes import blob
 
 V, F = blob(2)
-EXPECTED = stylize(V, F, 0.4, device="numpy").positions
+EXPECTED = stylize(V, F, 0.4, device="numpy", proxy=PAPER).positions
 
 
 def read_only(array):
@@ -34,24 +34,23 @@ LAYOUTS = {
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_layouts_give_the_same(name):
     positions, triangles = LAYOUTS[name]
-    result = stylize(positions, triangles, 0.4, device="numpy")
+    result = stylize(positions, triangles, 0.4, device="numpy", proxy=PAPER)
     assert np.array_equal(result.positions, EXPECTED)
 
 
 def test_float32_is_computed_in_64_bit():
-    result = stylize(V.astype(np.float32), F, 0.4, device="numpy")
+    result = stylize(V.astype(np.float32), F, 0.4, device="numpy", proxy=PAPER)
     assert result.positions.dtype == np.float64
     assert np.allclose(result.positions, EXPECTED, atol=1e-4)
 
 
-@pytest.mark.parametrize("proxy", [None, ProxyOptions()])
+@pytest.mark.parametrize("proxy", [PAPER, None])
 def test_a_trimesh(proxy):
     mesh = trimesh.Trimesh(V, F, process=False)
     assert type(mesh.vertices) is not np.ndarray  # they notice changes
-    options = {} if proxy is None else {"proxy": proxy}
-    result = stylize(mesh.vertices, mesh.faces, 0.4, device="numpy", **options)
+    result = stylize(mesh.vertices, mesh.faces, 0.4, device="numpy", proxy=proxy)
     assert type(result.positions) is np.ndarray
-    if proxy is None:
+    if proxy is PAPER:
         assert np.array_equal(result.positions, EXPECTED)
     assert np.array_equal(mesh.vertices, V) and np.array_equal(mesh.faces, F)
     mesh.vertices = result.positions
@@ -68,7 +67,9 @@ def test_a_trimesh_with_pins_and_a_cubeness_per_vertex():
     mesh = trimesh.Trimesh(V, F, process=False)
     pinned = np.flatnonzero(mesh.vertices[:, 2] < -0.5)
     cubeness = np.where(mesh.vertices[:, 0] > 0.0, 0.4, 0.0)  # of a type that notices changes
-    result = stylize(mesh.vertices, mesh.faces, cubeness, read_only(pinned), device="numpy")
+    result = stylize(
+        mesh.vertices, mesh.faces, cubeness, read_only(pinned), device="numpy", proxy=PAPER
+    )
     assert len(pinned) and np.array_equal(result.positions[pinned], V[pinned])
 
 
@@ -77,7 +78,7 @@ def test_a_meshio_mesh(ending, tmp_path):
     path = tmp_path / f"blob{ending}"
     meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(path)
     mesh = meshio.read(path)
-    result = stylize(mesh.points, mesh.cells_dict["triangle"], 0.4, device="numpy")
+    result = stylize(mesh.points, mesh.cells_dict["triangle"], 0.4, device="numpy", proxy=PAPER)
     assert np.array_equal(result.positions, EXPECTED)
     mesh.points = result.positions
     mesh.write(tmp_path / f"cubic{ending}")
@@ -86,11 +87,12 @@ def test_a_meshio_mesh(ending, tmp_path):
 
 def test_the_input_is_never_written_to():
     positions, triangles = V.copy(), F.copy()
-    rest = rest_mesh(positions, triangles)
-    stylize(positions, triangles, 0.4, device="numpy", proxy=ProxyOptions())
+    rest = rest_mesh(positions, triangles, PAPER)
+    stylize(positions, triangles, 0.4, device="numpy")
     assert np.array_equal(positions, V) and np.array_equal(triangles, F)
     positions += 1.0
-    assert np.array_equal(rest.V, rest_mesh(V, F).V), "a rest mesh shares memory with its input"
+    again = rest_mesh(V, F, PAPER)
+    assert np.array_equal(rest.V, again.V), "a rest mesh shares memory with its input"
 
 
 @pytest.mark.parametrize(
@@ -105,5 +107,5 @@ def test_the_input_is_never_written_to():
 )
 def test_arrays_that_make_no_sense_are_refused(positions, triangles, words):
     with pytest.raises(CubicCraftError) as caught:
-        stylize(positions, triangles)
+        stylize(positions, triangles, proxy=PAPER)
     assert words in str(caught.value) and "\n" not in str(caught.value)

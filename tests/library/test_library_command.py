@@ -116,7 +116,7 @@ def test_each_option_of_the_proxy_reaches_the_solver(given, monkeypatch):
 def test_the_default_device_uses_what_is_installed(tmp_path):
     options = ("--refine", "off", "--tolerance", "1e-5")
     line = cubic_craft(save(tmp_path / "blob.ply"), "cubic.ply", *options, folder=tmp_path)[0]
-    assert f", {stylize(V, F, 0.4).device}, " in line
+    assert f", {stylize(V, F, 0.4, proxy=PAPER).device}, " in line
     points = meshio.read(tmp_path / "cubic.ply").points
     assert np.allclose(points, quick(V, F, tolerance=1e-5).positions, atol=1e-3)
 

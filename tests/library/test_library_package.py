@@ -107,7 +107,7 @@ def test_what_the_fast_extra_lists_is_all_that_is_optional():
 def test_it_works_with_and_without_what_is_optional():
     V = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     F = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
-    result = cubic_craft.stylize(V, F, 0.4)
+    result = cubic_craft.stylize(V, F, 0.4, proxy=cubic_craft.PAPER)
     engine = cubic_craft.engine_name().lower()
     has_engine = optional_packages.optional_package(engine) is not None
     assert result.device == (f"{engine}-cpu" if has_engine else "numpy")

@@ -33,17 +33,19 @@ end_header
 VTK = """# vtk DataFile Version 3.0
 by hand
 ASCII
-DATASET POLYDATA
+DATASET UNSTRUCTURED_GRID
 POINTS 4 double
 0 0 0
 1 0 0
 0 1 0
 0 0 1
-POLYGONS 4 16
+CELLS 4 16
 3 0 2 1
 3 0 1 3
 3 1 2 3
 3 2 0 3
+CELL_TYPES 4
+5 5 5 5
 """
 DIGITS = "1" * 30
 
@@ -95,10 +97,10 @@ FILES = {
     "face_colors.ply": (PLY, "property red"),
     "other.off": ("hello", "cannot be read as .off (Expected the first line to be `OFF`.)"),
     "quads.off": ("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "cannot be read as .off"),
-    "other.vtk": ("hello", "not a legacy .vtk file"),
-    "count.vtk": (VTK.replace("POINTS 4", f"POINTS {DIGITS}"), "its counts are wrong"),
-    "section.vtk": (VTK + "HELLO 4\n", "a section 'HELLO', which is not known"),
-    "digits.vtk": (VTK.replace("3 0 2 1", f"3 0 2 {DIGITS}"), "not among the 4"),
+    "other.vtk": ("hello", "cannot be read as .vtk"),
+    "count.vtk": (VTK.replace("POINTS 4", f"POINTS {DIGITS}"), "cannot be read as .vtk"),
+    "surface.vtk": (VTK.replace("UNSTRUCTURED_GRID", "POLYDATA"), "POLYDATA"),
+    "index.vtk": (VTK.replace("3 0 2 1", "3 0 2 9"), "not among the 4"),
     "huge.vtk": (VTK.replace("1 0 0", "1e308 0 0"), "vertex 2 has a coordinate of 1e+308"),
     "other.vtu": ("hello", "cannot be read as .vtu"),
 }

@@ -15,9 +15,12 @@ SET_UP = """
 import sys
 sys.path.insert(0, {root!r})
 sys.path.insert(0, {here!r})
+from functools import partial
 import numpy as np
 import shapes
-from solver import stylize
+import solver
+from solver import PAPER
+stylize = partial(solver.stylize, proxy=PAPER)
 CPU = {cpu!r}
 V, F = shapes.blob(2)
 """

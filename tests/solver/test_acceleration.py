@@ -6,7 +6,7 @@ import pytest
 import shapes
 from devices import by_device
 
-from solver import Setup, Stylization, rest_mesh, stylize
+from solver import PAPER, Setup, Stylization, rest_mesh, stylize
 from solver.acceleration import Momentum
 
 SHAPES = {"blob": shapes.blob(2), "sphere": shapes.sphere(), "skewed_blob": shapes.skewed_blob()}
@@ -18,7 +18,15 @@ SHAPES = {"blob": shapes.blob(2), "sphere": shapes.sphere(), "skewed_blob": shap
 def test_it_ends_where_the_plain_iteration_does_in_fewer_iterations(name, cubeness, device):
     V, F = SHAPES[name]
     runs = [
-        stylize(V, F, cubeness, device=device, is_accelerated=is_accelerated, tolerance=1e-5)
+        stylize(
+            V,
+            F,
+            cubeness,
+            device=device,
+            is_accelerated=is_accelerated,
+            tolerance=1e-5,
+            proxy=PAPER,
+        )
         for is_accelerated in (True, False)
     ]
     fast, plain = runs
@@ -59,7 +67,7 @@ def test_the_next_point_lies_beyond_the_new_positions(is_large, monkeypatch):
     pytest.importorskip("pyamg")
     monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 100 if is_large else 10**9)
     V, F = shapes.blob()
-    state = Stylization(Setup(rest_mesh(V, F)), 0.4)
+    state = Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4)
     state.step()
     old, start = state.positions, state._motion.point.copy()
     state.step()

@@ -15,7 +15,7 @@ from solver.details import radii, smoothed
 from solver.mesh.face_graph import FaceGraph
 
 DETAIL = replace(PAPER, detail=0.05)
-KEPT = {"keep_rotation": True}
+KEPT = {"keep_rotation": True, "crispness": 0.0}
 
 
 def bumpy_ball(height=0.02):

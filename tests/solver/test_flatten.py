@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from shapes import blob, extent, rotation, sheet
 
-from solver import CubicCraftError, flatten_facets, stylize
+from solver import PAPER, CubicCraftError, flatten_facets, stylize
 from solver.mesh.nearest_on_planes import nearest_on_planes
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
@@ -83,7 +83,7 @@ def test_each_vertex_goes_to_the_nearest_point_of_its_planes():
 
 def test_nothing_moves_farther_than_the_tolerance_and_the_rest_keeps_its_bits():
     V, F = blob(4)
-    U = stylize(V, F, cubeness=0.4).positions
+    U = stylize(V, F, cubeness=0.4, proxy=PAPER).positions
     for tolerance in (0.02, 0.005):
         flat = flatten_facets(U, F, SIDES, ANGLE, tolerance * extent(U))
         moves = np.linalg.norm(flat.positions - U, axis=1)

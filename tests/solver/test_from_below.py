@@ -7,6 +7,7 @@ import shapes
 from named_forms import POLYTOPES
 
 from solver import (
+    PAPER,
     Run,
     Setup,
     SolverOptions,
@@ -18,7 +19,7 @@ from solver import (
 )
 
 V, F = shapes.sphere(4)
-BALL = Setup(rest_mesh(V, F))
+BALL = Setup(rest_mesh(V, F, PAPER))
 LEAST = {"cube": 0.86, "rhombic dodecahedron": 0.83, "prism of 6": 0.86, "tetrahedron": 0.68}
 
 
@@ -54,7 +55,7 @@ def test_a_ball_ends_as_well_as_from_below(name, cubeness):
 def test_up_to_1_a_run_only_iterates(cubeness, is_same, device):
     by_run, by_hand = (stylization(cubeness, device=device) for _ in range(2))
     run(by_run)
-    for _ in range(by_run.iteration):
+    for _ in range(by_run.iterations):
         by_hand.step()
     assert np.array_equal(by_run.positions, by_hand.positions) == is_same
 

@@ -10,7 +10,7 @@ from plain_energy import plain_energy
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
-from solver import Setup, SolverOptions, Style, Stylization, rest_mesh
+from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh
 from solver.backends import local_step_class
 from solver.styles.admm import AdmmOptions
 
@@ -27,7 +27,7 @@ def local_step(rest, cubeness, device, **options):
 
 
 def test_energy_matches_its_definition(device):
-    rest = rest_mesh(*shapes.skewed_blob())
+    rest = rest_mesh(*shapes.skewed_blob(), proxy=PAPER)
     step = local_step(rest, 0.3, device)
     U = deformed(rest.V)
     arap, cubic = (float(part.sum()) for part in step.update(U))
@@ -37,7 +37,7 @@ def test_energy_matches_its_definition(device):
 
 @pytest.mark.parametrize("name", shapes.ALL)
 def test_rotations_are_rotations(name, device):
-    rest = rest_mesh(*shapes.ALL[name]())
+    rest = rest_mesh(*shapes.ALL[name](), proxy=PAPER)
     step = local_step(rest, 0.5, device)
     for U in (rest.V, deformed(rest.V), rest.V * [1, 1, -1], 0 * rest.V, rest.V * [1, 0, 0]):
         step.update(U)  # mirrored, collapsed to a point, flattened to a line
@@ -50,7 +50,7 @@ def test_rotations_are_rotations(name, device):
 @pytest.mark.thorough(1)
 def test_rotations_minimise_the_local_energy(device):
     """Compare with a direct search over SO(3) from many starts."""
-    rest = rest_mesh(*shapes.blob(1))
+    rest = rest_mesh(*shapes.blob(1), proxy=PAPER)
     U = deformed(rest.V)
     step = local_step(rest, 0.4, device, relative=1e-7, absolute=1e-9, max_iterations=2000)
     step.update(U)
@@ -91,7 +91,7 @@ def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, toleran
     admm = AdmmOptions() if precision == "f64" else AdmmOptions(absolute=1e-5, relative=1e-3)
     for device, kind in (("numpy", None), ("cpu", precision)):
         run = Stylization(
-            Setup(rest_mesh(V, F)),
+            Setup(rest_mesh(V, F, PAPER)),
             Style(0.4, Q),
             options=SolverOptions(device=device, precision=kind, admm=admm),
         )
@@ -103,7 +103,7 @@ def test_taichi_agrees_with_numpy_after_five_iterations(name, precision, toleran
 
 def test_per_vertex_cubeness_and_orientation_equal_their_scalars(device):
     V, F = shapes.blob(2)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     one = Stylization(setup, Style(0.3, Q), options=SolverOptions(device=device))
     many = Stylization(
         setup,
@@ -119,7 +119,7 @@ def test_per_vertex_cubeness_and_orientation_equal_their_scalars(device):
 
 
 def test_an_update_never_worsens_the_rotations(device):
-    rest = rest_mesh(*shapes.skewed_blob())
+    rest = rest_mesh(*shapes.skewed_blob(), proxy=PAPER)
     step = local_step(rest, 0.7, device, max_iterations=1)
     U = deformed(rest.V)
     energies = [np.sum(step.update(U)) for _ in range(30)]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shapes import blob, extent, rotation, sheet
 
-from solver import low_poly, stylize
+from solver import PAPER, low_poly, stylize
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 
@@ -52,7 +52,7 @@ def test_a_rounded_box_becomes_six_squares():
 def test_a_crisp_blob_becomes_few_planar_polygons(seed):
     V, F = blob(4)
     V = V @ rotation(10 * seed, 20 * seed, 5).T
-    U = stylize(V, F, cubeness=0.6, crispness=1.0, detail_strength=0.0).positions
+    U = stylize(V, F, cubeness=0.6, crispness=1.0, detail_strength=0.0, proxy=PAPER).positions
     size = extent(U)
     made = low_poly(U, F, SIDES, 0.02 * size)
     assert len(made.polygons) < 0.06 * len(F)

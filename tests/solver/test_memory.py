@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 import shapes
 
-from solver import CubicCraftError, memory, rest_mesh
+from solver import PAPER, CubicCraftError, memory, rest_mesh
 
 
 def test_what_does_not_fit_is_refused_with_both_sizes_and_a_cure(monkeypatch):
     monkeypatch.setattr(memory, "free_memory", lambda: 1_500_000)
     V, F = shapes.sphere(3)
     with pytest.raises(CubicCraftError, match=r"642 vertices need about 0\.0 GB.*Decimate"):
-        rest_mesh(V, F)
+        rest_mesh(V, F, PAPER)
     monkeypatch.setattr(memory, "free_memory", lambda: 3_200_000_000)
     with pytest.raises(CubicCraftError, match=r"5,000,000 .* 13\.5 GB .* only 3\.2 GB are free"):
         memory.check_memory(5_000_000, 10_000_000)
@@ -22,7 +22,7 @@ def test_what_does_not_fit_is_refused_with_both_sizes_and_a_cure(monkeypatch):
 def test_what_fits_or_may_fit_is_computed(monkeypatch, free):
     monkeypatch.setattr(memory, "free_memory", lambda: free)
     V, F = shapes.sphere(3)
-    assert len(rest_mesh(V, F).V) == len(V)
+    assert len(rest_mesh(V, F, PAPER).V) == len(V)
 
 
 def test_triangles_count_where_there_are_many(monkeypatch):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shapes import blob
 
-from solver import Pose, ProxyOptions, Run, Setup, SolverOptions, Stylization, rest_mesh, run
+from solver import PAPER, Pose, ProxyOptions, Run, Setup, SolverOptions, Stylization, rest_mesh, run
 
 OPTIONS = (ProxyOptions(refine=False), ProxyOptions(refine=False, detail=0.0, keep_pose=False))
 
@@ -43,7 +43,7 @@ def test_it_ends_near_a_new_run_after_fewer_steps(proxy):
 
 def test_its_energy_falls_from_the_start():
     V, F = blob(3)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     before = Stylization(setup, 0.4, options=SolverOptions(device="numpy", is_accelerated=False))
     for _ in range(30):
         before.step()
@@ -56,7 +56,7 @@ def test_its_energy_falls_from_the_start():
 
 def test_the_run_that_it_goes_on_from_is_left_alone():
     V, F = blob(2)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     for _ in range(5):
         before.step()
@@ -64,12 +64,12 @@ def test_the_run_that_it_goes_on_from_is_left_alone():
     moved = before.moved(setup.posed(pushed(V)))
     moved.step()
     assert (before.positions == positions).all() and (before.rotations == rotations).all()
-    assert before.iteration == 5 and moved.iteration == 1
+    assert before.iterations == 5 and moved.iterations == 1
 
 
 def test_a_shape_that_is_only_shifted_keeps_its_solution():
     V, F = blob(2)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     first = run(before)
     moved = before.moved(setup.posed(V + [0.5, 0.0, 0.0]))
@@ -78,7 +78,7 @@ def test_a_shape_that_is_only_shifted_keeps_its_solution():
 
 def test_pins_go_to_their_new_targets():
     V, F = blob(2)
-    setup = Setup(rest_mesh(V, F), [0, 5])
+    setup = Setup(rest_mesh(V, F, PAPER), [0, 5])
     before = Stylization(setup, 0.4, options=SolverOptions(device="numpy"))
     before.step()
     W = pushed(V)
@@ -91,6 +91,6 @@ def test_pins_go_to_their_new_targets():
 
 def test_weights_serve_until_the_surface_is_stretched_far():
     V, F = blob(2)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     assert setup.serves(setup.posed(pushed(V)))
     assert not setup.serves(setup.posed(pushed(V, by=8.0)))

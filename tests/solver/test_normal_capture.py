@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
 from solver import (
+    PAPER,
     CubicCraftError,
     NormalCapture,
     Setup,
@@ -158,7 +159,7 @@ def test_a_ball_as_it_was_changes_nothing(device):
     V, F = shapes.blob(3)
     same = NormalCapture(d := directions(500), d)
     options = {"capture": same, "capture_strength": 2.0, "orientation": Q, "device": device}
-    result = stylize(V, F, 0.0, **options)
+    result = stylize(V, F, 0.0, proxy=PAPER, **options)
     np.testing.assert_allclose(result.positions, V, atol=by_device(device, 1e-9, 1e-4))
     assert result.energy.total == pytest.approx(0.0, abs=by_device(device, 1e-12, 1e-6))
 
@@ -174,7 +175,9 @@ def test_every_device_gives_the_shape_of_numpy(device, lam, form):
         "orientation": Q,
         "form": form and form(),
     }
-    one, other = (stylize(V, F, lam, device=which, **options) for which in ("numpy", device))
+    one, other = (
+        stylize(V, F, lam, device=which, proxy=PAPER, **options) for which in ("numpy", device)
+    )
     tolerance = by_device(device, 1e-7, 1e-3)
     assert one.energy.total == pytest.approx(other.energy.total, rel=tolerance)
     np.testing.assert_allclose(one.positions, other.positions, atol=by_device(device, 1e-5, 0.02))
@@ -185,17 +188,17 @@ def test_a_large_mesh_has_it_on_coarser_levels_too(monkeypatch):
     """Multigrid, coarser meshes and sums by kernels, on a mesh that would not need them."""
     V, F = shapes.sphere(5)
     options = {"capture": like_a_cube(), "capture_strength": 3.0, "keep_rotation": True}
-    plain = stylize(V, F, 0.0, **options)
+    plain = stylize(V, F, 0.0, proxy=PAPER, **options)
     monkeypatch.setattr("solver.coarse_to_fine.start.LEAST_VERTICES", 2000)
     monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 0)
-    large = stylize(V, F, 0.0, **options)
+    large = stylize(V, F, 0.0, proxy=PAPER, **options)
     assert large.energy.total == pytest.approx(plain.energy.total, rel=1e-2)
     assert share_along_axes(large.positions, F) > 0.55
 
 
 @pytest.mark.parametrize("lam", [0.0, 0.8])
 def test_the_energy_never_rises(lam):
-    setup = Setup(rest_mesh(*shapes.blob(3)))
+    setup = Setup(rest_mesh(*shapes.blob(3), proxy=PAPER))
     style = Style(lam, Q, capture=like_a_cube(), capture_strength=1.5)
     options = SolverOptions(device="numpy", is_accelerated=False)
     state = Stylization(setup, style, options=options)
@@ -212,11 +215,11 @@ def test_a_turned_mesh_with_a_turned_ball_gives_the_turned_shape():
     turn = shapes.rotation(40, 50, 60)
     capture = like_a_cube()
     options = {"capture": capture, "capture_strength": 1.0, "device": "numpy", "tolerance": 1e-6}
-    one = stylize(V, F, 0.0, **options).positions
-    by_frame = stylize(V @ turn.T, F, 0.0, orientation=turn.T, **options).positions
+    one = stylize(V, F, 0.0, proxy=PAPER, **options).positions
+    by_frame = stylize(V @ turn.T, F, 0.0, orientation=turn.T, proxy=PAPER, **options).positions
     d = directions(3000)
     options["capture"] = NormalCapture(d @ turn.T, to_cube(d) @ turn.T)
-    by_ball = stylize(V @ turn.T, F, 0.0, **options).positions
+    by_ball = stylize(V @ turn.T, F, 0.0, proxy=PAPER, **options).positions
     for other in (by_frame, by_ball):
         assert np.abs(other - one @ turn.T).max() < 1e-3 * np.ptp(V)
 
@@ -226,17 +229,17 @@ def test_beyond_a_mirror_it_is_mirrored():
     flip = np.diag([-1.0, 1.0, 1.0])
     tilt = NormalCapture(d := directions(500), d + [0.5, 0.2, 0.1])
     options = {"capture": tilt, "capture_strength": 1.0, "device": "numpy", "tolerance": 1e-6}
-    one = stylize(V, F, 0.2, **options).positions
-    other = stylize(V @ flip, F[:, ::-1], 0.2, orientation=flip, **options).positions
+    one = stylize(V, F, 0.2, proxy=PAPER, **options).positions
+    other = stylize(V @ flip, F[:, ::-1], 0.2, orientation=flip, proxy=PAPER, **options).positions
     assert np.abs(other @ flip - one).max() < 1e-3 * np.ptp(V)
 
 
 @needs_engine
 def test_a_ball_becomes_like_the_ball_that_was_captured():
     V, F = shapes.sphere(4)
-    cubic = stylize(V, F, 2.0, max_iterations=2000).positions
+    cubic = stylize(V, F, 2.0, max_iterations=2000, proxy=PAPER).positions
     capture = NormalCapture(areas_and_normals(V, F)[1], areas_and_normals(cubic, F)[1])
-    result = stylize(V, F, 0.0, capture=capture, capture_strength=4.0).positions
+    result = stylize(V, F, 0.0, capture=capture, capture_strength=4.0, proxy=PAPER).positions
     assert share_along_axes(V, F) < 0.3
     assert share_along_axes(result, F) > 0.8 * share_along_axes(cubic, F) > 0.7
 
@@ -245,7 +248,9 @@ def test_a_part_that_is_inside_out_faces_as_it_is_seen():
     V, F = shapes.sphere(3)
     tilt = NormalCapture(d := directions(500), d * [1, 1, 3])
     options = {"capture": tilt, "capture_strength": 1.0, "device": "numpy"}
-    one, other = (stylize(V, faces, 0.0, **options).positions for faces in (F, F[:, ::-1]))
+    one, other = (
+        stylize(V, faces, 0.0, proxy=PAPER, **options).positions for faces in (F, F[:, ::-1])
+    )
     np.testing.assert_allclose(one, other, atol=1e-6)
 
 
@@ -259,7 +264,7 @@ def test_each_vertex_may_have_its_own_capture_or_none():
     captures = [like_a_cube(), tall]
     style = Style(0.0, capture=captures, capture_strength=strength, capture_of=which)
     options = SolverOptions(keep_rotation=True, device="numpy")
-    state = Stylization(Setup(rest_mesh(three, faces)), style, options=options)
+    state = Stylization(Setup(rest_mesh(three, faces, PAPER)), style, options=options)
     result = run(state).positions.reshape(3, -1, 3)
     assert share_along_axes(result[0], F) > share_along_axes(result[1], F) + 0.2
     assert np.abs(result[2] - V - [10, 0, 0]).max() < 0.02
@@ -275,7 +280,15 @@ def test_where_the_strength_is_nothing_nothing_is_asked_for():
 def test_strengths_that_are_none_are_refused(strength):
     V, F = shapes.sphere(1)
     with pytest.raises(CubicCraftError, match="capture_strength"):
-        stylize(V, F, 0.4, capture=like_a_cube(100), capture_strength=strength, device="numpy")
+        stylize(
+            V,
+            F,
+            0.4,
+            capture=like_a_cube(100),
+            capture_strength=strength,
+            device="numpy",
+            proxy=PAPER,
+        )
 
 
 def test_as_many_normals_as_directions_are_needed():

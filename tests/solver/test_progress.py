@@ -6,15 +6,15 @@ import logging
 import pytest
 import shapes
 
-from solver import CubicCraftError, stylize
+from solver import PAPER, CubicCraftError, stylize
 
 V, F = shapes.blob(1)
 
 
 def test_a_bar_is_shown_on_request(capsys):
-    plain = stylize(V, F, 0.4, device="numpy")
+    plain = stylize(V, F, 0.4, device="numpy", proxy=PAPER)
     assert capsys.readouterr() == ("", "")
-    result = stylize(V, F, 0.4, device="numpy", progress=True)
+    result = stylize(V, F, 0.4, device="numpy", progress=True, proxy=PAPER)
     out, shown = capsys.readouterr()
     assert result == plain and not out
     lines = shown.removesuffix("\n").split("\r")[1:]
@@ -24,16 +24,18 @@ def test_a_bar_is_shown_on_request(capsys):
 
 
 def test_one_that_is_cancelled_ends_its_line(capsys):
-    result = stylize(V, F, 0.4, device="numpy", progress=True, on_iteration=lambda _: True)
+    result = stylize(
+        V, F, 0.4, device="numpy", progress=True, on_iteration=lambda _: True, proxy=PAPER
+    )
     assert result.reason == "cancelled"
     assert capsys.readouterr().err.endswith("iteration 1\n")
     with pytest.raises(CubicCraftError, match="progress must be True or False, not 'bar'"):
-        stylize(V, F, progress="bar")
+        stylize(V, F, progress="bar", proxy=PAPER)
 
 
 def test_the_end_of_a_run_is_logged(caplog):
     with caplog.at_level(logging.INFO, logger="solver"):
-        result = stylize(V, F, 0.4, device="numpy")
+        result = stylize(V, F, 0.4, device="numpy", proxy=PAPER)
     (line,) = caplog.messages
     assert line.startswith(f"converged after {result.iterations} iterations, energy ")
     assert "numpy" in line and caplog.records[0].name == "solver.runner"

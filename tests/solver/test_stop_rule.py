@@ -53,7 +53,9 @@ def test_progress_rises_to_one():
     progress = Progress(100, 1e-3)
     values = []
     for k in range(1, 101):
-        state = SimpleNamespace(iteration=k, displacement=0.5**k, distance=1.0, is_limited=False)
+        state = SimpleNamespace(
+            iterations=k, displacement=0.5**k, distance=1.0, is_limited=False, is_coarse=False
+        )
         values.append(progress.update(state))
     assert values == sorted(values)
     assert 0.0 < values[0] < 0.2

@@ -131,7 +131,7 @@ def test_what_is_pinned_and_its_partner_are_free_of_each_other():
     V, F, mirror = lump()
     pinned = np.flatnonzero(V[:, 0] > 0.8)
     targets = V + [0.2, 0.0, 0.0]
-    setup = Setup(rest_mesh(V, F), pinned, mirrors=[mirror])
+    setup = Setup(rest_mesh(V, F, PAPER), pinned, mirrors=[mirror])
     result = run(Stylization(setup, 0.4, Pose(targets=targets), SolverOptions(device="numpy")), 50)
     assert (result.positions[pinned] == targets[pinned]).all()
     assert np.abs(result.positions[mirror.partner[pinned]] - targets[pinned] @ FLIP).max() > 0.05

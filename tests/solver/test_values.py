@@ -8,6 +8,7 @@ import pytest
 import shapes
 
 from solver import (
+    PAPER,
     Frames,
     FrameSequence,
     Mirror,
@@ -27,6 +28,7 @@ from solver.styles import forms
 
 V, F = shapes.blob(1)
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
+ZERO = np.zeros(len(V), int)
 TURNS = np.tile([0.0, 0, 0, 1], (5, 1, 1))
 WEIGHTS = [np.where(V[:, 0] > 0.3, 1.0, 0.0)]
 
@@ -44,17 +46,21 @@ def stylization(cubeness=0.4):
 
 
 def state(steps=2):
-    sequence = FrameSequence(rest_mesh(V, F))
+    sequence = FrameSequence(rest_mesh(V, F, PAPER))
     sequence.solve(
-        Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device="numpy")), steps
+        Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=SolverOptions(device="numpy")),
+        steps,
     )
     return sequence.state
 
 
 MADE = {
-    "result": (lambda: stylize(V, F, 0.4, device="numpy"), lambda: stylize(V, F, 0.2)),
-    "rest": (lambda: rest_mesh(V, F), lambda: rest_mesh(2.0 * V, F)),
-    "proxy": (lambda: setup().rest, lambda: rest_mesh(V, F)),
+    "result": (
+        lambda: stylize(V, F, 0.4, device="numpy", proxy=PAPER),
+        lambda: stylize(V, F, 0.2, proxy=PAPER),
+    ),
+    "rest": (lambda: rest_mesh(V, F, PAPER), lambda: rest_mesh(2.0 * V, F, PAPER)),
+    "proxy": (lambda: setup().rest, lambda: rest_mesh(V, F, PAPER)),
     "setup": (setup, lambda: setup(1.1)),
     "pins": (setup, lambda: setup(pinned=(1,))),
     "holds": (lambda: setup().with_holds(WEIGHTS), setup),
@@ -65,8 +71,8 @@ MADE = {
         lambda: Pose(targets=2.0 * V, hold_matrices=[np.eye(4)]),
     ),
     "style": (
-        lambda: Style(V[:, 0], form=[forms.cube(), forms.octahedron()]),
-        lambda: Style(V[:, 0], form=[forms.cube(), forms.icosahedron()]),
+        lambda: Style(V[:, 0], form=["cube", "octahedron"], form_of=ZERO),
+        lambda: Style(V[:, 0], form=["cube", "icosahedron"], form_of=ZERO),
     ),
     "limbs": (lambda: setup().rest.limbs, lambda: setup(3.0).rest.limbs),
     "mirror": (
@@ -110,7 +116,7 @@ def test_one_that_has_begun_goes_on_from_its_shape():
     for _ in range(5):
         state.step()
     stored = pickle.loads(pickle.dumps(state))
-    assert stored.iteration == 5 and np.array_equal(stored.placed()[0], state.placed()[0])
+    assert stored.iterations == 5 and np.array_equal(stored.placed()[0], state.placed()[0])
     assert run(stored).energy.total == pytest.approx(run(state).energy.total, rel=1e-3)
 
 

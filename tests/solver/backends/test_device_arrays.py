@@ -17,6 +17,7 @@ from in_a_process import passes
 from optional_marks import needs
 
 from solver import (
+    PAPER,
     CubicCraftError,
     Pose,
     Run,
@@ -76,7 +77,7 @@ def stylization(name="blob", pins=0, **options):
     pinned = np.argsort(V[:, 2])[:pins]
     pose = Pose(targets=V + [0.0, 0.1, 0.2])
     options = SolverOptions(**{"device": here.device} | options)
-    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, pose, options)
+    return Stylization(Setup(rest_mesh(V, F, PAPER), pinned), 0.5, pose, options)
 
 
 @pytest.mark.thorough(8)
@@ -112,9 +113,9 @@ def test_a_run_is_that_of_the_host(name, pins, precision, monkeypatch, on_a_devi
 def test_it_ends_where_the_factorisation_does(coarsest, monkeypatch, on_a_device):
     monkeypatch.setattr("solver.global_step.multigrid._COARSEST", coarsest)
     V, F = shapes.two_blobs()
-    exact = stylize(V, F, 0.4, device=here.device, tolerance=1e-5)
+    exact = stylize(V, F, 0.4, device=here.device, tolerance=1e-5, proxy=PAPER)
     on_a_device()
-    near = stylize(V, F, 0.4, device=here.device, tolerance=1e-5)
+    near = stylize(V, F, 0.4, device=here.device, tolerance=1e-5, proxy=PAPER)
     assert near.converged
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
 
@@ -129,7 +130,9 @@ def _kernel_class():
 def test_an_iteration_runs_nine_kernels_and_exchanges_few_bytes(monkeypatch, on_a_device):
     on_a_device()
     V, F = shapes.sphere(5)
-    state = Stylization(Setup(rest_mesh(V, F)), 0.5, options=SolverOptions(device=here.device))
+    state = Stylization(
+        Setup(rest_mesh(V, F, PAPER)), 0.5, options=SolverOptions(device=here.device)
+    )
     state.step()
     launched, exchanged = [], []
     Kernel = _kernel_class()
@@ -176,7 +179,9 @@ def test_it_starts_from_a_coarser_mesh_and_can_be_looked_at(monkeypatch, on_a_de
         V, F = shapes.blob(4)
         run = Run(
             Stylization(
-                Setup(rest_mesh(V, F), [3, 4]), 0.4, options=SolverOptions(device=here.device)
+                Setup(rest_mesh(V, F, PAPER), [3, 4]),
+                0.4,
+                options=SolverOptions(device=here.device),
             )
         )
         assert run.is_on_coarser_mesh
@@ -202,7 +207,7 @@ def test_orientations_per_vertex_reach_the_device(monkeypatch, on_a_device):
 
     def make():
         options = {"device": here.device, "orientation": Q, "max_iterations": 5}
-        return stylize(V, F, 0.4, **options).energy.total
+        return stylize(V, F, 0.4, proxy=PAPER, **options).energy.total
 
     expected = on_the_host(monkeypatch, make)
     on_a_device()
@@ -263,7 +268,7 @@ def test_a_reset_is_told_and_the_next_run_works(how, thens):
         options = SolverOptions(device={DEVICE!r})
         expected = stylize(V, F, device={DEVICE!r}, max_iterations=4)
         for then in {thens}:
-            state = Stylization(Setup(rest_mesh(V, F)), 0.4, options=options)
+            state = Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=options)
             state.step()
             arch = ti.lang.impl.current_cfg().arch
             {how}

@@ -6,13 +6,13 @@ import pytest
 import shapes
 from engine_marks import needs_engine
 
-from solver import stylize
+from solver import PAPER, stylize
 
 pytestmark = needs_engine
 
 
 def single(V, F, cubeness, **options):
-    return stylize(V, F, cubeness, device="cpu", precision="f32", **options)
+    return stylize(V, F, cubeness, device="cpu", precision="f32", proxy=PAPER, **options)
 
 
 @pytest.mark.parametrize("name", shapes.ALL)
@@ -20,7 +20,7 @@ def single(V, F, cubeness, **options):
 def test_runs_converge_to_the_shape_of_64_bit(name, cubeness):
     V, F = shapes.ALL[name]()
     result = single(V, F, cubeness)
-    exact = stylize(V, F, cubeness, device="cpu")
+    exact = stylize(V, F, cubeness, device="cpu", proxy=PAPER)
     assert result.converged and exact.converged
     assert np.isfinite(result.positions).all()
     assert result.energy.total == pytest.approx(exact.energy.total, rel=1e-3, abs=1e-5)
@@ -43,4 +43,4 @@ def test_a_mesh_without_area_stays(V):
 
 def test_a_bad_precision_is_refused():
     with pytest.raises(ValueError, match="f64 or f32"):
-        stylize(*shapes.blob(1), 0.2, device="cpu", precision="f16")
+        stylize(*shapes.blob(1), 0.2, device="cpu", precision="f16", proxy=PAPER)

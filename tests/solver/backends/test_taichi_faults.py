@@ -221,10 +221,10 @@ def test_the_options_of_others_do_not_matter(options):
             return field
         fields = [foreign()]
         def disturb(stylization):
-            if stylization.iteration == 3:
+            if stylization.iterations == 3:
                 fields[:] = [foreign()]
         def lose(stylization):
-            if stylization.iteration == 3:
+            if stylization.iterations == 3:
                 ti.reset()
         for on_iteration in (None, disturb, None, lose):
             V2 = stylize(V, F, device="cpu", max_iterations=6, on_iteration=on_iteration).positions

@@ -11,6 +11,7 @@ import pytest
 import shapes
 from engine_marks import needs_taichi
 
+from solver import PAPER
 from solver.preparation import rest_mesh
 from solver.styles.admm import AdmmOptions
 from solver.styles.cube import CUBE
@@ -30,7 +31,7 @@ def local_steps(V, F, lam, Q, captured=None):
     from solver.backends.taichi_kernels import make_kernels
     from solver.backends.taichi_local_step import TaichiLocalStep
 
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     both = [TaichiLocalStep(rest, lam, Q, AdmmOptions(), captured=captured) for _ in range(2)]
     both[1]._kernels = make_kernels(ti.f64, 3, captured is not None, has_lanes=False)
     both[1]._tables = face_tables(CUBE.faces, both[1]._keep, both[1].arrays.keep)
@@ -73,12 +74,12 @@ def test_lanes_are_vectors(tmp_path):
 import sys
 sys.path[:0] = [{str(ROOT)!r}, {str(Path(__file__).parent)!r}]
 import shapes
-from solver import stylize
+from solver import PAPER, stylize
 from solver.backends import taichi_local_step
 from solver.backends.taichi_runtime import set_cache_folder
 set_cache_folder("cache")
 taichi_local_step.LANES_FROM = 0
-stylize(*shapes.blob(1), device="cpu", max_iterations=1)
+stylize(*shapes.blob(1), device="cpu", max_iterations=1, proxy=PAPER)
 """
     environment = {**os.environ, "TI_PRINT_KERNEL_LLVM_IR_OPTIMIZED": "1"}
     subprocess.run([sys.executable, "-c", code], check=True, cwd=tmp_path, env=environment)

@@ -9,7 +9,7 @@ import shapes
 from engine_marks import needs_engine
 from optional_marks import needs
 
-from solver import Pose, Setup, SolverOptions, Stylization, rest_mesh, stylize
+from solver import PAPER, Pose, Setup, SolverOptions, Stylization, rest_mesh, stylize
 from solver.global_step.motion import Motion
 from solver.styles.admm import admm_rotations
 
@@ -27,7 +27,7 @@ def stylization(name="blob", pins=0, **options):
     pinned = np.argsort(V[:, 2])[:pins]
     pose = Pose(targets=V + [0.0, 0.1, 0.2])
     options = SolverOptions(**{"device": "cpu"} | options)
-    return Stylization(Setup(rest_mesh(V, F), pinned), 0.5, pose, options)
+    return Stylization(Setup(rest_mesh(V, F, PAPER), pinned), 0.5, pose, options)
 
 
 @pytest.mark.parametrize("coarsest", [20, 10_000])
@@ -86,9 +86,9 @@ def test_energies_are_those_of_numpy(name):
 @pytest.mark.parametrize("precision", ["f64", "f32"])
 def test_runs_end_where_those_of_numpy_do(precision):
     V, F = shapes.two_blobs()
-    fast = stylize(V, F, 0.4, device="cpu", precision=precision)
-    again = stylize(V, F, 0.4, device="cpu", precision=precision)
-    plain = stylize(V, F, 0.4, device="numpy")
+    fast = stylize(V, F, 0.4, device="cpu", precision=precision, proxy=PAPER)
+    again = stylize(V, F, 0.4, device="cpu", precision=precision, proxy=PAPER)
+    plain = stylize(V, F, 0.4, device="numpy", proxy=PAPER)
     assert fast.converged
     assert fast.energy.total == pytest.approx(plain.energy.total, rel=1e-3)
     np.testing.assert_array_equal(fast.positions, again.positions)
@@ -100,7 +100,7 @@ def test_a_run_in_single_precision_is_not_held_up_by_the_rounding_of_its_energy(
     V, F = np.concatenate([V, 0.01 * V + [3.0, 0.0, 0.0]]), np.concatenate([F, F + len(V)])
     bumpy = (V + 1e-4 * k * np.sin(5.0 * V) for k in range(5))
     options = {"device": "cpu", "precision": "f32", "tolerance": 1e-5}
-    results = [stylize(V, F, 0.4, **options) for V in bumpy]
+    results = [stylize(V, F, 0.4, proxy=PAPER, **options) for V in bumpy]
     assert all(result.converged for result in results)
     assert np.median([result.iterations for result in results]) < 550
 

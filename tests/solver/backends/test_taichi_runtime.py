@@ -158,7 +158,8 @@ def test_a_forked_process_has_numpy_instead_of_waiting_for_threads():
             go_on()
 
         in_child(lambda: new_run(CPU))  # it has not started yet
-        stylization = Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device="cpu"))
+        options = SolverOptions(device="cpu")
+        stylization = Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=options)
         stylization.step()
         in_child(all_of_it)
         in_child(lambda: None)

@@ -8,7 +8,7 @@ from devices import by_device
 from optional_marks import needs
 from procrustes import best_rotation
 
-from solver import Run, Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
+from solver import PAPER, Run, Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
 from solver.coarse_to_fine.start import _smoothed
 
 pytestmark = needs("pyamg")
@@ -39,7 +39,7 @@ def test_it_ends_no_higher_and_is_sooner_near_the_end(levels, pins, large, devic
         energies = []
         options = {"targets": targets, "device": device, "tolerance": 1e-4}
         options["on_iteration"] = lambda state: energies.append(state.energy.total)
-        return stylize(V, F, 0.5, pinned, **options), energies
+        return stylize(V, F, 0.5, pinned, proxy=PAPER, **options), energies
 
     from_rest, energies_from_rest = solved(False)
     from_coarse, energies_from_coarse = solved(True)
@@ -58,11 +58,11 @@ def gaps_of_first_iterations(V, F, tolerance, large, device):
     """Return how far from the end the first iteration is from rest, and from a coarser mesh."""
     options = {"device": device, "keep_rotation": True}
     large(False)
-    end = stylize(V, F, 0.5, tolerance=tolerance, **options).energy.total
+    end = stylize(V, F, 0.5, tolerance=tolerance, proxy=PAPER, **options).energy.total
     gaps = []
     for is_large in (False, True):
         large(is_large)
-        gaps.append(stylize(V, F, 0.5, max_iterations=1, **options).energy.total - end)
+        gaps.append(stylize(V, F, 0.5, max_iterations=1, proxy=PAPER, **options).energy.total - end)
     return gaps
 
 
@@ -81,14 +81,14 @@ def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
     Q = np.tile(shapes.rotation(0.0, 0.0, 30.0), (len(V), 1, 1))
     large()
     stylization = Stylization(
-        Setup(rest_mesh(V, F)), Style(cubeness, Q), options=SolverOptions(device=device)
+        Setup(rest_mesh(V, F, PAPER)), Style(cubeness, Q), options=SolverOptions(device=device)
     )
     coarse = stylization.coarser()
     x = stylization.rest.box.from_unit(coarse.rest.input_positions)[:, 0]
     inside = np.abs(x) > 0.2
     np.testing.assert_array_equal(coarse._style.lam[inside], np.where(x > 0.0, 1.0, 0.0)[inside])
-    result = stylize(V, F, cubeness, orientation=Q, device=device)
-    from_one = stylize(V, F, cubeness, orientation=Q[0], device=device)
+    result = stylize(V, F, cubeness, orientation=Q, device=device, proxy=PAPER)
+    from_one = stylize(V, F, cubeness, orientation=Q[0], device=device, proxy=PAPER)
     np.testing.assert_allclose(
         result.positions, from_one.positions, atol=by_device(device, 1e-9, 1e-5)
     )
@@ -97,8 +97,8 @@ def test_maps_and_orientations_per_vertex_are_carried_down(large, device):
 def test_slicing_and_repeating_change_no_bit(large, device):
     V, F = shapes.blob(4)
     large()
-    whole = stylize(V, F, 0.4, device=device)
-    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4, options=SolverOptions(device=device)))
+    whole = stylize(V, F, 0.4, device=device, proxy=PAPER)
+    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=SolverOptions(device=device)))
     phases = 0
     assert run.so_far() is None
     while run.reason is None:
@@ -108,15 +108,36 @@ def test_slicing_and_repeating_change_no_bit(large, device):
             so_far = run.so_far()
             np.testing.assert_array_equal(so_far.positions, run.positions())
             assert so_far.energy.total > 0.0 and so_far.converged == (run.reason is not None)
-    assert phases > 2 * run.stylization.iteration  # those of the coarse meshes, too
+    assert phases > 2 * run.stylization.iterations  # those of the coarse meshes, too
     np.testing.assert_array_equal(run.result().positions, whole.positions)
+
+
+def test_a_run_can_be_cancelled_on_coarser_meshes(large, device):
+    V, F = shapes.blob(4)
+    large()
+    seen = []
+
+    def on_iteration(state):
+        seen.append(state.is_coarse)
+        return len(seen) == stop
+
+    stop = 0
+    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), 0.4, options=SolverOptions(device=device)))
+    run.complete(on_iteration)
+    assert seen == sorted(seen, reverse=True) and len(seen) == run.iterations
+    assert sum(seen) > 3 and run.reason == "converged"
+    seen, stop = [], 3
+    result = stylize(V, F, 0.4, device=device, proxy=PAPER, on_iteration=on_iteration)
+    assert (seen, result.reason, result.iterations) == ([True] * 3, "cancelled", 0)
+    moved = np.linalg.norm(result.positions - V, axis=1)
+    assert 0.0 < moved.max() < 0.5 and result.energy.total > 0.0
 
 
 def test_no_part_turns_on_coarser_meshes(large, device):
     V, F = shapes.blob(4)
     V = V @ shapes.rotation(0, 25, 15).T
     large()
-    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.6, options=SolverOptions(device=device)))
+    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), 0.6, options=SolverOptions(device=device)))
     coarse = run._coarse
     assert coarse.stylization.is_coarse
     coarse.complete()
@@ -129,8 +150,8 @@ def test_a_part_keeps_its_orientation_on_all_levels(large, device):
     V, F = shapes.blob(4)
     V = V @ shapes.rotation(0, 25, 15).T
     large()
-    result = stylize(V, F, 0.6, device=device, keep_rotation=True)
-    turn = best_rotation(result.positions, V, rest_mesh(V, F).areas)
+    result = stylize(V, F, 0.6, device=device, keep_rotation=True, proxy=PAPER)
+    turn = best_rotation(result.positions, V, rest_mesh(V, F, PAPER).areas)
     assert np.linalg.norm(turn - np.eye(3)) < 1e-6
 
 
@@ -138,21 +159,21 @@ def test_where_nothing_is_left_free_it_starts_from_rest(large, device):
     V, F = shapes.blob()
     large()
     pinned = np.delete(np.arange(len(V)), 7)
-    result = stylize(V, F, 0.4, pinned, device=device)
+    result = stylize(V, F, 0.4, pinned, device=device, proxy=PAPER)
     np.testing.assert_array_equal(result.positions[pinned], V[pinned])
 
 
 def test_without_the_package_it_starts_from_rest(large, device, monkeypatch):
     V, F = shapes.blob()
-    from_rest = stylize(V, F, 0.4, device=device)
+    from_rest = stylize(V, F, 0.4, device=device, proxy=PAPER)
     large()
     monkeypatch.setattr("solver.coarse_to_fine.contraction.optional_package", lambda name: None)
-    again = stylize(V, F, 0.4, device=device)
+    again = stylize(V, F, 0.4, device=device, proxy=PAPER)
     np.testing.assert_array_equal(again.positions, from_rest.positions)
 
 
 def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
-    setup = Setup(rest_mesh(*shapes.blob()))
+    setup = Setup(rest_mesh(*shapes.blob(), proxy=PAPER))
     assert Run(Stylization(setup, 0.4, options=SolverOptions(device="numpy")))._coarse is None
     large()
     assert Run(Stylization(setup, 0.4, options=SolverOptions(device="numpy")))._coarse is not None
@@ -167,9 +188,9 @@ def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
 def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
     V, F = shapes.blob(4)
     large()
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     run = Run(Stylization(setup, 0.5, options=SolverOptions(device=device, keep_rotation=True)))
-    end = stylize(V, F, 0.5, device=device, keep_rotation=True).positions
+    end = stylize(V, F, 0.5, device=device, keep_rotation=True, proxy=PAPER).positions
     seen, counts = [], []
     while run.is_on_coarser_mesh:
         run.advance()
@@ -181,13 +202,13 @@ def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
         seen.append(np.linalg.norm(positions - end, axis=1).max())
         counts.append(run.iterations)
     assert (np.diff(counts) >= 0).all() and counts[-1] > 10
-    assert run.stylization.iteration == 0
+    assert run.stylization.iterations == 0
     assert min(seen) < 0.8 * np.linalg.norm(V - end, axis=1).max()
 
 
 def test_where_neighbours_differ_too_much_to_be_averaged_they_keep_their_rotations():
     V, F = shapes.blob(4)
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0]), np.diag([-1.0, 1.0, -1.0])])
     R = R[np.arange(len(rest.coarse.rest.V)) % 3]
     smoothed = _smoothed(rest, R)
@@ -199,7 +220,7 @@ def test_where_neighbours_differ_too_much_to_be_averaged_they_keep_their_rotatio
 
 def test_rotations_are_averaged_over_the_neighbours():
     V, F = shapes.blob(4)
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     one = shapes.rotation(10.0, 20.0, 30.0)
     np.testing.assert_allclose(
         _smoothed(rest, np.tile(one, (len(rest.coarse.rest.V), 1, 1))),

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from optional_marks import needs
 
-from solver import rest_mesh
+from solver import PAPER, rest_mesh
 from solver.coarse_to_fine import contraction
 from solver.coarse_to_fine.contraction import FEWEST, contract
 from solver.mesh.edges import Edges
@@ -16,7 +16,7 @@ pytestmark = needs("pyamg")
 
 def contracted(V, F):
     """Return the result, and the RestMesh that it comes from."""
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     neighbours = rest.skin.matrix(rest.skin.laplacian)
     return contract(rest.V, rest.F, neighbours, rest.topology.part), rest
 
@@ -62,7 +62,7 @@ def test_a_closed_surface_stays_one_with_round_triangles():
 def test_triangles_keep_their_sides():
     """The normals of the coarse mesh point where those of its vertices have."""
     (coarse_V, coarse_F, cluster), rest = contracted(*shapes.blob(4))
-    normals = rest_mesh(coarse_V, coarse_F).normals[cluster]
+    normals = rest_mesh(coarse_V, coarse_F, PAPER).normals[cluster]
     assert ((normals * rest.normals).sum(axis=1) > 0.5).all()
 
 
@@ -76,7 +76,7 @@ def test_what_cannot_get_coarser_has_no_coarser_mesh():
 
 
 def test_parts_stay_apart():
-    rest = rest_mesh(*shapes.two_blobs())
+    rest = rest_mesh(*shapes.two_blobs(), proxy=PAPER)
     coarse = rest.coarse
     assert coarse.rest.topology.component_count == 2
     labels = coarse.rest.topology.component[coarse.cluster]
@@ -121,4 +121,4 @@ def test_a_part_that_collapses_does_no_harm():
 
 def test_without_the_package_there_is_no_coarser_mesh(monkeypatch):
     monkeypatch.setattr(contraction, "optional_package", lambda name: None)
-    assert rest_mesh(*shapes.blob()).coarse is None
+    assert rest_mesh(*shapes.blob(), proxy=PAPER).coarse is None

@@ -91,7 +91,7 @@ def test_where_nothing_crosses_the_result_has_the_same_bits(device):
 def test_the_energy_of_the_paper_is_left_alone():
     V, F = contact_shapes.hand(count=4)
     assert not PAPER.keep_apart
-    assert stylize(V, F, max_iterations=3, device="numpy").crossings is None
+    assert stylize(V, F, max_iterations=3, device="numpy", proxy=PAPER).crossings is None
 
 
 def test_it_does_on_every_device(device):
@@ -141,12 +141,12 @@ def test_a_round_takes_up_to_a_quarter_of_the_first_iterations_or_ten(first):
     limited = Run(stylization(V, F, options=COARSE, is_accelerated=False), max_iterations=first)
     counts, state = [], limited.stylization
     while limited.reason is None:
-        before = limited.stylization.iteration
+        before = limited.stylization.iterations
         limited.advance()
         if limited.stylization is not state:
             counts.append(before)
             state = limited.stylization
-    counts.append(limited.stylization.iteration)
+    counts.append(limited.stylization.iterations)
     assert counts[0] == first and 1 < len(counts) <= 5
     assert (np.diff(counts) <= min(max(first // 4, 10), first)).all()
     result = limited.result()
@@ -187,7 +187,9 @@ def test_there_is_no_round_where_hardly_anything_can_be_linked(monkeypatch):
 
 def test_a_run_that_is_cancelled_does_not_look():
     V, F = contact_shapes.hand()
-    result = run(stylization(V, F, options=COARSE), on_iteration=lambda state: state.iteration == 5)
+    result = run(
+        stylization(V, F, options=COARSE), on_iteration=lambda state: state.iterations == 5
+    )
     assert result.reason == "cancelled" and result.crossings is None
 
 

@@ -6,6 +6,7 @@ import pytest
 from shapes import blob, rotation, sheet
 
 from solver import (
+    PAPER,
     FrameSequence,
     Pose,
     ProxyOptions,
@@ -55,7 +56,7 @@ def solved(setup, sequence, frames, cubeness=0.4, pose=None, **options):
 
 def recorded(frames, F, **options):
     """Solve all frames; return them as `Frames`."""
-    setup = Setup(rest_mesh(frames[0], F))
+    setup = Setup(rest_mesh(frames[0], F, PAPER))
     sequence = FrameSequence(setup.rest)
     results = solved(setup, sequence, frames, keep_rotation=True, **options)
     pairs = zip(frames, results, strict=True)
@@ -121,7 +122,7 @@ def test_a_sheet_that_falls_over_a_ball_does_not_stay_flat():
 def test_a_frame_is_nearly_as_good_as_one_that_has_converged():
     V, F = blob()
     frames = bending(V, 12)
-    setup = Setup(rest_mesh(frames[0], F))
+    setup = Setup(rest_mesh(frames[0], F, PAPER))
     results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
     for frame, result in zip(frames[3::3], results[3::3], strict=True):
         assert result.iterations <= STEPS
@@ -152,7 +153,7 @@ def test_what_is_pinned_stays_in_its_place_in_each_frame():
     V, F = blob()
     pinned = np.flatnonzero(V[:, 2] < -0.5)
     frames = turning(V, 4)
-    setup = Setup(rest_mesh(frames[0], F), pinned)
+    setup = Setup(rest_mesh(frames[0], F, PAPER), pinned)
     results = solved(setup, FrameSequence(setup.rest), frames)
     for result, frame in zip(results, frames, strict=True):
         np.testing.assert_array_equal(result.positions[pinned], frame[pinned])
@@ -161,7 +162,7 @@ def test_what_is_pinned_stays_in_its_place_in_each_frame():
 def test_groups_keep_their_place_in_each_frame():
     V, F = blob()
     weights = (V[:, 2] > 0.3).astype(float)
-    setup = Setup(rest_mesh(V, F)).with_holds([weights])
+    setup = Setup(rest_mesh(V, F, PAPER)).with_holds([weights])
     frames = V + np.array([[[0.0, 0, 0]], [[0.5, 0, 0]]])
     sequence = FrameSequence(setup.rest)
     held = Pose(hold_matrices=[np.eye(4)])
@@ -189,7 +190,7 @@ def test_it_jumps_less_than_frames_solved_alone():
     frames = turning(V, 16)
     together = Jumps()
     together.add(recorded(frames, F).results(0.0))
-    setup = Setup(rest_mesh(frames[0], F))
+    setup = Setup(rest_mesh(frames[0], F, PAPER))
     alone = []
     for V in frames:
         stylization = Stylization(setup.posed(V), 0.4, options=SolverOptions(keep_rotation=True))

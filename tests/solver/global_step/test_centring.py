@@ -5,13 +5,14 @@ import numpy as np
 import pytest
 import shapes
 
+from solver import PAPER
 from solver.global_step.centring import Centring
 from solver.preparation import rest_mesh
 
 
 @pytest.mark.parametrize("floats", [[True, False], [False, True], [True, True]])
 def test_only_what_floats_is_moved(floats):
-    rest = rest_mesh(*shapes.two_blobs())
+    rest = rest_mesh(*shapes.two_blobs(), proxy=PAPER)
     floats = np.array(floats)
     moved = rest.V + np.array([[0.1, 0.0, 0.0], [0.0, 0.2, 0.3]])[rest.topology.component]
     result = moved.copy()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from solver import CubicCraftError, Setup
+from solver import PAPER, CubicCraftError, Setup
 from solver.global_step.step import GlobalStep
 from solver.preparation import rest_mesh
 
@@ -21,7 +21,7 @@ def rotated_rhs(rest):
 
 
 def test_result_solves_the_normal_equations():
-    rest = rest_mesh(*shapes.two_blobs())
+    rest = rest_mesh(*shapes.two_blobs(), proxy=PAPER)
     rhs = rotated_rhs(rest)
     U = GlobalStep(rest, NO_PINS).positions(rhs, rest.V)
     L = rest.matrices.matrix(rest.matrices.laplacian)
@@ -29,7 +29,7 @@ def test_result_solves_the_normal_equations():
 
 
 def test_centroids_of_free_components_stay():
-    rest = rest_mesh(*shapes.two_blobs())
+    rest = rest_mesh(*shapes.two_blobs(), proxy=PAPER)
     U = GlobalStep(rest, NO_PINS).positions(rotated_rhs(rest), rest.V)
     for label in range(rest.topology.component_count):
         part = rest.topology.component == label
@@ -40,7 +40,7 @@ def test_centroids_of_free_components_stay():
 
 @pytest.mark.parametrize("make", [shapes.two_blobs, lambda: shapes.blob(2)])
 def test_free_components_do_not_turn_where_their_rotation_is_kept(make):
-    rest = rest_mesh(*make())
+    rest = rest_mesh(*make(), proxy=PAPER)
     tilted = rest.V @ shapes.rotation(10, 20, 5)
     step = GlobalStep(rest, NO_PINS)
     rhs = rest.matrices.matrix(rest.matrices.laplacian) @ tilted
@@ -55,7 +55,7 @@ def test_free_components_do_not_turn_where_their_rotation_is_kept(make):
 
 
 def test_pinned_vertices_keep_their_bits_and_their_component_is_not_centred():
-    rest = rest_mesh(*shapes.two_blobs())
+    rest = rest_mesh(*shapes.two_blobs(), proxy=PAPER)
     pins = np.array([0, 5, 17])
     start = rest.V.copy()
     start[pins] += [0.1, 0.2, 0.3]
@@ -68,7 +68,7 @@ def test_pinned_vertices_keep_their_bits_and_their_component_is_not_centred():
 
 def test_a_component_without_a_free_vertex_is_fine():
     V, F = shapes.two_blobs()
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     pins = np.flatnonzero(rest.topology.component == rest.topology.component[0])
     U = GlobalStep(rest, pins).positions(rotated_rhs(rest), rest.V)
     np.testing.assert_array_equal(U[pins], rest.V[pins])
@@ -76,6 +76,6 @@ def test_a_component_without_a_free_vertex_is_fine():
 
 
 def test_everything_pinned_is_refused():
-    rest = rest_mesh(*shapes.blob(1))
+    rest = rest_mesh(*shapes.blob(1), proxy=PAPER)
     with pytest.raises(CubicCraftError, match="all vertices are pinned"):
         Setup(rest, np.arange(len(rest.V)))

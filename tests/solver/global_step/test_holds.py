@@ -88,7 +88,7 @@ def test_the_energy_of_the_plain_iteration_falls(proxy, pins):
 
 def test_a_single_group_without_pins_takes_all_along():
     V, F = blob()
-    setup = Setup(rest_mesh(V, F)).with_holds([(V[:, 0] > 0.3).astype(float)])
+    setup = Setup(rest_mesh(V, F, PAPER)).with_holds([(V[:, 0] > 0.3).astype(float)])
     matrix = np.eye(4)
     matrix[:3, 3] = (3.0, 1.0, 0.0)
     result = run(
@@ -99,7 +99,7 @@ def test_a_single_group_without_pins_takes_all_along():
 
 def test_only_its_component_is_concerned():
     V, F = two_blobs()
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     first = np.zeros(len(V), dtype=bool)
     first[rest.used[rest.topology.component == 0]] = True
     setup = Setup(rest).with_holds([first.astype(float)])
@@ -122,11 +122,13 @@ def test_multigrid_obeys_them_too(monkeypatch):
     pinned = np.flatnonzero(V[:, 0] < -0.5)
     exact = run(
         Stylization(
-            Setup(rest_mesh(V, F), pinned).with_holds([weights]), 0.4, Pose(hold_matrices=[matrix])
+            Setup(rest_mesh(V, F, PAPER), pinned).with_holds([weights]),
+            0.4,
+            Pose(hold_matrices=[matrix]),
         )
     )
     monkeypatch.setattr(global_step, "FACTORIZED_VERTICES", 100)
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     setup = Setup(rest, pinned).with_holds([weights])
     assert not setup.global_step.is_factorized
     state = Stylization(setup, 0.4, Pose(hold_matrices=[matrix]))
@@ -143,7 +145,7 @@ def test_the_same_bits_in_a_second_run():
     both = [
         run(
             Stylization(
-                Setup(rest_mesh(V, F)).with_holds([np.ones(len(V))]),
+                Setup(rest_mesh(V, F, PAPER)).with_holds([np.ones(len(V))]),
                 0.4,
                 Pose(hold_matrices=[turned_and_moved()]),
             ),

@@ -8,7 +8,7 @@ from devices import by_device
 from engine_marks import needs_engine
 from optional_marks import needs
 
-from solver import Setup, rest_mesh, stylize
+from solver import PAPER, Setup, rest_mesh, stylize
 from solver.backends.arrays import HostArrays
 from solver.backends.taichi_cycle import TaichiCycle
 from solver.backends.taichi_runtime import start
@@ -27,7 +27,7 @@ SHAPES = {
 
 
 def laplacian(V, F):
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     L = rest.matrices.matrix(rest.matrices.laplacian)
     _, first = np.unique(rest.topology.component, return_index=True)
     is_held = np.zeros(len(rest.V), bool)
@@ -83,11 +83,11 @@ def test_two_cycles_leave_less_and_never_go_too_far(monkeypatch):
 def test_it_ends_where_the_factorisation_does(pins, monkeypatch, device):
     V, F = shapes.blob()
     pinned = np.argsort(V[:, 2])[:pins]
-    exact = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5)
+    exact = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5, proxy=PAPER)
     monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
     monkeypatch.setattr("solver.global_step.multigrid._COARSEST", 20)
-    near = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5)
-    again = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5)
+    near = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5, proxy=PAPER)
+    again = stylize(V, F, 0.4, pinned, device=device, tolerance=1e-5, proxy=PAPER)
     assert near.converged
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-5)
     assert np.abs(near.positions - exact.positions).max() < 5e-3
@@ -105,6 +105,7 @@ def test_the_plain_iteration_still_descends(monkeypatch, device):
         is_accelerated=False,
         max_iterations=40,
         on_iteration=lambda s: energies.append(s.energy.total),
+        proxy=PAPER,
     )
     assert np.diff(energies).max() <= by_device(device, 1e-9, 1e-6)
 
@@ -112,7 +113,7 @@ def test_the_plain_iteration_still_descends(monkeypatch, device):
 def test_without_the_package_all_is_factorised(monkeypatch):
     monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
     monkeypatch.setattr("solver.global_step.multigrid.optional_package", lambda name: None)
-    rest = rest_mesh(*shapes.blob())
+    rest = rest_mesh(*shapes.blob(), proxy=PAPER)
     solve = Setup(rest).global_step.positions
     L = rest.matrices.matrix(rest.matrices.laplacian)
     np.testing.assert_allclose(solve(L @ rest.V, np.zeros_like(rest.V)), rest.V, atol=1e-9)
@@ -124,10 +125,10 @@ def test_many_small_parts_have_nothing_coarser_than_one_row(monkeypatch, device)
     count = 40
     W = np.concatenate([V + [3.0 * k, 0.0, 0.0] for k in range(count)])
     G = np.concatenate([F + len(V) * k for k in range(count)])
-    exact = stylize(W, G, 0.4, device=device, tolerance=1e-4)
+    exact = stylize(W, G, 0.4, device=device, tolerance=1e-4, proxy=PAPER)
     monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
-    near = stylize(W, G, 0.4, device=device, tolerance=1e-4)
-    levels = Setup(rest_mesh(W, G)).global_step.multigrid.levels
+    near = stylize(W, G, 0.4, device=device, tolerance=1e-4, proxy=PAPER)
+    levels = Setup(rest_mesh(W, G, PAPER)).global_step.multigrid.levels
     assert levels[-1].P.shape[1] == 1 and not levels[-1].P.nnz
     assert near.converged
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)

@@ -104,7 +104,7 @@ def test_a_ball_gets_the_sides_of_its_form(name):
 def state(form, crispness, V, F):
     """Return a Stylization of a mesh."""
     style = Style(1.0, form=form, crispness=crispness)
-    return Stylization(Setup(rest_mesh(V, F)), style, options=KEPT)
+    return Stylization(Setup(rest_mesh(V, F, PAPER)), style, options=KEPT)
 
 
 @pytest.mark.parametrize("name", ROUND)
@@ -160,7 +160,7 @@ def test_no_flat_side_of_a_rounded_box_becomes_less_flat(crispness):
 def test_crispness_0_changes_nothing():
     V, F = shapes.blob(3)
     one, other = (
-        stylize(V, F, 0.5, proxy=ProxyOptions(), device="numpy", **more)
+        stylize(V, F, 0.5, proxy=PAPER, device="numpy", **more)
         for more in ({}, {"crispness": 0.0, "detail_strength": 1.0})
     )
     assert one == other
@@ -185,7 +185,7 @@ def test_what_is_held_stays_and_what_is_moved_goes_there():
 def test_held_groups_keep_their_place():
     V, F = shapes.blob(3)
     weights = np.where(V[:, 2] < V[:, 2].min() + 0.6, 1.0, 0.0)
-    setup = Setup(rest_mesh(V, F)).with_holds([weights])
+    setup = Setup(rest_mesh(V, F, PAPER)).with_holds([weights])
     style = Style(0.8, crispness=1.0)
     result = run(Stylization(setup, style, Pose(hold_matrices=[np.eye(4)]), KEPT))
     w = weights * np.sqrt(np.sqrt(setup.rest.areas)) if setup.rest.options.refine else None
@@ -207,7 +207,9 @@ def test_halves_stay_mirror_images():
 def test_a_share_is_between_the_soft_and_the_hard_shape():
     V, F = shapes.blob(3)
     soft, half, hard = (
-        run(Stylization(Setup(rest_mesh(V, F)), Style(0.6, crispness=c), options=KEPT)).positions
+        run(
+            Stylization(Setup(rest_mesh(V, F, PAPER)), Style(0.6, crispness=c), options=KEPT)
+        ).positions
         for c in (0.0, 0.5, 1.0)
     )
     np.testing.assert_allclose(half, 0.5 * (soft + hard), atol=1e-5)
@@ -302,7 +304,7 @@ def test_what_is_thinner_than_details_stays_soft():
 def test_frames_keep_their_sides():
     """A ball that turns by 40 degrees, in steps: each triangle changes its side once at most."""
     V, F = shapes.sphere(3)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     sequence, sides = FrameSequence(setup.rest), []
     for angle in np.radians(np.arange(0, 41, 4)):
         turn = np.array(
@@ -318,7 +320,7 @@ def test_frames_keep_their_sides():
 
 def test_a_sequence_that_was_stopped_goes_on_alike():
     V, F = shapes.blob(2)
-    setup = Setup(rest_mesh(V, F))
+    setup = Setup(rest_mesh(V, F, PAPER))
     style = Style(0.6, crispness=0.7)
 
     def frames(sequence, heights):

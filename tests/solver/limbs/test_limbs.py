@@ -31,7 +31,7 @@ from solver.styles.forms import cube, prism
 
 LIMBS = ProxyOptions(detail=0.0, keep_apart=False)
 DEFAULTS = ProxyOptions()
-KEPT = {"keep_rotation": True}
+KEPT = {"keep_rotation": True, "crispness": 0.0}
 
 
 def tilted(degrees):
@@ -143,7 +143,7 @@ def test_halves_have_frames_that_are_mirror_images_bit_for_bit():
     flip = np.diag([-1.0, 1.0, 1.0])
     mirror = Mirror(partners(both, both @ flip, 1e-6), flip, np.zeros(3))
     setup = Setup(rest_mesh(both, faces, LIMBS), mirrors=[mirror])
-    state = Stylization(setup, 0.4, options=SolverOptions(**KEPT))
+    state = Stylization(setup, 0.4, options=SolverOptions(keep_rotation=True))
     (solved,) = setup.mirrors
     pair = np.flatnonzero(solved.partner > np.arange(len(solved.partner)))
     assert len(pair) > 1000
@@ -161,13 +161,13 @@ def test_what_is_known_counts_instead_of_the_shape():
         np.array([[0.0, 0.0, 1.0]]), sp.csr_matrix(np.ones((n, 1))), np.ones(n, bool)
     )
     rest = rest_mesh(V, F, LIMBS)
-    upright = Stylization(Setup(rest), 0.4, Pose(limbs=known), SolverOptions(**KEPT))
+    upright = Stylization(Setup(rest), 0.4, Pose(limbs=known), SolverOptions(keep_rotation=True))
     np.testing.assert_allclose(
         upright._style.Q, np.tile(np.eye(3), (len(rest.V), 1, 1)), atol=1e-12
     )
     nothing = replace(known, known=np.zeros(n, bool))
     found, same = (
-        Stylization(Setup(rest), 0.4, Pose(limbs=x), SolverOptions(**KEPT))._style.Q
+        Stylization(Setup(rest), 0.4, Pose(limbs=x), SolverOptions(keep_rotation=True))._style.Q
         for x in (None, nothing)
     )
     np.testing.assert_allclose(found, same, atol=1e-12)

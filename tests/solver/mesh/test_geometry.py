@@ -7,6 +7,7 @@ import scipy.sparse as sp
 import shapes
 from scipy.sparse.csgraph import connected_components
 
+from solver import PAPER
 from solver.mesh import edge_vectors
 from solver.mesh.components import components
 from solver.mesh.cotangents import MAX_COTANGENT, cotangents
@@ -120,7 +121,7 @@ def test_blocks_change_no_bit(monkeypatch):
 
 @pytest.mark.parametrize("name", shapes.ALL)
 def test_edge_sums_of_a_rest_mesh(name):
-    rest = rest_mesh(*shapes.ALL[name]())
+    rest = rest_mesh(*shapes.ALL[name](), proxy=PAPER)
     L = rest.matrices.matrix(rest.matrices.laplacian).tocoo()
     expected = np.zeros(rest.topology.component_count)
     for i, j, value in zip(L.row, L.col, L.data, strict=True):
@@ -132,12 +133,12 @@ def test_edge_sums_of_a_rest_mesh(name):
 def test_a_rest_mesh_leaves_out_loose_vertices_and_keeps_none_of_the_callers_triangles():
     V, F = shapes.blob(1)
     F = F.astype(np.int32)
-    rest, triangles = rest_mesh(V, F), F.copy()
+    rest, triangles = rest_mesh(V, F, PAPER), F.copy()
     F[:] = 0
     np.testing.assert_array_equal(rest.F, triangles)
     among_loose = np.full((2 * len(V), 3), 9.0)
     among_loose[1::2] = V
-    other = rest_mesh(among_loose, 2 * triangles + 1)
+    other = rest_mesh(among_loose, 2 * triangles + 1, PAPER)
     np.testing.assert_array_equal(other.used, np.arange(1, 2 * len(V), 2))
     np.testing.assert_array_equal(other.V, rest.V)
     np.testing.assert_array_equal(other.F, rest.F)

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from devices import by_device
 
-from solver import rest_mesh, stylize
+from solver import PAPER, rest_mesh, stylize
 from solver.mesh.vertex_order import vertex_order
 
 
@@ -25,12 +25,12 @@ def shuffled(V, F):
 @pytest.mark.parametrize("name", shapes.ALL)
 def test_each_vertex_has_its_place_and_neighbours_are_near(name, ordered):
     V, F = shuffled(*shapes.ALL[name]())
-    plain = rest_mesh(V, F)
+    plain = rest_mesh(V, F, PAPER)
     assert (np.diff(plain.used) > 0).all()
     ordered()
     order = vertex_order(plain.F, len(plain.V))
     np.testing.assert_array_equal(np.sort(order), np.arange(len(plain.V)))
-    rest = rest_mesh(V, F)
+    rest = rest_mesh(V, F, PAPER)
     np.testing.assert_array_equal(rest.used, plain.used[order])
     np.testing.assert_array_equal(rest.used[rest.F], plain.used[plain.F])
 
@@ -52,9 +52,9 @@ def test_results_are_the_same(ordered, device):
         "keep_rotation": True,
     }
     cubeness = 0.5 + 0.2 * V[:, 0]
-    plain = stylize(V, F, cubeness, pinned, **options)
+    plain = stylize(V, F, cubeness, pinned, proxy=PAPER, **options)
     ordered()
-    result = stylize(V, F, cubeness, pinned, **options)
+    result = stylize(V, F, cubeness, pinned, proxy=PAPER, **options)
     np.testing.assert_allclose(
         result.positions, plain.positions, atol=by_device(device, 1e-9, 1e-5)
     )
@@ -66,7 +66,7 @@ def test_results_are_the_same(ordered, device):
 
 def test_chunks_are_of_one_component_each(ordered):
     ordered()
-    rest = rest_mesh(*shuffled(*shapes.two_blobs()))
+    rest = rest_mesh(*shuffled(*shapes.two_blobs()), proxy=PAPER)
     bounds, component = rest.topology.chunks
     assert bounds[0] == 0 and bounds[-1] == len(rest.V)
     assert (np.diff(bounds) > 0).all() and np.diff(bounds).max() <= 256
@@ -78,7 +78,7 @@ def test_groups_are_of_chunks_of_one_component_each():
     V, F = shapes.sphere(5)
     small, G = shapes.sphere(3)
     F = np.concatenate([F, F + len(V), G + 2 * len(V)])
-    topology = rest_mesh(np.concatenate([V, V + 3.0, small - 3.0]), F).topology
+    topology = rest_mesh(np.concatenate([V, V + 3.0, small - 3.0]), F, PAPER).topology
     _, of_chunk = topology.chunks
     starts, of_group = topology.groups
     assert starts[0] == 0 and starts[-1] == len(of_chunk)

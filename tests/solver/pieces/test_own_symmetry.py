@@ -6,7 +6,7 @@ import pytest
 from proxy_shapes import uv_sphere
 from shapes import rotation
 
-from solver import HandlePose, Style, flip, join_pieces, piece_of, run
+from solver import PAPER, HandlePose, Style, flip, join_pieces, piece_of, run
 from solver.pieces.own_symmetry import with_own_symmetry
 from solver.styles.forms import tetrahedron
 
@@ -35,7 +35,7 @@ def test_the_halves_are_mirror_images_bit_for_bit():
     V, F = ears()
     piece = with_own_symmetry(piece_of(V.astype(np.float32), F, style=Style(0.4)))
     (mirror,) = piece.whole.own_partners
-    ((U, _),) = (problem := join_pieces([piece])).split(*_result(problem))
+    ((U, _),) = (problem := join_pieces([piece], PAPER)).split(*_result(problem))
     np.testing.assert_array_equal(U[mirror.partner], U * np.float32([-1, 1, 1]))
     assert np.abs(U - V).max() > 0.05
 

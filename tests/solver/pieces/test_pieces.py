@@ -11,6 +11,7 @@ import pytest
 from shapes import blob, extent, rotation, sheet, sphere
 
 from solver import (
+    PAPER,
     CubicCraftError,
     HandlePose,
     NormalCapture,
@@ -21,14 +22,15 @@ from solver import (
     join_pieces,
     piece_of,
     run,
+    stylize,
 )
 from solver.pieces.placement import placement_by
-from solver.styles.forms import octahedron
+from solver.styles.forms import box, octahedron, prism
 
 ROOT = Path(__file__).parents[3]
 
 
-def solved(*pieces, proxy=None, keep_floor=False, only_standing=False, **options):
+def solved(*pieces, proxy=PAPER, keep_floor=False, only_standing=False, **options):
     """Return the positions of each piece."""
     problem = join_pieces(pieces, proxy)
     options = SolverOptions(**{"keep_rotation": True, "device": "numpy"} | options)
@@ -56,10 +58,8 @@ def share_facing(V, F, normals, chosen):
 
 def test_a_piece_is_as_cubic_as_its_mesh_alone():
     V, F = blob(2)
-    (one,) = solved(piece_of(V, F), keep_rotation=False)
-    from solver import stylize
-
-    alone = stylize(V, F, 0.4, max_iterations=60, device="numpy")
+    (one,) = solved(piece_of(V, F), proxy=None)
+    alone = stylize(V, F, max_iterations=60, device="numpy")
     np.testing.assert_allclose(one, alone.positions, atol=1e-6)
 
 
@@ -169,13 +169,13 @@ def test_what_stands_on_the_floor_stays_there():
 
 def test_what_has_not_changed_is_used_again():
     V, F = blob(2)
-    first = join_pieces([piece_of(V, F, Style(0.2))])
-    other = join_pieces([piece_of(V, F, Style(0.8))], None, [first])
+    first = join_pieces([piece_of(V, F, Style(0.2))], PAPER)
+    other = join_pieces([piece_of(V, F, Style(0.8))], PAPER, [first])
     assert other.setup is first.setup
     pinned = np.where(np.arange(len(V)) < 3, 0, -1)
-    held = join_pieces([piece_of(V, F, handles=[HandlePose()], handle_of=pinned)], None, [first])
+    held = join_pieces([piece_of(V, F, handles=[HandlePose()], handle_of=pinned)], PAPER, [first])
     assert held.setup is not first.setup and held.setup.rest is first.setup.rest
-    moved = join_pieces([piece_of(V + 0.1, F)], None, [first])
+    moved = join_pieces([piece_of(V + 0.1, F)], PAPER, [first])
     assert moved.setup.rest is not first.setup.rest
 
 
@@ -184,22 +184,79 @@ def test_a_message_names_the_objects():
     pinned = {"handles": [HandlePose()], "handle_of": np.zeros(len(V), int)}
     pieces = [piece_of(V, F, name=name, **pinned) for name in ("Head", "Hat")]
     with pytest.raises(CubicCraftError, match=r'^"Head" and "Hat": all vertices are pinned'):
-        join_pieces(pieces)
+        join_pieces(pieces, PAPER)
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"handle_of": [0]},
-        {"map_weights": [1.0]},
-        {"region_shares": [[1.0]]},
+HALVES = np.full((42, 2), 0.5)
+OF_PIECE = {
+    "handle_of": ({"handle_of": [0]}, r"handle_of must be an array of shape \(42,\), not \(1,\)"),
+    "a handle": ({"handles": HandlePose()}, "handles must be a list, even of one"),
+    "no handle": ({"handles": [np.eye(4)]}, "handles must be of the type HandlePose"),
+    "map": ({"map_weights": [1.0]}, "map_weights must be an array of shape"),
+    "map below 0": ({"map_weights": -1}, "map_weights must be finite and not negative"),
+    "text": ({"detail_weights": "x"}, "detail_weights must be real numbers, not text"),
+    "shares alone": ({"region_shares": HALVES}, "region_shares needs regions, a list of styles"),
+    "regions alone": (
         {"regions": [Style(1)]},
-    ],
-)
-def test_arrays_of_another_shape_are_refused(wrong):
+        r"regions need region_shares, .* \(42, 2",
+    ),
+    "a region": ({"regions": Style(1)}, "regions must be a list, even of one"),
+    "shares": (
+        {"regions": [Style(1)], "region_shares": HALVES[:, 0]},
+        r"region_shares must be an array of shape \(42, 2\), not \(42,\)",
+    ),
+    "sums": (
+        {"regions": [Style(1)], "region_shares": 1.8 * HALVES},
+        "each row of region_shares must add up to 1, without negative ones; divide by the sums",
+    ),
+    "matrix": ({"matrix": np.eye(3)}, "matrix must be 4x4 finite numbers"),
+    "flat": ({"matrix": np.diag([1, 1, 0, 1])}, "a scale is zero; give another one"),
+    "a mirror": ({"mirrors": flip(0)}, "mirrors must be a list, even of one"),
+    "an axis": ({"mirrors": [0]}, "mirrors must be of the type Reflection, not int"),
+    "symmetry": ({"symmetry": True}, "symmetry must be True or False for each of the three axes"),
+    "style": ({"style": 0.4}, "style must be of the type Style, not float"),
+    "masked": ({"map_weights": np.ma.masked_less(np.arange(42), 3)}, "must have no masked values"),
+}
+
+
+@pytest.mark.parametrize("name", OF_PIECE)
+def test_what_makes_no_sense_in_a_piece_is_refused(name):
+    options, words = OF_PIECE[name]
+    with pytest.raises(CubicCraftError, match=words):
+        piece_of(*blob(1), **options)
+
+
+def test_what_makes_no_sense_in_a_problem_is_refused():
     V, F = blob(1)
-    with pytest.raises(CubicCraftError, match="must be an array of shape"):
-        piece_of(V, F, **wrong)
+    piece = piece_of(V, F)
+    for call, words in (
+        (lambda: join_pieces([]), "pieces must have at least one Piece"),
+        (lambda: join_pieces([V]), "pieces must be of the type Piece, not float64"),
+        (lambda: join_pieces([piece], 0.3), "proxy must be of the type ProxyOptions, not float"),
+        (lambda: join_pieces([piece], PAPER, [3]), "earlier must be of the type Problem, not int"),
+        (lambda: join_pieces([piece], PAPER).split(V[:5], None), r"shape \(42, 3\), as a Result"),
+        (lambda: HandlePose(matrix=(1, 2)), "the matrix of a handle must be 4x4 finite numbers"),
+        (lambda: HandlePose(is_cubic="yes"), "is_cubic must be True or False"),
+        (lambda: flip(3), "an axis must be 0, 1 or 2, not 3"),
+        (lambda: prism(5.5), "the number of sides of a form must be a whole number of at least 3"),
+        (lambda: box([1, 1]), "the weights of a box must be three numbers"),
+    ):
+        with pytest.raises(CubicCraftError, match=words):
+            call()
+
+
+def test_pieces_and_problems_print_in_a_line():
+    piece = piece_of(*blob(1), name="Head")
+    assert repr(piece) == "Piece(name='Head', vertices=42, triangles=80)"
+    problem = join_pieces([piece], PAPER)
+    assert repr(problem) == "Problem(name='\"Head\"', vertices=42, triangles=80, components=1)"
+
+
+def test_a_handle_takes_its_matrix_as_an_array():
+    raised = np.eye(4)
+    raised[2, 3] = 0.5
+    assert HandlePose(matrix=raised) == HandlePose(matrix=tuple(raised.ravel().tolist()))
+    assert not HandlePose(matrix=np.eye(4)).is_moved
 
 
 @pytest.mark.parametrize(("number", "named"), [(2, "0 to 2"), (-2, "-2 to 0")])
@@ -222,8 +279,8 @@ CAPTURE = NormalCapture(DIRECTIONS, DIRECTIONS)
     [
         Style(np.full(42, 0.4)),
         Style(0.4, np.tile(np.eye(3), (42, 1, 1))),
-        Style(0.4, form=[octahedron(), octahedron()]),
-        Style(0.4, capture=[CAPTURE, CAPTURE]),
+        Style(0.4, form=[octahedron(), octahedron()], form_of=np.zeros(42, int)),
+        Style(0.4, capture=[CAPTURE, CAPTURE], capture_of=np.zeros(42, int)),
         Style(0.4, capture=CAPTURE, capture_strength=np.ones(42)),
     ],
 )
@@ -245,7 +302,7 @@ def test_a_capture_is_that_of_all_regions():
     piece = piece_of(
         V, F, captured, regions=[Style(0.4)], region_shares=shares, map_weights=shares[:, 0]
     )
-    style = join_pieces([piece]).style
+    style = join_pieces([piece], PAPER).style
     assert style.captures == [CAPTURE]
     np.testing.assert_array_equal(style.capture_strength, np.ones(len(V)))
 

@@ -10,7 +10,7 @@ from procrustes import best_rotation
 from solver import ProxyOptions, rest_mesh, stylize
 from solver.proxy.sheets import extrusions, planar_sheets
 
-RUN = {"device": "numpy", "keep_rotation": True, "proxy": ProxyOptions()}
+RUN = {"device": "numpy", "keep_rotation": True, "crispness": 0.0, "proxy": ProxyOptions()}
 
 
 def figure():

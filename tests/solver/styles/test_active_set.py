@@ -7,6 +7,7 @@ import shapes
 from engine_marks import needs_engine
 from tight_admm import TIGHT
 
+from solver import PAPER
 from solver.backends import local_step_class
 from solver.preparation import rest_mesh
 from solver.rotation_fit import svd_rotations
@@ -40,7 +41,7 @@ def deformed(V, amount):
 
 @pytest.mark.parametrize("lam", [0.0, 0.1, 0.4, 1.0])
 def test_it_is_as_good_as_a_tight_admm(lam):
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     R, s = start(problem_of(rest.V, rest, lam))
     kinds = set()
     for amount in (0.0, 0.02, 0.05, 0.08):  # a warm start in all but the first
@@ -56,7 +57,7 @@ def test_it_is_as_good_as_a_tight_admm(lam):
 
 
 def test_the_subgradient_certifies_the_minimiser():
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     problem = problem_of(deformed(rest.V, 0.08), rest, 0.4)
     R, s, is_done = active_set_rotations(problem, *start(problem))
     assert is_done.all()
@@ -69,7 +70,7 @@ def test_the_subgradient_certifies_the_minimiser():
 
 
 def test_a_far_start_without_cubeness_ends_at_the_best_rotation():
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     problem = problem_of(rest.V @ shapes.rotation(150, 20, 30).T, rest, 0.0)
     R, _, is_done = active_set_rotations(problem, *start(problem))
     assert is_done.all()
@@ -78,7 +79,7 @@ def test_a_far_start_without_cubeness_ends_at_the_best_rotation():
 
 def test_a_maximum_is_not_taken_for_a_minimum():
     """After half a turn the energy is stationary, but largest; only rounding leads away."""
-    rest = rest_mesh(*shapes.blob(1))
+    rest = rest_mesh(*shapes.blob(1), proxy=PAPER)
     problem = problem_of(rest.V * [-1, -1, 1], rest, 0.0)
     best = np.tile(np.diag([-1.0, -1, 1]), (len(rest.V), 1, 1))
     R, s, is_done = active_set_rotations(problem, *start(problem))
@@ -89,7 +90,7 @@ def test_a_maximum_is_not_taken_for_a_minimum():
 
 
 def test_the_admm_goes_on_only_where_it_has_not_lowered_the_energy(monkeypatch):
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     problem = problem_of(deformed(rest.V, 0.08), rest, 0.4)
     last, states = start(problem)
     sizes = []
@@ -115,7 +116,7 @@ def test_the_admm_goes_on_only_where_it_has_not_lowered_the_energy(monkeypatch):
 @pytest.mark.parametrize("precision", ["f64", "f32"])
 @pytest.mark.parametrize("lam", [0.0, 1e-9, 0.4, 5.0, 1e6])
 def test_degenerate_shapes_keep_a_rotation_no_worse_than_the_last(lam, precision):
-    rest = rest_mesh(*shapes.blob(1))
+    rest = rest_mesh(*shapes.blob(1), proxy=PAPER)
     V = rest.V
     n = len(V)
     make = local_step_class("cpu", precision)
@@ -133,7 +134,7 @@ def test_degenerate_shapes_keep_a_rotation_no_worse_than_the_last(lam, precision
 
 @needs_engine
 def test_what_the_kernel_leaves_is_solved_as_in_numpy():
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     lam = np.full(len(rest.V), 0.4)
     U = rest.V * [-1, -1, 1]  # nothing that starts there is certified
     steps = [local_step_class(d)(rest, lam, Q[None], AdmmOptions()) for d in ("numpy", "cpu")]

@@ -8,7 +8,7 @@ from devices import by_device
 from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
-from solver import Setup, SolverOptions, Style, Stylization, rest_mesh
+from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import admm_rotations
 from solver.styles.blending import LEVELS, blended
@@ -111,7 +111,7 @@ def test_bodies_between_have_as_many_faces_as_euler_says():
 @pytest.mark.thorough(2)
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_local_step_is_exact_between_forms(pair):
-    rest = rest_mesh(*shapes.blob(2))
+    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
     n = len(rest.V)
     share = np.random.default_rng(3).random((n, 1))
     cubeness, Q, bodies, body_of = blended(two(pair), np.hstack([share, 1.0 - share]))
@@ -139,7 +139,7 @@ def ball_of_two(device, **options):
     styles = [Style(0.8, np.eye(3), None), Style(0.8, np.eye(3), octahedron())]
     cubeness, Q, bodies, body_of = blended(styles, np.hstack([1.0 - weights, weights]))
     return Stylization(
-        Setup(rest_mesh(V, F)),
+        Setup(rest_mesh(V, F, PAPER)),
         Style(cubeness, Q[0], form=[body or cube() for body in bodies], form_of=body_of),
         options=SolverOptions(device=device, **options),
     )

@@ -10,7 +10,7 @@ from named_forms import POLYTOPES
 from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
-from solver import Setup, SolverOptions, Style, Stylization, rest_mesh, run, stylize
+from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh, run, stylize
 from solver.backends import local_step_class
 from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles.active_set import active_set_rotations
@@ -51,7 +51,7 @@ def share_facing(V, F, directions):
 @forms
 @pytest.mark.parametrize("lam", [0.1, 0.6])
 def test_the_active_set_is_as_good_as_a_tight_admm(name, lam):
-    rest, form = rest_mesh(*shapes.blob(2)), POLYTOPES[name]()
+    rest, form = rest_mesh(*shapes.blob(2), proxy=PAPER), POLYTOPES[name]()
     R = np.tile(np.eye(3), (len(rest.V), 1, 1))
     states, uncertified = problem_of(rest.V, rest, lam, form).starting(R), 0
     for amount in (0.0, 0.02, 0.05):  # a warm start in all but the first
@@ -68,7 +68,7 @@ def test_the_active_set_is_as_good_as_a_tight_admm(name, lam):
 
 @forms
 def test_the_subgradient_certifies_the_minimiser(name):
-    rest, form = rest_mesh(*shapes.blob(2)), POLYTOPES[name]()
+    rest, form = rest_mesh(*shapes.blob(2), proxy=PAPER), POLYTOPES[name]()
     problem = problem_of(deformed(rest.V, 0.05), rest, 0.4, form)
     R = np.tile(np.eye(3), (len(rest.V), 1, 1))
     R, states, is_done = active_set_rotations(problem, R, problem.starting(R))
@@ -106,7 +106,9 @@ def test_no_start_leads_to_less_than_the_search_from_many(name):
 def test_every_device_gives_the_shape_of_numpy(name, device):
     V, F = shapes.blob(3)
     options = {"form": POLYTOPES[name](), "orientation": Q}
-    one, other = (stylize(V, F, 0.5, device=which, **options) for which in ("numpy", device))
+    one, other = (
+        stylize(V, F, 0.5, device=which, proxy=PAPER, **options) for which in ("numpy", device)
+    )
     tolerance = by_device(device, 1e-8, 1e-4)
     assert one.energy.total == pytest.approx(other.energy.total, rel=tolerance)
     np.testing.assert_allclose(one.positions, other.positions, atol=by_device(device, 1e-5, 0.01))
@@ -115,7 +117,7 @@ def test_every_device_gives_the_shape_of_numpy(name, device):
 @pytest.mark.thorough(3)
 @forms
 def test_the_energy_never_rises(name):
-    setup = Setup(rest_mesh(*shapes.blob(3)))
+    setup = Setup(rest_mesh(*shapes.blob(3), proxy=PAPER))
     state = Stylization(
         setup,
         Style(0.8, Q, form=POLYTOPES[name]()),
@@ -134,8 +136,10 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
     V, F = shapes.blob(2)
     turn, options = shapes.rotation(40, 50, 60), {"device": "numpy", "tolerance": 1e-5}
     form = POLYTOPES[name]()
-    one = stylize(V, F, 0.5, form=form, **options).positions
-    other = stylize(V @ turn.T, F, 0.5, form=form, orientation=turn.T, **options).positions
+    one = stylize(V, F, 0.5, form=form, proxy=PAPER, **options).positions
+    other = stylize(
+        V @ turn.T, F, 0.5, form=form, orientation=turn.T, proxy=PAPER, **options
+    ).positions
     assert np.abs(other - one @ turn.T).max() < 2e-3 * np.ptp(V)
 
 
@@ -147,7 +151,7 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
 def test_a_ball_becomes_the_form(name):
     V, F = shapes.sphere(5)
     form = POLYTOPES[name]()
-    result = stylize(V, F, 2.0, form=form, max_iterations=3000, tolerance=1e-4)
+    result = stylize(V, F, 2.0, form=form, max_iterations=3000, tolerance=1e-4, proxy=PAPER)
     assert share_facing(result.positions, F, form.normals) > LEAST_FLAT.get(name, 0.85)
 
 
@@ -156,7 +160,7 @@ def test_a_ball_becomes_the_form(name):
 def test_the_exact_form_droops_like_the_ball(name):
     """Why less of a ball faces the sides of these forms: the exact form is far from a minimum."""
     V, F = shapes.sphere(4)
-    setup, form = Setup(rest_mesh(V, F)), POLYTOPES[name]()
+    setup, form = Setup(rest_mesh(V, F, PAPER)), POLYTOPES[name]()
     exact = V / (V @ form.normals.T / form.offsets).max(axis=1)[:, None]
     shares, energies = [share_facing(exact, F, form.normals)], []
     for start in (exact, V):
@@ -177,8 +181,8 @@ def test_the_exact_form_droops_like_the_ball(name):
 @needs_engine
 def test_the_cube_as_a_polytope_is_the_cube():
     V, F = shapes.blob(3)
-    one = stylize(V, F, 0.6)
-    other = stylize(V, F, 0.6, form=POLYTOPES["cube"]())
+    one = stylize(V, F, 0.6, proxy=PAPER)
+    other = stylize(V, F, 0.6, form=POLYTOPES["cube"](), proxy=PAPER)
     assert one.energy.total == pytest.approx(other.energy.total, rel=1e-9)
     np.testing.assert_allclose(one.positions, other.positions, atol=1e-6)
 
@@ -192,7 +196,7 @@ def test_each_vertex_may_have_a_form_of_its_own(device):
     kinds = [POLYTOPES[name]() for name in ("octahedron", "prism of 6")]
     which = np.repeat([0, 1], len(V))
     run_of = Stylization(
-        Setup(rest_mesh(two, both)),
+        Setup(rest_mesh(two, both, PAPER)),
         Style(0.8, form=kinds, form_of=which),
         options=SolverOptions(device=device),
     )
@@ -208,7 +212,7 @@ def test_each_vertex_may_have_a_form_of_its_own(device):
 
 
 def test_rows_that_are_left_go_to_the_admm():
-    rest, form = rest_mesh(*shapes.blob(2)), POLYTOPES["dodecahedron"]()
+    rest, form = rest_mesh(*shapes.blob(2), proxy=PAPER), POLYTOPES["dodecahedron"]()
     lam = np.full(len(rest.V), 0.4)
     U = rest.V * [-1, -1, 1]  # nothing that starts there is certified
     body = polytopes([form], np.zeros(len(rest.V), int))
