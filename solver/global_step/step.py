@@ -17,9 +17,9 @@ from .upright_parts import UprightParts
 FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid: where a run ends as soon with either, and the more of its time
 is set-up, the larger the mesh is; see `docs/benchmarks_explained.md`."""
-SMALL_PARTS, LARGEST_PART, IN_SMALL_PARTS = 200, 10_000, 250_000
-"""vertices of a part in the mean, of the largest one, and of all: what is only linked here and
-there is factorized in little time, and multigrid is far from its solution"""
+SMALL_PARTS, LARGEST_PART, IN_SMALL_PARTS = 200, 10_000, 4
+"""vertices of a part in the mean, of the largest one, and of all as a multiple of the former: what
+is only linked here and there is factorized in little time, and multigrid is far from its solution"""
 _CYCLES = 4
 """of multigrid, in place of the solution"""
 _POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
@@ -178,7 +178,7 @@ def _is_small(topology):
         return True
     count = np.bincount(topology.part)
     is_loose = count.mean() <= SMALL_PARTS and count.max() <= LARGEST_PART
-    return bool(is_loose) and largest <= IN_SMALL_PARTS
+    return bool(is_loose) and largest <= IN_SMALL_PARTS * FACTORIZED_VERTICES
 
 
 def _solver(L, is_held):

@@ -21,6 +21,7 @@ from art_objects import Surface, select, surface_of
 from scipy.sparse import diags
 from scipy.sparse.linalg import splu
 
+import solver
 from solver import method, rest_mesh
 
 PAPER = {**method.PAPER, "keep_symmetric": True, "hold_rest": True}
@@ -163,7 +164,7 @@ def angle_of_the_whole(V, U, F, size=0.06):
     """Return `angle_to_axes` of the surface smoothed over a share of the size: without details."""
     F = measures.welded(V, F)
     F = F[(F[:, 0] != F[:, 1]) & (F[:, 1] != F[:, 2]) & (F[:, 2] != F[:, 0])]
-    rest = rest_mesh(V, F, PAPER)
+    rest = rest_mesh(V, F, solver.PAPER)
     normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
     sums = np.zeros((len(V), 3))
     for corner in F.T:

@@ -24,6 +24,7 @@ from solver import (
     stylize,
 )
 from solver.console import method_options
+from solver.method import IN_LIBRARY
 from solver.styles import forms
 
 FIXED = {"proxy": PAPER, "max_iterations": 40, "tolerance": 1e-12}
@@ -227,7 +228,8 @@ def test_a_run_that_has_come_to_its_end_is_not_cancelled(device):
 def test_by_default_all_is_as_in_the_extension():
     V, F = shapes.blob(2)
     plain = stylize(V, F, device="numpy")
-    given = {name: values[0] for name, values in method_options.DEFAULTS.items()}
+    defaults = method_options.defaults(*IN_LIBRARY)
+    given = {name: values[0] for name, values in defaults.items()}
     proxy = {name: given[name] for name in ("solidity", "detail")}
     proxy |= {name: given[name] in ("on", "auto") for name in ("keep_pose", "keep_apart", "refine")}
     style = {name: given[name] for name in ("crispness", "detail_strength")}
