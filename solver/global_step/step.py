@@ -18,7 +18,7 @@ FACTORIZED_VERTICES = 60_000
 """Larger components get multigrid: where a run ends as soon with either, and the more of its time
 is set-up, the larger the mesh is; see `docs/benchmarks_explained.md`."""
 SMALL_PARTS, LARGEST_PART, IN_SMALL_PARTS = 200, 10_000, 4
-"""vertices of a part in the mean, of the largest one, and of all as a multiple of the above: what is
+"""vertices of a part in the mean, of the largest one, and of all as a multiple of that: what is
 only linked here and there is factorized in little time, and multigrid is far from its solution"""
 _CYCLES = 4
 """of multigrid, in place of the solution"""
