@@ -315,7 +315,7 @@ class Run:
         self._phase = self._local_step
 
     def _finish(self, apart: KeepApart) -> None:
-        apart.finish(self.stylization)
+        self.stylization = apart.finish(self.stylization)
         self._harden_or_end()
 
     def _harden_or_end(self) -> None:

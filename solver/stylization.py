@@ -394,6 +394,14 @@ class Stylization(Stored):
         assert self.energy is not None  # the local step has set it
         return self.energy
 
+    def energy_at_rest(self) -> Energy:
+        """Return the Energy of the rest shape; the state stays as it is, but for its momentum."""
+        energy, R, U = self.energy, self.rotations.copy(), self.positions.copy()
+        self.go_to(np.tile(np.eye(3), (len(U), 1, 1)), self.rest.V)
+        at_rest, _ = self.finish(), self.go_to(R, U)
+        self.energy = energy
+        return at_rest
+
     def energy_of(self, positions: ArrayLike, steps: int = 20) -> Energy:
         """Return the Energy of a given shape, with rotations that fit it.
 

@@ -8,16 +8,21 @@ the few that a round has left and pushing does not part: another round hardly do
 add a term to the energy, so it falls in every step of a round. A round costs much more than to
 push, so what a round has left is pushed first if it is not much, and often nearly all parts.
 
+A round that takes back more of the style than the crossings are worth, between parts, is taken back
+itself: links between all the parts of a figure can leave it nearly as round as it was.
+
 Cards, such as hair, give way: links would hold what they are on, and a head of a thousand cards
 would stay round. At the end, they ride on it if some cross it (`riding.py`). That they cross each
 other does not count.
 """
 
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
+from ..global_step.upright_parts import HELD
 from ..proxy.links import no_links
 from .crossings import crossings
 from .gaps import Gaps
@@ -35,6 +40,11 @@ LEFT = 1.0 / 200.0
 """of the triangles: so few of those that a round has left are pushed apart before another round"""
 HELPED = 0.5
 """share of the pairs that cross between which there must be links, or a round would be in vain"""
+WORTH = 0.05, 1.0
+"""how much of the fall of the cubic energy a round may take back, and how much more by the share of
+the triangles that cross before it"""
+BETWEEN = 0.8
+"""share of the pairs that have to be of two parts, or each round is worth it"""
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
 
@@ -50,6 +60,15 @@ class _State:
     U: FloatArray
     R: FloatArray
     is_pushed: bool = False
+
+
+class _Before(NamedTuple):
+    """What the first round begins from, until it has been judged."""
+
+    stylization: Any
+    state: _State
+    fall: float
+    """of the cubic energy, from rest"""
 
 
 class KeepApart:
@@ -73,6 +92,7 @@ class KeepApart:
         self._now: _State | None = None
         self._best: _State | None = None
         self._progress = 0, 0
+        self._before: _Before | None = None
         self._at_end = np.empty(0, np.intp)
         self._crossing = np.empty((0, 2), np.intp)
         self.crossings, self.vertices = 0, np.empty(0, np.intp)
@@ -85,6 +105,8 @@ class KeepApart:
         self._crossing = self._new(stylization.positions)
         pairs = self._firm(self._crossing)
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
+        if self._before is not None:  # parts may cross: to leave them soft would not be worth it
+            pairs = pairs[~self._are_of_two_parts(pairs)]
         return np.unique(self._shown[pairs])
 
     def check(self, stylization):
@@ -93,6 +115,11 @@ class KeepApart:
         pairs = self._new(U)
         now = self._now = _State(self._count(pairs), pairs, U.copy(), R.copy())
         self._keep(now)
+        if self._before is not None:
+            if self._is_too_dear(stylization, self._before):
+                self._best = self._before.state
+                return False
+            self._before = None
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
         self._progress = progress
@@ -124,12 +151,18 @@ class KeepApart:
             if self._share_linked(some, found) < least:
                 return None
         found = mirrored(found, stylization.setup.mirrors)
+        if not self._rounds and self._are_of_two_parts(pairs).mean() > BETWEEN:
+            fall = stylization.energy_at_rest().cubic - stylization.energy.cubic
+            self._before = _Before(stylization, self._now, fall)
         self._links = merged(self._links, found)
         self._rounds += 1
         return stylization.continued(stylization.setup.linked(self._rest, self._links))
 
     def finish(self, stylization):
-        """Go to the best state, and push apart what still crosses there."""
+        """Return the Stylization in the best state, with what still crosses there pushed apart."""
+        if self._before is not None:
+            self._before.stylization.iterations = stylization.iterations
+            stylization = self._before.stylization
         best = self._best_so_far()
         if best.count and not best.is_pushed:
             self._push(best, stylization)
@@ -137,6 +170,7 @@ class KeepApart:
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
         self._at_end, self._crossing = np.unique(best.pairs), best.pairs
+        return stylization
 
     def conclude(self, stylization):
         """Return the Stylization at the end, in which cards ride where some cross what is none.
@@ -158,6 +192,21 @@ class KeepApart:
         self.crossings = len(np.unique(crossing))
         self.vertices = np.unique(self._rest.triangles[crossing])
         return stylization
+
+    def _are_of_two_parts(self, pairs):
+        """Return which pairs (k,2) are of two parts, neither of which is worn by others.
+
+        Fingers that cross, or a skin that comes through a shirt, are worse than a wing in a body.
+        """
+        one, other = self._rest.topology.part[self._shown[pairs, 0]].T
+        is_worn = self._rest.linked_share >= HELD
+        return (one != other) & ~is_worn[one] & ~is_worn[other]
+
+    def _is_too_dear(self, stylization, before):
+        """Return whether the first round has taken back too much of what the style had done."""
+        least, by_share = WORTH
+        worth = least + by_share * before.state.count / len(self._shown)
+        return stylization.energy.cubic - before.stylization.energy.cubic > worth * before.fall
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""

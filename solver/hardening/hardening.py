@@ -4,6 +4,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.samples import extents
@@ -20,6 +21,8 @@ THIN = 0.4, 0.8
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
 """of vertices around what has come to cross that stay soft, and as many that are between"""
+SOFT = 0.01, 0.03
+"""of the size: distances from it within which vertices stay soft, and beyond which they do not"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
@@ -71,6 +74,9 @@ class Hardening:
         count = np.diff(rest.skin.indptr)
         for _ in range(RINGS):
             share = (near @ share) / count
+        least, most = SOFT
+        far = KDTree(self.soft[vertices]).query(self.soft, distance_upper_bound=most)[0]
+        share = np.minimum(share, np.clip((most - far) / (most - least), 0.0, 1.0))
         share[vertices] = 1.0
         soft = self.soft + share[:, None] * (self.solved - self.soft)
         return replace(self, soft=soft, crispness=self.crispness * (1.0 - share))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hair gives way: it does not keep a head round, and does not go below its skin."""
+"""What may cross: hair gives way to a head, and parts where they would stay round."""
 
 import numpy as np
 import pytest
@@ -50,6 +50,31 @@ def test_a_head_becomes_as_cubic_as_without_keep_apart(crispness):
     assert kept < free + 0.3
     before, after = (_below(result.positions, n, head[1]) for result in results)
     assert after < 0.4 * before + 2
+
+
+def test_parts_may_cross_where_a_round_would_cost_more_style_than_it_saves():
+    """An egg with a head, wings, feet and the brim of a hat, all of them close to each other."""
+    ball, faces = uv_sphere(32, 16)
+    sizes = [(0.7, 0.6, 0.95), (0.58, 0.55, 0.52)] + 2 * [(0.14, 0.28, 0.6), (0.2, 0.33, 0.12)]
+    places = [(0, 0, 1), (0, 0, 2.25), (-0.76, 0.05, 1.2), (-0.3, -0.15, 0.12)]
+    places += [(0.76, 0.05, 1.2), (0.3, -0.15, 0.12)]
+    parts = [(ball * size + place, faces) for size, place in zip(sizes, places, strict=True)]
+    V, F = joined(*parts, ring(0.6, 0.09, 2.62))
+    free, kept = (
+        angle_to_axes(stylize(V, F, proxy=ProxyOptions(keep_apart=kept)).positions, F)
+        for kept in (False, True)
+    )
+    assert kept < free + 0.5
+
+
+def ring(radius, thickness, height, count=40, around=12):
+    i, j = (x.ravel() for x in np.indices((count, around)))
+    a, b = 2.0 * np.pi * i / count, 2.0 * np.pi * j / around
+    far = radius + thickness * np.cos(b)
+    V = np.stack([far * np.cos(a), far * np.sin(a), height + thickness * np.sin(b)], axis=1)
+    ahead, up = (i + 1) % count * around, (j + 1) % around
+    corners = [i * around + j, ahead + j, ahead + up, i * around + up]
+    return V, np.concatenate([np.stack([corners[k] for k in t], 1) for t in ((0, 1, 2), (0, 2, 3))])
 
 
 def _below(U, n, F):
