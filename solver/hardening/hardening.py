@@ -21,7 +21,7 @@ THIN = 0.4, 0.8
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
 """of vertices around what has come to cross that stay soft, and as many that are between"""
-SOFT = 0.01, 0.03
+SOFT = 0.02, 0.05
 """of the size: distances from it within which vertices stay soft, and beyond which they do not"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
