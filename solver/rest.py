@@ -15,6 +15,7 @@ from .coarse_to_fine.contraction import contract
 from .contacts.crossings import CrossingTriangles
 from .inputs import real_numbers
 from .limbs import Limbs, limbs_of_shape, with_coverings, without_shells
+from .limbs.covering import COVERING
 from .mesh.face_graph import FaceGraph
 from .mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
@@ -281,6 +282,11 @@ class RestMesh(Value):
         is_linked[links.vertices[is_end]] = True
         area = np.bincount(part, self.areas)
         return np.bincount(part, self.areas * is_linked) / np.where(area > 0.0, area, 1.0)
+
+    @property
+    def is_worn(self) -> BoolArray:
+        """(p,) bool, parts that are linked to others in so much of their area that these lead."""
+        return self.linked_share >= COVERING
 
     @cached_property
     def shown(self) -> NDArray[np.int32]:

@@ -22,7 +22,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
-from ..global_step.upright_parts import HELD
 from ..proxy.links import no_links
 from .crossings import crossings
 from .gaps import Gaps
@@ -199,7 +198,7 @@ class KeepApart:
         Fingers that cross, or a skin that comes through a shirt, are worse than a wing in a body.
         """
         one, other = self._rest.topology.part[self._shown[pairs, 0]].T
-        is_worn = self._rest.linked_share >= HELD
+        is_worn = self._rest.is_worn
         return (one != other) & ~is_worn[one] & ~is_worn[other]
 
     def _is_too_dear(self, stylization, before):

@@ -9,6 +9,9 @@ there, in the cells of a grid.
 
 import numpy as np
 
+from ..mesh.overlaps import entries
+from ..styles.hulls import spiral
+
 DIRECTIONS = 32
 """evenly over the sphere"""
 _MOST_CELLS = 512  # of a side of the grid
@@ -29,10 +32,7 @@ def shown(V, F, pairs):
         return is_shown
     points = _meeting_points(V, F, pairs)
     size = float(np.ptp(V, axis=0).max())
-    k = np.arange(DIRECTIONS) + 0.5
-    z, angle = 1.0 - 2.0 * k / DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * k
-    flat = np.sqrt(1.0 - z * z)
-    for direction in np.column_stack([flat * np.cos(angle), flat * np.sin(angle), z]):
+    for direction in spiral(DIRECTIONS):
         rows = np.flatnonzero(~is_shown)
         if not len(rows):
             break
@@ -92,7 +92,8 @@ def _is_blocked(V, points, F, pairs, least):
     (x, y), (right, top) = first.T, (last + 1).T
     inside = count[right, top] - count[x, top] - count[right, y] + count[x, y]
     near = np.flatnonzero((inside > 0) & (corners[:, :, 2].max(axis=1) > points[:, 2].min()))
-    triangle, of_cell = _cells(near, first[near], last[near], side)
+    box, (column, row) = entries(first[near].T, last[near].T)
+    triangle, of_cell = near[box], column * side + row
     number = cell[:, 0] * side + cell[:, 1]
     order = np.argsort(number, kind="stable")
     begin = np.searchsorted(number[order], of_cell)
@@ -106,16 +107,6 @@ def _is_blocked(V, points, F, pairs, least):
     is_blocked = np.zeros(len(points), dtype=bool)
     is_blocked[point[is_above]] = True
     return is_blocked
-
-
-def _cells(triangles, first, last, side):
-    """Return triangles (e,), each as often as it has cells, and these (e,)."""
-    wide, high = (last - first + 1).T
-    times = wide * high
-    at = np.repeat(np.arange(len(triangles)), times)
-    within = np.arange(len(at)) - np.repeat(np.cumsum(times) - times, times)
-    x, y = first[at, 0] + within // high[at], first[at, 1] + within % high[at]
-    return triangles[at], x * side + y
 
 
 def _height(corners, points):

@@ -24,8 +24,6 @@ from .tall_products import tall_product, weighted_sum
 
 LARGE = 0.05
 """extent of a part whose rotation is kept, relative to that of its component"""
-HELD = 0.6
-"""share of the area of a part that is linked to others; with more, these determine its rotation"""
 MOST_PARTS = 32
 """in a component; of more, those that stand out"""
 STAND_OUT = 1.5
@@ -105,7 +103,7 @@ def _large_parts(rest, is_free):
     of_part = np.zeros(len(size), np.int64)
     of_part[part] = component
     is_large = is_free[of_part] & (size >= LARGE * extents(rest.V, component)[of_part])
-    is_large &= rest.linked_share < HELD
+    is_large &= ~rest.is_worn
     counts = np.bincount(of_part[is_large], minlength=len(is_free))
     vertices = np.bincount(component, minlength=len(is_free))
     groups, memory = {}, 0

@@ -8,7 +8,7 @@ from scipy.spatial import KDTree
 from .limbs import Limbs
 
 COVERING = 0.6
-"""share of the area of a part that is linked to others; with more, it lies as these do"""
+"""share of the area of a part that is linked to others; with more, it lies and turns as these do"""
 _PASSES = 2  # a button on a sleeve on an arm
 _APART = 10.0  # farther than any part is wide
 

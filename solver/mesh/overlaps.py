@@ -62,7 +62,7 @@ def near(low, high, is_chosen):
     low, high, *chosen = (corner >> BITS - level for corner in (low, high, *chosen))
     side = (1 << level) + 1
     before = np.zeros((side, side, side), dtype=np.int32)
-    before[tuple(_entries(*chosen)[1] + 1)] = 1
+    before[tuple(entries(*chosen)[1] + 1)] = 1
     for axis in range(3):  # cells of chosen boxes below each corner of the grid
         np.cumsum(before, axis=axis, out=before)
     count = np.zeros(low.shape[1], dtype=np.int32)
@@ -118,7 +118,7 @@ def _on_grid(corner):
 def _leaves(low, high):
     """Yield the Cells of all levels in which boxes are to be compared."""
     level = _first_level(low, high)
-    cells = _Cells(*_entries(low >> BITS - level, high >> BITS - level), level)
+    cells = _Cells(*entries(low >> BITS - level, high >> BITS - level), level)
     while True:
         is_full = cells.counts > MANY
         if level == BITS or not is_full.any():
@@ -145,15 +145,15 @@ def _first_level(low, high):
     return level
 
 
-def _entries(first, last):
-    """Return the box (e,) and the cell (3,e) of every cell from first to last (3,m)."""
+def entries(first, last):
+    """Return the box (e,) and the cell (d,e) of every cell from first to last (d,m)."""
     spans = last - first + 1
     count = spans.prod(axis=0)
     box = np.repeat(np.arange(len(count), dtype=np.int32), count)
     number = np.arange(len(box)) - np.repeat(np.cumsum(count) - count, count)
     number = number.astype(np.int32)
-    corner = np.empty((3, len(box)), dtype=np.int32)
-    for axis in (2, 1, 0):
+    corner = np.empty((len(spans), len(box)), dtype=np.int32)
+    for axis in reversed(range(len(spans))):
         number, corner[axis] = np.divmod(number, spans[axis].take(box))
         corner[axis] += first[axis].take(box)
     return box, corner
@@ -164,7 +164,7 @@ def _split(cells, low, high):
     shift = BITS - cells.level - 1
     first = np.maximum(low[:, cells.box] >> shift, 2 * cells.corner)
     last = np.minimum(high[:, cells.box] >> shift, 2 * cells.corner + 1)
-    entry, corner = _entries(first, last)
+    entry, corner = entries(first, last)
     halves = _Cells(entry, corner, cells.level + 1)
     parent = np.repeat(np.arange(len(cells.counts)), cells.counts)
     start, _ = halves.bounds

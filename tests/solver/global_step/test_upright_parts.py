@@ -9,7 +9,7 @@ from devices import by_device
 from procrustes import best_rotation
 
 from solver import ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
-from solver.global_step.upright_parts import HELD
+from solver.limbs.covering import COVERING
 
 
 def solid(*outline, sides=20):
@@ -169,7 +169,7 @@ def test_several_do_as_each_would_alone():
 def test_a_shirt_follows_what_it_covers():
     rest = rest_mesh(*proxy_shapes.blob_with_shirt(), ProxyOptions())
     body, shirt = rest.linked_share
-    assert body < HELD < shirt
+    assert body < COVERING < shirt
 
 
 def test_a_part_that_is_pinned_frees_the_others():
