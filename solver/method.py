@@ -139,7 +139,7 @@ class Kept:
     keep_apart: bool = setting(True, paper=False, in_animation=False)(
         "Keep Apart",
         "Keep surfaces from growing into each other, such as fingers side by side. Those that"
-        " already cross are not changed by this",
+        " already cross are not changed by this, and parts that would stay round may cross",
         "whether surfaces that do not cross are kept from crossing",
     )
     together: str = setting("SELECTION", paper="OFF", is_of_all_frames=True)(
