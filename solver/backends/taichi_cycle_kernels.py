@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The V-cycle of `multigrid.py` as a Taichi kernel, in 32 bit: one thread per row.
+"""The V-cycles of `multigrid.py` as Taichi kernels, in 32 bit: one thread per row.
 
 To import this imports the engine. Vectors have a fourth, unused coordinate:
 four of them are read at once, which takes half the time of three. Sums run in a fixed order.
@@ -12,6 +12,26 @@ from types import SimpleNamespace
 
 from .engine import ti
 
+vec = ti.types.vector(4, ti.f32)
+values = ti.types.ndarray(dtype=ti.f32, ndim=1)
+integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
+vectors = ti.types.ndarray(dtype=vec, ndim=1)
+
+
+@ti.func
+def row(
+    indptr: ti.template(),
+    indices: ti.template(),
+    data: ti.template(),
+    X: ti.template(),
+    i: ti.i32,
+):
+    """Return row i of the product of a matrix and X."""
+    total = vec(0.0)
+    for entry in range(indptr[i], indptr[i + 1]):
+        total += data[entry] * X[indices[entry]]
+    return total
+
 
 def make_cycle(level_count):
     """Return the kernel for so many levels above the coarsest.
@@ -19,26 +39,9 @@ def make_cycle(level_count):
     Rows of all levels follow each other. The matrices of the levels are scaled to a diagonal of
     ones; `starts` says where the rows of each begin, and where those of the last end.
     """
-    vec = ti.types.vector(4, ti.f32)
-    values = ti.types.ndarray(dtype=ti.f32, ndim=1)
-    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
-    vectors = ti.types.ndarray(dtype=vec, ndim=1)
     square = ti.types.ndarray(dtype=ti.f32, ndim=2)
     per_level = ti.types.vector(level_count + 1, ti.f32)
     bounds = ti.types.vector(level_count + 2, ti.i32)
-
-    @ti.func
-    def row(
-        indptr: ti.template(),
-        indices: ti.template(),
-        data: ti.template(),
-        X: ti.template(),
-        i: ti.i32,
-    ):
-        total = vec(0.0)
-        for entry in range(indptr[i], indptr[i + 1]):
-            total += data[entry] * X[indices[entry]]
-        return total
 
     @ti.kernel
     def cycle(
@@ -87,10 +90,6 @@ def make_cycle(level_count):
 
 def make_refining_kernels():
     """Return the kernels that come between V-cycles in a row, and after the last."""
-    vec = ti.types.vector(4, ti.f32)
-    values = ti.types.ndarray(dtype=ti.f32, ndim=1)
-    integers = ti.types.ndarray(dtype=ti.i32, ndim=1)
-    vectors = ti.types.ndarray(dtype=vec, ndim=1)
 
     @ti.kernel
     def add(
@@ -105,10 +104,7 @@ def make_refining_kernels():
     ):
         """Add a correction to the sum; leave in B what it leaves to the next cycle."""
         for i in range(count):
-            image = vec(0.0)
-            for entry in range(indptr[i], indptr[i + 1]):
-                image += data[entry] * X[indices[entry]]
-            B[i] -= weight * image
+            B[i] -= weight * row(indptr, indices, data, X, i)
             total[i] += weight * X[i]
 
     @ti.kernel

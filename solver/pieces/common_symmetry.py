@@ -152,9 +152,8 @@ def _is_even(pieces, plane):
 
 def _are_images(one, other, linear):
     """Return whether the form of one piece is the image of that of another."""
-    for piece in (one, other):
-        if piece.region_shares is not None or any(handle.is_moved for handle in piece.handles):
-            return False
+    if one.may_lose_symmetry or other.may_lose_symmetry:
+        return False
     first, second = one.placement.style, other.placement.style
     if (first.form and first.form.key) != (second.form and second.form.key):
         return False

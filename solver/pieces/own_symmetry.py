@@ -32,9 +32,7 @@ def with_own_symmetry(piece: T, up: FloatArray | None = None) -> T:
     not symmetric. One with a symmetry that was asked for stays as it is.
     """
     whole = piece.whole
-    if whole.matching is not None or piece.region_shares is not None:
-        return piece
-    if any(handle.is_moved for handle in piece.handles):
+    if whole.matching is not None or piece.may_lose_symmetry:
         return piece
     axes = tuple(
         is_symmetric and is_own_image(flip(axis), piece.placement, up)

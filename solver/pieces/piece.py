@@ -120,6 +120,12 @@ class Piece:
             return np.zeros(self.vertices, dtype=bool)
         return np.broadcast_to(np.asarray(self.map_weights) == 0.0, self.vertices)
 
+    @property
+    def may_lose_symmetry(self) -> bool:
+        """Whether regions or a moved handle may make it other than its rest shape is."""
+        is_moved = any(handle.is_moved for handle in self.handles)
+        return is_moved or self.region_shares is not None
+
     def read_back(
         self,
         positions: FloatArray,
