@@ -35,7 +35,7 @@ setup: $(VENV)/.done ## Make the virtual environment .venv, with Blender as a Py
 $(VENV)/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found, for which bpy modules are built;" \
 		"set it: make PYTHON=path/to/python3.13"; exit 1; }
-	$(PYTHON) -m venv $(VENV)
+	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/package.txt \
 		-r requirements/blender-newest.txt
 	@touch $@
@@ -82,7 +82,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
-	$(PYTHON311) -m venv $(VENV)-oldest
+	$(PYTHON311) -m venv --clear $(VENV)-oldest
 	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
@@ -94,7 +94,7 @@ test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of
 
 $(VENV)-quadrants/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }
-	$(PYTHON) -m venv $(VENV)-quadrants
+	$(PYTHON) -m venv --clear $(VENV)-quadrants
 	$(VENV)-quadrants/bin/python $(PIP) -r requirements/dev.txt \
 		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
 	$(VENV)-quadrants/bin/python -m pip uninstall --quiet --yes taichi
@@ -136,7 +136,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 		CUBIC_CRAFT_PACKAGES=dist/packages $(PY) $(PYTEST) tests/packages/test_installed.py
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
-	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv $(VENV)-bare-$*
+	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv --clear $(VENV)-bare-$*
 	$(VENV)-bare-$*/bin/python $(PIP) -r $<
 	@touch $@
 
@@ -173,7 +173,7 @@ wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in
 	$(VENV)-wheel/bin/python -m build --no-isolation --outdir dist
 
 $(VENV)-wheel/.done: requirements/wheel.txt
-	$(PYTHON) -m venv $(VENV)-wheel
+	$(PYTHON) -m venv --clear $(VENV)-wheel
 	$(VENV)-wheel/bin/python $(PIP) -r $<
 	@touch $@
 
@@ -219,7 +219,7 @@ docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; 
 	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
 
 $(VENV)-docs/.done: requirements/docs.txt
-	$(PYTHON) -m venv $(VENV)-docs
+	$(PYTHON) -m venv --clear $(VENV)-docs
 	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
 	@touch $@
 

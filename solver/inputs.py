@@ -159,7 +159,7 @@ def refuse_mask(values: Any, name: str) -> None:
 def _short(value: Any) -> str:
     """Return a number as it is written, and what anything else is."""
     is_number = isinstance(value, bool | int | float | np.generic)
-    return str(value) if is_number else _kind(value)
+    return f"{value}" if is_number else _kind(value)
 
 
 def _kind(value: Any) -> str:

@@ -47,7 +47,7 @@ def common_planes(pieces: Sequence[Piece], rest: "RestMesh") -> tuple[Mirror, ..
     found = []
     for number in range(figure.max() + 1):
         chosen = np.flatnonzero(figure == number)
-        own = [pieces[k] for k in chosen]
+        own = [pieces[k] for k in chosen.tolist()]
         if any(piece.whole.matching is not None for piece in own):
             continue  # what was asked for is enough
         rows = np.flatnonzero(figure[of_vertex] == number)
