@@ -6,17 +6,25 @@ The docstrings it is made of lie in ``solver/``, which the wheel calls ``cubic_c
 
 import re
 
-PAGE = "api.md"
+FOLDER = "api/"
 _NAME = re.compile(
     r'(<span class="kn">from</span>\s*(?:<span class="w"> </span>)?<span class="nn">)solver\b'
 )
+_renamed = []
 
 
 def on_page_content(html, page, **_):
     """Give the package the name of the wheel."""
-    if page.file.src_uri != PAGE:
+    if not page.file.src_uri.startswith(FOLDER):
         return html
     html, count = _NAME.subn(r"\1cubic_craft", html)
-    if not count:
-        raise ValueError(f"no example of {PAGE} imports the solver; has the highlighting changed?")
+    _renamed.extend([page.file.src_uri] * bool(count))
     return html
+
+
+def on_post_build(**_):
+    """See that there were any."""
+    if not _renamed:
+        raise ValueError(
+            f"no example of {FOLDER} imports the solver; has the highlighting changed?"
+        )

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A hook of MkDocs: each name of the solver reference has a page of its own.
+
+The page ``docs/api.md`` has them in sections. On the site it is their list, each with the first
+sentence of its docstring.
+"""
+
+import ast
+import re
+from functools import cache
+from pathlib import Path
+
+from mkdocs.structure.files import File  # pyright: ignore[reportMissingImports]
+
+ROOT = Path(__file__).resolve().parents[2]
+LIST = "api.md"
+FOLDER = "api/"
+_NAME = re.compile(r"^::: ([\w.]+)\.(\w+)\n(?! )", re.MULTILINE)  # constants have options below
+
+
+def on_config(config):
+    """Put the pages below their list."""
+    config.nav = _with_pages(config.nav)
+    return config
+
+
+def on_files(files, config):
+    """Add the pages."""
+    for page, names in _pages().items():
+        texts = [
+            f"::: {module}.{name}\n    options:\n      heading_level: 1\n" for module, name in names
+        ]
+        files.append(File.generated(config, page, content="\n".join(texts)))
+    return files
+
+
+def on_page_markdown(markdown, page, **_):
+    """Let the list lead to the pages."""
+    if page.file.src_uri != LIST:
+        return markdown
+    return _NAME.sub(
+        lambda found: f"- [`{found[2]}`]({_page(found[2])}): {_summary(*found.groups())}", markdown
+    )
+
+
+@cache
+def _pages():
+    """Return the names of each page, as pairs of module and name."""
+    pages = {}
+    for module, name in _NAME.findall((ROOT / "docs" / LIST).read_text(encoding="utf-8")):
+        pages.setdefault(_page(name), []).append((module, name))
+    return pages
+
+
+def _page(name):
+    """Return the page of a name; `run` and `Run` would be one file on many disks, and share it."""
+    return f"{FOLDER}{name.lower()}.md"
+
+
+def _with_pages(nav):
+    """Return a navigation, in which the pages stand below their list."""
+    if isinstance(nav, list):
+        return [_with_pages(entry) for entry in nav]
+    if not isinstance(nav, dict):
+        return nav
+    ((title, below),) = nav.items()
+    if below != LIST:
+        return {title: _with_pages(below)}
+    pages = [{", ".join(name for _, name in names): page} for page, names in _pages().items()]
+    return {title: [LIST, *pages]}
+
+
+def _summary(module, name):
+    """Return the first sentence of a docstring, in one line."""
+    text = ROOT.joinpath(*module.split(".")).with_suffix(".py").read_text(encoding="utf-8")
+    for node in ast.parse(text).body:
+        if isinstance(node, ast.ClassDef | ast.FunctionDef) and node.name == name:
+            return " ".join((ast.get_docstring(node) or "").split("\n\n")[0].split())
+    raise ValueError(f"{module} has no {name}, which docs/{LIST} names")
