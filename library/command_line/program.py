@@ -12,6 +12,7 @@ from typing import Any
 
 from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
+from solver.console.process_memory import peak_gb
 from solver.console.report import DONE, FAILED, LINES, BatchReport, counts_of, in_words
 from solver.console.temporary import replacing, temporary_folder
 
@@ -185,6 +186,7 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
     numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
     about = {
         "seconds": seconds,
+        "peak_gb": peak_gb(),  # of all until now, as they share a process
         "vertices": len(file.surface.points),
         "faces": file.surface.face_count,
         "iterations": result.iterations,

@@ -96,6 +96,7 @@ def test_a_folder_and_its_report(suffix, tmp_path):
         found = whole["files"]
     assert [each["status"] for each in found] == ["done", "failed"]
     assert (found[0]["vertices"], found[0]["outputs"]) == (42, ["out/a.ply"])
+    assert found[0]["peak_gb"] > 0.01
     assert "no .ply file" in found[1]["error"]
 
 

@@ -30,8 +30,8 @@ COMMAND_LINE = "cubic_craft_addon/command_line"
 ALLOWED = {
     (f"{COMMAND_LINE}/batch/task.py", "subprocess"),  # the command itself, once per file
     (f"{COMMAND_LINE}/process/watched_process.py", "subprocess"),  # the same, within limits
-    (f"{COMMAND_LINE}/process/memory.py", "subprocess"),  # ps, where there is no /proc
-    (f"{COMMAND_LINE}/process/memory.py", "ctypes"),  # asks Windows what a process has
+    ("solver/console/process_memory.py", "subprocess"),  # ps, where there is no /proc
+    ("solver/console/process_memory.py", "ctypes"),  # asks Windows what a process has
     (f"{COMMAND_LINE}/trust/trial.py", "subprocess"),  # Blender, which reads a file first
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("solver/optional_packages.py", "import_module"),  # packages named in our code

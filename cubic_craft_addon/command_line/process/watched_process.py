@@ -11,7 +11,7 @@ import threading
 import time
 from typing import Any, NamedTuple
 
-from .memory import GIGABYTE, memory_of, peak_gb
+from ....solver.console.process_memory import GIGABYTE, memory_of, peak_gb
 
 __all__ = ("Limits", "end_processes", "finish", "start")
 

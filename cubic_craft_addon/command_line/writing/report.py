@@ -12,11 +12,11 @@ import bpy
 import numpy as np
 
 from ....solver.console.method_options import names_of_options
+from ....solver.console.process_memory import peak_gb
 from ....solver.console.report import write_json
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.engine_notes import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.memory import peak_gb
 from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
