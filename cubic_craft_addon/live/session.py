@@ -17,7 +17,16 @@ from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
 from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL
-from . import cancelled_settings, elsewhere, handlers, poses, properties, status_bar, wake
+from . import (
+    cancelled_settings,
+    elsewhere,
+    handlers,
+    meshes,
+    poses,
+    properties,
+    status_bar,
+    wake,
+)
 from .followed_mesh import FollowedMesh
 from .follower import remove_left
 from .following import Following
@@ -88,10 +97,7 @@ class Session:
         self._following = Following(self._runs)
         self._plan = Plan()
         self._plan.renew(objects)
-        seen = set()
-        for task in self._plan.tasks.values():
-            self.meshes.append(_mesh_for(task, seen))
-            seen.add(task.mesh)
+        self.meshes = meshes.meshes_for(self._plan.tasks.values())
         self._restart_changed()
         if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))
@@ -162,10 +168,7 @@ class Session:
 
     def mesh_of(self, obj: bpy.types.Object) -> LiveMesh | None:
         """Return the run of an object, or of the mesh that it shares."""
-        uid = obj.data.session_uid
-        candidates = [mesh for mesh in self.meshes if uid in (mesh.mesh_uid, mesh.shown_uid)]
-        own = [mesh for mesh in candidates if mesh.object_uid == obj.session_uid]
-        return next(iter(own + candidates), None)
+        return meshes.mesh_of(self.meshes, obj)
 
     def on(self, event: Event) -> None:
         """Process an event and carry out the actions of the state machine."""
@@ -207,9 +210,8 @@ class Session:
     def on_undo(self) -> None:
         """Record that Blender has undone or redone a step."""
         # Undo steps from before Live have no preview on their meshes; those pushed since do.
-        pairs = self._pairs_of(self._objects(bpy.context))
-        meshes = [mesh.shows_on(obj) for mesh, obj in pairs]
-        self._history.record_undo(any(mesh_bridge.has_preview(mesh) for mesh in meshes))
+        has_preview = meshes.has_preview(self.meshes, self._objects(bpy.context))
+        self._history.record_undo(has_preview)
         self._is_undone = True
         self.on(Event.UNDONE)
 
@@ -259,7 +261,7 @@ class Session:
             self.tick(context)
 
     def _tick(self, objects):
-        self._drop_lost(objects)
+        self.meshes = meshes.still_there(self.meshes, objects)
         followers = [obj for mesh in self.meshes if (obj := mesh.follower()) is not None]
         if not self.meshes:
             self.on(Event.LOST)
@@ -353,24 +355,10 @@ class Session:
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
 
     def _restart_changed(self):
-        self._show_on_others()
+        meshes.suit(self.meshes, self._plan)
         self._runs.restart_changed(self._plan.groups, self.meshes)
         if self.is_following:
             self._has_written |= self._reads_edit_mode()
-
-    def _show_on_others(self):
-        """Show results on followers, or on the objects themselves, as the setting is now."""
-        seen = set()
-        for mesh, task in self._plan.pairs(self.meshes):
-            may_be_written = task.is_followed or task.obj.mode in MODES
-            if may_be_written and not mesh.suits(task):  # else the next tick ends it
-                mesh_bridge.end_preview(task.mesh)
-                mesh.discard()
-                other = _mesh_for(task, seen)
-                other.take_over(mesh)
-                self.meshes[self.meshes.index(mesh)] = other
-                other.begin_preview(task.obj, self._sources)
-            seen.add(task.mesh)
 
     def _is_changed_at_rest(self, objects):
         """Check a last time: the confirmed shape must match the settings.
@@ -406,15 +394,11 @@ class Session:
             self._runs.restart_painted(self._plan.groups, self.meshes)
         if self._runs.is_changed(self._plan.groups):
             self._restart_changed()
-        self._begin_previews()
+        meshes.begin_previews(self.meshes, self._plan)
 
     def _show_again(self):
         self._plan_anew()
-        self._begin_previews()
-
-    def _begin_previews(self):
-        for mesh, task in self._plan.pairs(self.meshes):
-            mesh.begin_preview(task.obj, self._sources)
+        meshes.begin_previews(self.meshes, self._plan)
 
     def _complete(self):
         with elsewhere.waiting(self._window):
@@ -465,10 +449,6 @@ class Session:
 
     # -- helpers -----------------------------------------------------------------------------------
 
-    @property
-    def _sources(self):
-        return [task.obj for task in self._plan.tasks.values()]
-
     def _objects(self, context):
         """Return the objects that still exist, by ``session_uid``, the active one first."""
         uids = set(self._object_uids)
@@ -484,27 +464,6 @@ class Session:
 
     def _plan_anew(self):
         self._plan.renew(list(self._objects(bpy.context).values()))
-
-    def _drop_lost(self, objects):
-        """Drop the meshes of objects that are gone; the follower of one stays, as a result."""
-        for mesh in self.meshes:
-            if isinstance(mesh, FollowedMesh) and mesh.object_uid not in objects:
-                mesh.leave()
-        self.meshes = [
-            mesh
-            for mesh in self.meshes
-            if mesh.object_uid in objects
-            and not (isinstance(mesh, FollowedMesh) and mesh.follower() is None)
-        ]
-
-    def _pairs_of(self, objects):
-        """Return each mesh whose object is there, with the object."""
-        return [(m, objects[m.object_uid]) for m in self.meshes if m.object_uid in objects]
-
-
-def _mesh_for(task, seen):
-    """Return what shows the result of a task, on a mesh only once: `seen` are those of others."""
-    return FollowedMesh(task) if task.is_followed else LiveMesh(task, task.mesh not in seen)
 
 
 _METHODS = {
