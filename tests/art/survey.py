@@ -54,6 +54,8 @@ def main():
         for name in options.cases or CASES:
             for cubeness in options.cubeness:
                 _survey(name, cubeness, options)
+    if options.pictures:
+        survey_pictures.write_sheet(options.written, options.pictures / "sheet.png")
 
 
 def _arguments():
@@ -66,8 +68,11 @@ def _arguments():
     parser.add_argument(
         "--set", nargs="+", default=[], metavar="NAME=VALUE", help="of the operator"
     )
-    parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="before and after, as PNG")
+    parser.add_argument(
+        "--pictures", type=Path, metavar="FOLDER", help="as PNG, and all on a sheet"
+    )
     options = parser.parse_args()
+    options.written = []
     for name in options.cases:
         if name not in CASES and not Path(name).is_file():
             parser.error(f"{name}: neither a case nor a file")
@@ -75,20 +80,28 @@ def _arguments():
 
 
 def _survey(name, cubeness, options):
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     case = CASES.get(name) or Case(partial(_load, Path(name)))
-    with contextlib.redirect_stdout(io.StringIO()):
-        objects = case.make()
-    is_still = unpainted(objects, case.options.get("map_group"))
     asked = {"cubeness": cubeness, **case.options, **(PAPER if options.paper else {})}
     asked |= dict(map(_setting, options.set))
-    with contextlib.redirect_stdout(io.StringIO()):
-        outcome = cubified(objects, **asked)
+    if options.pictures:
+        *_, paper = _cubified(case, asked | PAPER)
+    objects, is_still, outcome = _cubified(case, asked)
     short = name if name in CASES else Path(name).stem
     print(_line(_row(short, cubeness, case, outcome, is_still)), flush=True)
     if options.pictures:
-        path = options.pictures / f"{short}_{cubeness:g}{'_paper' if options.paper else ''}.png"
-        survey_pictures.render(objects, outcome, path)
+        path = options.pictures / f"{short}_{cubeness:g}.png"
+        shapes = {"as it is": paper.rest, "as in the paper": paper.after, "now": outcome.after}
+        survey_pictures.render(objects, shapes, path)
+        options.written.append(path)
+
+
+def _cubified(case, asked):
+    """Return the objects of a case in a file of their own, what stays, and what came out."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    with contextlib.redirect_stdout(io.StringIO()):
+        objects = case.make()
+        is_still = unpainted(objects, case.options.get("map_group"))
+        return objects, is_still, cubified(objects, **asked)
 
 
 def _setting(text):

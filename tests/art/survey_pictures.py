@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of a case before and after, in the studio of the command line."""
+"""A picture of a case as it is and as it becomes, in the studio of the command line."""
 
 from argparse import Namespace
 from pathlib import Path
@@ -18,14 +18,17 @@ from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
 from cubic_craft.cubic_craft_addon.command_line.picture.render import render as render_gallery
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
 
-RESOLUTION = (1000, 520)
-SAMPLES = 8
+RESOLUTION = (900, 330)
+SAMPLES = 24
+FINISHES = ("clay", "grey", "teal")
+COLUMNS = 2
+"""of a sheet"""
 
 
-def render(objects, outcome, path: Path):
-    """Write a picture of the objects at rest and as they are now."""
+def render(objects, surfaces, path: Path):
+    """Write a picture of surfaces of the objects, which are the values of their labels."""
     scene = scene_for_gallery()
-    size = extent_of(outcome.rest.V)
+    size = extent_of(next(iter(surfaces.values())).V)
     groups = [
         Group(
             label,
@@ -35,10 +38,7 @@ def render(objects, outcome, path: Path):
             size,
             finish,
         )
-        for label, surface, finish in (
-            ("before", outcome.rest, "clay"),
-            ("after", outcome.after, "teal"),
-        )
+        for (label, surface), finish in zip(surfaces.items(), FINISHES, strict=True)
     ]
     bpy.context.view_layer.update()
     gallery = arrange(groups, scene, RESOLUTION)
@@ -53,6 +53,24 @@ def render(objects, outcome, path: Path):
         verbose=False,
     )
     list(render_gallery(gallery, [path], options))
+
+
+def write_sheet(paths, path: Path):
+    """Write pictures of one size as one, row by row."""
+    width, height = RESOLUTION
+    rows = -(-len(paths) // COLUMNS)
+    sheet = np.ones((rows, height, COLUMNS, width, 4), np.float32)  # the lowest row first
+    for number, single in enumerate(paths):
+        image = bpy.data.images.load(str(single))
+        pixels = np.empty(4 * width * height, np.float32)
+        image.pixels.foreach_get(pixels)
+        row, column = divmod(number, COLUMNS)
+        sheet[rows - 1 - row, :, column] = pixels.reshape(height, width, 4)
+        bpy.data.images.remove(image)
+    image = bpy.data.images.new("Sheet", COLUMNS * width, rows * height)
+    image.pixels.foreach_set(sheet.ravel())
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
 
 
 def _copies(objects, surface, scene):
