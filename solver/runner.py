@@ -460,5 +460,6 @@ class Run:
             self.soft.compile_seconds,
             seconds,
             None if apart is None else apart.crossings,
+            None if apart is None else apart.pressed,
             None if apart is None else apart.vertices,
         )
