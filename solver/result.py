@@ -52,6 +52,9 @@ class Result(Value):
     """time of the iterations"""
     crossings: int | None = None
     """triangles that are seen to cross others and did not at rest; None if not looked for"""
+    pressed: int | None = None
+    """how many of these are of parts that press into each other: to hold the parts apart would have
+    taken back too much of the style"""
     crossing_vertices: IntArray | None = None
     """(k,) int vertices of these triangles"""
 

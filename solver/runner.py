@@ -348,6 +348,7 @@ class Run:
             self.stylization.give_back_volume()
         if done < ROUNDS:
             return
+        self.stylization.straighten_borders()
         self._hard = self.stylization, self._apart
         self._begin_at_hard_end(*self._hard)
 
@@ -459,5 +460,6 @@ class Run:
             self.soft.compile_seconds,
             seconds,
             None if apart is None else apart.crossings,
+            None if apart is None else apart.pressed,
             None if apart is None else apart.vertices,
         )

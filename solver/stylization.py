@@ -215,6 +215,14 @@ class Stylization(Stored):
         assert isinstance(self._local, FaceStep)
         self._local.give_back_volume(self._motion.positions)
 
+    def straighten_borders(self) -> None:
+        """Make the borders of the sides of a hardened one straight where they are now."""
+        assert self.hardening is not None
+        U = self._motion.positions
+        straight = U + self.hardening.straightening(U, self.rest.F, self.setup.pinned)
+        self.impose(straight)
+        self.hardening = replace(self.hardening, moves=straight - U)
+
     def with_crispness(self, crispness: ArrayLike) -> Stylization | None:
         """Return a hardened one at the same point with another crispness, as of a `Style`.
 

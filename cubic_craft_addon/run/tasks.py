@@ -49,6 +49,7 @@ def run_of(solution: pipeline.Solution, settings: dict[str, Any]) -> LastRun:
         matching=None if solution.matching is None else int(solution.matching),
         own_vertices=int(solution.own_vertices),
         crossings=None if result.crossings is None else int(result.crossings),
+        pressed=None if result.pressed is None else int(result.pressed),
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import bpy
 
+from ...solver.console.crossing_words import crossing_words
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..mesh_bridge import LastRun
@@ -90,8 +91,11 @@ def _words(run, changes, *, is_edited):
     if not run.converged:
         iterations = f"{run.iterations} iterations"
         return (f"Not converged after {iterations}", f"Not converged: {iterations}"), "ERROR"
-    if run.crossings:
-        return (f"{_crossing(run)} still cross", f"{_crossing(run)} cross"), "ERROR"
+    crossing, is_failed = crossing_words(run.crossings, run.pressed)
+    if is_failed:
+        return (crossing, crossing.replace(" still", "")), "ERROR"
+    if crossing:
+        return (f"{crossing}, leave more room", crossing, crossing.split(":")[0]), "INFO"
     seconds = f"{run.seconds:.2f} s"
     return (
         f"Converged in {seconds}, {_vertices(run)}",

@@ -80,6 +80,8 @@ class KeepApart:
     ----------
     crossings : int
         Number of triangles of the input that can be seen to cross and did not cross at rest.
+    pressed : int
+        How many of them only cross other parts, which a round was too dear for.
     vertices : (k,) int array
         Their vertices in the input.
     """
@@ -94,7 +96,7 @@ class KeepApart:
         self._before: _Before | None = None
         self._at_end = np.empty(0, np.intp)
         self._crossing = np.empty((0, 2), np.intp)
-        self.crossings, self.vertices = 0, np.empty(0, np.intp)
+        self.crossings, self.pressed, self.vertices = 0, 0, np.empty(0, np.intp)
 
     def look(self, stylization):
         """Find what crosses in a shape near the one at the end; return its solved vertices (k,).
@@ -186,9 +188,12 @@ class KeepApart:
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))
             self._crossing = self._new(stylization.positions)
-        is_shown = shown(stylization.positions, self._shown, self._crossing)
-        crossing = self._triangles(self._crossing[is_shown])
+        pairs = self._crossing[shown(stylization.positions, self._shown, self._crossing)]
+        crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
+        if self._before is not None:
+            failed = self._triangles(pairs[~self._are_of_two_parts(pairs)])
+            self.pressed = self.crossings - len(np.unique(failed))
         self.vertices = np.unique(self._rest.triangles[crossing])
         return stylization
 

@@ -20,8 +20,9 @@ from ..values import Value
 from .outlines import Outlines
 from .polygons import filled
 from .regions import regions_of
+from .straight import straightened
 
-COURSE = 0.007
+COURSE = 0.01
 """of the size: how far the border of two sides may leave its course"""
 FLATNESS = 2e-4
 """of the size: how far the corners of a polygon may be from its plane"""
@@ -122,11 +123,16 @@ def low_poly(
         for loop in made:
             back = found.pop(frozenset(loop), None)  # of a wall without thickness: both go
             if back is None:
-                found[frozenset(loop)] = first[loop].tolist(), part
-    polygons, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
+                found[frozenset(loop)] = loop, part
+    loops, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
+    chart_of = np.zeros(parts.max() + 1, np.int64)
+    chart_of[parts] = 0 if charts is None else charts
+    loops, kept = straightened(P, loops, chart_of[part_of].tolist(), FLATNESS)
+    part_of = [part_of[k] for k in kept]
     result = V.copy()
-    used = np.unique(group[np.concatenate(polygons)]) if polygons else []
+    used = np.unique(np.concatenate(loops)) if loops else []
     result[first[used]] = box.from_unit(P[used])
+    polygons = [first[loop].tolist() for loop in loops]
     region_of = region_of_part[part_of].tolist()
     return LowPoly(result, polygons, part_of, region_of, parts, first[group])
 

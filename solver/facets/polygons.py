@@ -25,7 +25,7 @@ def filled(P, loops, normal, flatness):
     flatness : float
         How far the corners of a polygon may be from a plane.
     """
-    if len(loops) == 1 and _is_polygon(P, loops[0], flatness, normal):
+    if len(loops) == 1 and is_polygon(P, loops[0], flatness, normal):
         return loops
     vertices = np.unique(np.concatenate(loops))
     heights = P[vertices] @ normal
@@ -40,7 +40,7 @@ def _normal(P, loop):
     return np.cross(X, np.roll(X, -1, axis=0)).sum(axis=0)
 
 
-def _is_polygon(P, loop, flatness, normal):
+def is_polygon(P, loop, flatness, normal):
     """Return whether a loop has each vertex once, few of them, in a plane that faces the normal."""
     if not 3 <= len(loop) <= MOST_CORNERS or len(set(loop)) < len(loop):
         return False
@@ -147,7 +147,7 @@ def _merged(P, polygons, flatness, normal):
             if one not in polygons or other not in polygons:
                 continue
             loop = _joined(polygons[one], polygons[other])
-            if loop and _is_polygon(P, loop, flatness, normal):
+            if loop and is_polygon(P, loop, flatness, normal):
                 polygons[one] = loop
                 del polygons[other]
                 is_changed = True

@@ -10,6 +10,7 @@ from ..aliases import FloatArray, IntArray
 from ..proxy.samples import extents
 from ..rotation_fit import orthonormalize, svd_rotations
 from .base import base_of
+from .borders import straightening
 from .face_step import Target
 from .sides import NO_SIDE, sides_of
 
@@ -47,6 +48,8 @@ class Hardening:
     side : (m,) int array
     facing : (m,3) array
         As `sides_of` returns them.
+    moves : (n,3) array
+        Of the vertices of the hard shape, which make the borders of its sides straight.
     """
 
     solved: FloatArray
@@ -56,6 +59,7 @@ class Hardening:
     target: Target
     side: IntArray
     facing: FloatArray
+    moves: FloatArray
 
     def with_crispness(self, style, rest):
         """Return the same with the crispness of another SolvedStyle."""
@@ -81,9 +85,14 @@ class Hardening:
         soft = self.soft + share[:, None] * (self.solved - self.soft)
         return replace(self, soft=soft, crispness=self.crispness * (1.0 - share))
 
+    def straightening(self, U, F, fixed):
+        """Return the `straightening` of the end U (n,3), for triangles (m,3)."""
+        graph, directions = self.target.base.graph, self.target.directions
+        return straightening(U, F, graph, self.side, directions, fixed)
+
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
-        return self.soft + self.crispness[:, None] * (U - self.soft)
+        return self.soft + self.crispness[:, None] * (U + self.moves - self.soft)
 
     def between(self, R):
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
@@ -137,7 +146,7 @@ def hardening_of(stylization, before=None):
         stylization.impose(soft)
     heights = strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
-    return Hardening(solved, soft, R, crispness, target, side, facing)
+    return Hardening(solved, soft, R, crispness, target, side, facing, np.zeros_like(soft))
 
 
 def _crispness_of(style, rest):

@@ -9,6 +9,7 @@ import pytest
 from shapes import blob, extent, rotation, sheet
 
 from solver import PAPER, low_poly, stylize
+from solver.facets.straight import straightened
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 
@@ -84,3 +85,35 @@ def test_vertices_at_one_place_are_one():
     together = low_poly(V, F, SIDES, 0.1)
     assert len(apart.polygons) == len(together.polygons) == 6
     assert all((b, a) in edges_of(apart.polygons) for a, b in edges_of(apart.polygons))
+
+
+CORNERS = np.array([[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [1.3, 1], [1, 2]], float)
+HALVES = [[0, 4, 5, 6, 3], [4, 1, 2, 6, 5]]
+"""of a square, with a border between them that takes a turn"""
+
+
+def bent(*, by=0.0):
+    """Return the corners of both halves, the one at the turn as much above the others."""
+    return np.column_stack([CORNERS, np.where(np.arange(7) == 5, by, 0.0)])
+
+
+def test_a_border_in_a_plane_is_straight():
+    far = [7, 8, 9]
+    P = np.concatenate([bent(), [[5, 0, 0], [6, 0, 0], [5, 1, 0]]])
+    made, kept = straightened(P, [*HALVES, far], [0, 0, 0], 1e-4)
+    assert made == [[0, 4, 6, 3], [4, 1, 2, 6], far] and kept == [0, 1, 2]
+
+
+@pytest.mark.parametrize("charts, by", [([0, 1], 0.0), ([0, 0], 0.5)])
+def test_a_corner_that_materials_or_the_shape_ask_for_stays(charts, by):
+    loops = HALVES if by == 0.0 else [[0, 4, 5], [0, 5, 6, 3], [4, 1, 2, 6, 5]]
+    chart_of = charts if by == 0.0 else [0, 0, 0]
+    assert straightened(bent(by=by), loops, chart_of, 1e-4)[0] == loops
+
+
+def test_a_triangle_in_the_plane_of_its_neighbor_goes():
+    loops = [[0, 4, 6, 3], [4, 5, 6], [4, 1, 2, 6, 5]]
+    made, kept = straightened(bent(), loops, [0, 0, 0], 1e-4)
+    assert kept in ([0, 2], [0, 1]) and [0, 4, 6, 3] in made
+    edges = Counter(edges_of(made))
+    assert set(edges.values()) == {1} and len({v for loop in made for v in loop}) == 6

@@ -49,6 +49,7 @@ _RUN_PART: dict[str, Any] = {
     "matching": (int, NoneType),
     "own_vertices": int,
     "crossings": (int, NoneType),
+    "pressed": (int, NoneType),
 }
 _KEY_PART = {"name": str, "fingerprint": str, "base": str, "offsets": list, "made_basis": bool}
 

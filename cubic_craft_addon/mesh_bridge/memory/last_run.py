@@ -11,6 +11,7 @@ from typing import Any
 
 import bpy
 
+from ....solver.console.crossing_words import crossing_words
 from ..access.note import read_note, write_note
 
 
@@ -35,6 +36,8 @@ class LastRun:
     """of the mesh itself"""
     crossings: int | None = None
     """faces of all objects that cross others and did not at first, None if none were looked for"""
+    pressed: int | None = None
+    """how many of them are of parts that were let press into each other"""
 
     @property
     def status(self) -> str:
@@ -43,8 +46,8 @@ class LastRun:
         if self.matching is not None:
             of_what += f", {self.matching:,} of {self.own_vertices:,} match"
         end = "converged" if self.converged else "not converged, raise Max Iterations"
-        if self.crossings:
-            end += f", {self.crossings:,} faces still cross"
+        crossing, _ = crossing_words(self.crossings, self.pressed)
+        end += f", {crossing}" if crossing else ""
         return (
             f"{self.vertices:,} vertices{of_what}, {self.iterations} iterations, energy"
             f" {self.energy:.5f}, {end}, {self.seconds:.2f} s on {self.device}"

@@ -130,6 +130,7 @@ def test_the_count_of_the_solver_is_kept_on_the_mesh(module, monkeypatch, reopen
             solve_seconds=found.solve_seconds,
             compile_seconds=found.compile_seconds,
             crossings=count,
+            pressed=count and 0,
         )
         return run_of(dataclasses.replace(solution, result=result), settings)
 

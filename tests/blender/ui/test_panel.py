@@ -133,6 +133,11 @@ def test_the_line_below_the_buttons_says_what_matters_most(extension):
     crossing = dataclasses.replace(run, crossings=1234)
     assert line(crossing) == ("1,234 faces still cross", "ERROR")
     assert crossing.status.endswith("converged, 1,234 faces still cross, 1.23 s on numpy")
+    pressing = dataclasses.replace(crossing, pressed=1234)
+    words = "1,234 faces cross: parts press into each other"
+    assert line(pressing) == (f"{words}, leave more room", "INFO")
+    assert pressing.status.endswith(f"converged, {words}, 1.23 s on numpy")
+    assert line(dataclasses.replace(pressing, pressed=1224)) == ("10 faces still cross", "ERROR")
     assert line(dataclasses.replace(run, crossings=0)) == line(run)
     changed = line(run, ["Cubeness", "Handles"], is_edited=True)
     assert changed == ("Changed: Cubeness, Handles", "ERROR")

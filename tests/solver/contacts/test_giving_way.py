@@ -60,11 +60,10 @@ def test_parts_may_cross_where_a_round_would_cost_more_style_than_it_saves():
     places += [(0.76, 0.05, 1.2), (0.3, -0.15, 0.12)]
     parts = [(ball * size + place, faces) for size, place in zip(sizes, places, strict=True)]
     V, F = joined(*parts, ring(0.6, 0.09, 2.62))
-    free, kept = (
-        angle_to_axes(stylize(V, F, proxy=ProxyOptions(keep_apart=kept)).positions, F)
-        for kept in (False, True)
-    )
-    assert kept < free + 0.5
+    free, kept = (stylize(V, F, proxy=ProxyOptions(keep_apart=kept)) for kept in (False, True))
+    assert angle_to_axes(kept.positions, F) < angle_to_axes(free.positions, F) + 0.5
+    assert 0 < kept.pressed <= kept.crossings
+    assert free.pressed is None
 
 
 def ring(radius, thickness, height, count=40, around=12):

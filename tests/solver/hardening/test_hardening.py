@@ -96,7 +96,7 @@ def test_a_ball_gets_the_sides_of_its_form(name):
         facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
         for crispness in (0.0, 1.0)
     ]
-    least = {"tetrahedron": 0.7, "pyramid": 0.8}.get(name, 0.88)
+    least = {"tetrahedron": 0.7, "pyramid": 0.79}.get(name, 0.88)
     assert shares[1] > least
     assert shares[1] > shares[0] - 0.04, "no side is less flat than it was"
 

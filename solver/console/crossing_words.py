@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is said of faces that cross: in the panel and on the command line alike."""
+
+__all__ = ("crossing_words",)
+
+
+def crossing_words(crossings: int | None, pressed: int | None) -> tuple[str, bool]:
+    """Return what a run says of faces that cross, and whether it has failed to keep some apart.
+
+    Parameters
+    ----------
+    crossings, pressed
+        As of a `Result`; None counts as 0.
+
+    Returns
+    -------
+    str
+        Empty if none cross.
+    bool
+
+    Examples
+    --------
+    >>> crossing_words(12, 0)
+    ('12 faces still cross', True)
+    >>> crossing_words(1361, 1361)
+    ('1,361 faces cross: parts press into each other', False)
+    >>> crossing_words(None, None)
+    ('', False)
+    """
+    failed = (crossings or 0) - (pressed or 0)
+    if failed > 0:
+        return f"{failed:,} faces still cross", True
+    return (f"{crossings:,} faces cross: parts press into each other" if crossings else ""), False

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Straight borders between two polygons that lie in one plane.
+
+Parts that are not planar are cut into polygons, some of which then lie in the plane of a neighbor
+from another part. Where such two have more than one edge in common, the border between them takes a
+turn that nothing in the shape asks for: corners between them go.
+"""
+
+import numpy as np
+
+from .polygons import is_polygon
+
+
+def straightened(P, polygons, chart_of, flatness):
+    """Return polygons without the corners that only two of them have, and their numbers (k,).
+
+    Parameters
+    ----------
+    P : (n,3) array
+        Positions.
+    polygons : list of lists of int
+        Planar, counterclockwise.
+    chart_of : sequence of int
+        Corners between polygons of two charts stay.
+    flatness : float
+        How far the corners of a polygon may be from a plane.
+    """
+    loops = dict(enumerate(map(list, polygons)))
+    owner = {edge: k for k, loop in loops.items() for edge in _edges(loop)}
+    around = {}
+    for k, loop in loops.items():
+        for v in loop:
+            around.setdefault(v, []).append(k)
+    open_ones = sorted(around)
+    while open_ones:
+        again = set()
+        for v in open_ones:
+            pair = around.get(v, ())
+            if len(pair) != 2 or chart_of[pair[0]] != chart_of[pair[1]]:
+                continue
+            made = _without(P, loops, owner, v, pair, flatness)
+            if made is None:
+                continue
+            del around[v]
+            for k, loop in zip(pair, made, strict=True):
+                again.update(loop)
+                for edge in _edges(loops.pop(k)):
+                    owner.pop(edge, None)
+                if len(loop) < 3:
+                    for other in loop:
+                        around[other].remove(k)
+                else:
+                    loops[k] = loop
+            owner.update({e: k for k in pair if k in loops for e in _edges(loops[k])})
+        open_ones = sorted(again & around.keys())
+    kept = sorted(loops)
+    return [loops[k] for k in kept], kept
+
+
+def _without(P, loops, owner, v, pair, flatness):
+    """Return both polygons (2 lists) without a corner that they share, None if it has to stay."""
+    one, other = (_beside(loops[k], v) for k in pair)
+    if one != other[::-1]:
+        return None
+    found = [[x for x in loops[k] if x != v] for k in pair]
+    if max(map(len, found)) < 3:
+        return None
+    for (a, b), loop, k in zip((one, other), found, pair, strict=True):
+        if len(loop) >= 3:
+            X = P[loops[k]] - P[v]
+            normal = np.cross(X, np.roll(X, -1, axis=0)).sum(axis=0)
+            if not is_polygon(P, loop, flatness, normal) or _crosses_itself(P[loop], normal):
+                return None
+            if owner.get((a, b), k) not in pair:
+                return None
+    return found
+
+
+def _beside(loop, v):
+    at = loop.index(v)
+    return loop[at - 1], loop[(at + 1) % len(loop)]
+
+
+def _edges(loop):
+    return zip(loop, [*loop[1:], loop[0]], strict=True)
+
+
+def _crosses_itself(X, normal):
+    """Return whether edges of a polygon (c,3) meet others than those beside them, seen along."""
+    turn = np.linalg.svd(normal[None])[2][1:]
+    A = X @ turn.T
+    B = np.roll(A, -1, axis=0)
+
+    def sides(p):
+        along, away = (B - A)[:, None], p[None] - A[:, None]
+        return along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0]
+
+    is_met = (sides(A) * sides(B) <= 0.0) & (sides(A) * sides(B) <= 0.0).T
+    apart = np.abs(np.subtract.outer(np.arange(len(X)), np.arange(len(X))))
+    return bool((is_met & (apart > 1) & (apart < len(X) - 1)).any())
