@@ -14,7 +14,7 @@ from .aliases import BoolArray, FloatArray, IntArray
 from .coarse_to_fine.contraction import contract
 from .contacts.crossings import CrossingTriangles
 from .inputs import real_numbers
-from .limbs import Limbs, limbs_of_shape, with_coverings, without_shells
+from .limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, without_shells
 from .limbs.covering import COVERING
 from .mesh.face_graph import FaceGraph
 from .mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
@@ -266,6 +266,11 @@ class RestMesh(Value):
         links = links.part(~has_none[links.vertices[:, 0]])
         found = limbs_of_shape(self.V, self.skin, links, self.topology.part)
         found = without_shells(found, self.V, self.topology.part, self.areas, self.thickness)
+        cavities = self.across_cavities
+        if cavities is not None:
+            cavities = cavities.part(~has_none[cavities.vertices[:, 0]])
+            walls = self.V, self.skin, links, cavities, self.topology.part, self.areas
+            found = with_hollows(found, *walls)
         neighbours = self.to_neighbours
         if not len(neighbours):
             return found

@@ -15,7 +15,9 @@ import bpy
 import numpy as np
 
 from ... import solver
+from ...solver.pieces.piece import parts_of
 from ...solver.pieces.problem import Problem, join_pieces
+from ...solver.pieces.stiff_cage import is_stiff
 from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
 from ..read.member import Member, placed
@@ -46,6 +48,8 @@ class Solution:
     """number of vertices that have a mirror image, with Symmetry"""
     start: mesh_bridge.Start = "HERE"
     """which shape was solved if the mesh was edited by hand since its last result"""
+    is_stiff: bool = False
+    """whether it is a cage of too few vertices to follow"""
 
     @property
     def own_vertices(self):
@@ -199,8 +203,11 @@ def _solutions(problem, result):
             len(problem.pieces),
             member.whole.matching,
             member.shape.start,
+            is_stiff(member, result.positions[part], positions),
         )
-        for member, (positions, rotations) in zip(problem.pieces, found, strict=True)
+        for (member, part), (positions, rotations) in zip(
+            parts_of(problem.pieces), found, strict=True
+        )
     )
 
 

@@ -220,22 +220,22 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
     summary : str
         Empty if nothing was written.
     problems : list of str
-        Meshes written before a failure stay and need their undo step. Hair that does not follow is
-        reported, too.
+        Meshes written before a failure stay and need their undo step. Hair and cages that do not
+        follow are reported, too.
     """
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]
     runs = [task.run for task in tasks]
     statuses = [run.status for run in runs]
     waits = [(id(solution.result), solution.total_seconds) for solution in solutions]
-    hair = [hair_left_behind(task.obj, task.settings.result) for task in tasks]
+    unmoved = [_left_behind(task) for task in tasks]
     written, problems = 0, []
     if tasks:
         look_at_engine()
     try:
         for task, run in zip(tasks, runs, strict=True):
             write_task(overrides, task, run)
-            problems += hair[written]
+            problems += unmoved[written]
             written += 1
     except UNEXPECTED as error:  # this object has been restored
         if not isinstance(error, CubicCraftError):
@@ -249,6 +249,17 @@ def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, lis
         seconds = sum(dict(waits[:written]).values())
         return f"Cubified {written} meshes in {seconds:.2f} s", problems
     return "", problems
+
+
+def _left_behind(task):
+    """Return texts for what does not follow the result of a task."""
+    found = hair_left_behind(task.obj, task.settings.result)
+    if task.solution is not None and task.solution.is_stiff:
+        found.append(
+            f'What is seen of "{task.obj.name}" keeps its form, as its cage has too few faces: in'
+            " Edit Mode, subdivide them or crease edges"
+        )
+    return found
 
 
 def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:

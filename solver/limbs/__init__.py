@@ -8,6 +8,7 @@ from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames 
 """
 
 from .covering import with_coverings
+from .hollows import with_hollows
 from .joined import joined_limbs, placed_limbs
 from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_bones import limbs_of_bones
@@ -25,5 +26,6 @@ __all__ = (
     "placed_limbs",
     "turns",
     "with_coverings",
+    "with_hollows",
     "without_shells",
 )

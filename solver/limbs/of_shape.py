@@ -85,7 +85,7 @@ class Skeleton(NamedTuple):
         return Skeleton(place, thickness, self.node, graph, self.reach[nodes])
 
 
-def limbs_of_shape(V, skin, links, part):
+def limbs_of_shape(V, skin, links, part, walls=None):
     """Return the Limbs of a shape.
 
     Parameters
@@ -98,10 +98,12 @@ def limbs_of_shape(V, skin, links, part):
         To opposite sides, see `proxy/thickness.py`.
     part : (n,) int array
         Connected part of each vertex.
+    walls : Links, optional
+        Across which it is not far either, if the links are those of one side of walls.
     """
     if len(links) < FEWEST:
         return no_limbs(len(V))
-    skeleton = skeleton_of(V, skin, links, part)
+    skeleton = skeleton_of(V, skin, links, part, walls)
     entries, directions = [], np.empty((0, 3))
     for nodes in _bodies(skeleton.graph):
         found, of_node = _found_among(skeleton.part(nodes))
@@ -148,13 +150,15 @@ def _found_among(skeleton):
     return directions, shares
 
 
-def skeleton_of(V, skin, links, part):
+def skeleton_of(V, skin, links, part, walls=None):
     """Return the Skeleton of links to opposite sides."""
     i, j = links.vertices[:, 0], links.vertices[:, 1]
     middle, t = 0.5 * (V[i] + V[j]), np.linalg.norm(V[i] - V[j], axis=1)
     row = np.repeat(np.arange(len(V), dtype=np.int32), np.diff(skin.indptr))
     lengths = np.linalg.norm(V[row] - V[skin.indices], axis=1) + 1e-9
     mesh = sp.csr_matrix((lengths, skin.indices, skin.indptr), shape=(len(V), len(V)))
+    if walls is not None:
+        mesh = mesh + _lengths(V, walls)
     ends, first = np.unique(np.concatenate([i, j]), return_index=True)
     away, _, source = dijkstra(mesh, indices=ends, min_only=True, return_predecessors=True)
     spacing = 2.0 * np.median(away[np.isfinite(away)])
@@ -174,6 +178,14 @@ def skeleton_of(V, skin, links, part):
     node = of_end[np.where(source >= 0, source, len(V))]
     graph = _graph(place, thickness, node[row], node[skin.indices], spacing)
     return Skeleton(place, thickness, node, graph, _farthest(V, node, place))
+
+
+def _lengths(V, links):
+    """Return the lengths (n,n) of links between two vertices, both ways."""
+    i, j = np.unique(np.sort(links.vertices[:, :2], axis=1), axis=0).T
+    length = np.linalg.norm(V[i] - V[j], axis=1) + 1e-9
+    one_way = sp.csr_matrix((length, (i, j)), shape=(len(V), len(V)))
+    return one_way + one_way.T
 
 
 def _farthest(V, node, place):

@@ -21,6 +21,10 @@ SCENE = 2.0
 """times the largest part: what is larger than that is a scene"""
 CARD = 0.02
 """of the area of what it is linked to: an open sheet with less is a card"""
+STRANDS = 100
+"""closed parts that are as small, and slender, are cards, too, if so many are on something..."""
+SLENDER = 6.0
+"""...which are so many times as long as they are thick"""
 SQUARE = 0.01
 """how far cosines may be from those of the planes of an extruded outline, and of its rim"""
 CAPS, SHARE = 0.3, 0.98
@@ -66,7 +70,8 @@ def extrusions(V, F, part):
 def cards(V, F, part, component):
     """Return which parts (p,) are cards: small open sheets, such as strands of hair, or lashes.
 
-    They come in hundreds that lie through each other, and must not hold what they are on.
+    They come in hundreds that lie through each other, and must not hold what they are on. So do
+    strands that are closed tubes; but where they are few, they are fingers, legs or spokes.
 
     Parameters
     ----------
@@ -75,14 +80,24 @@ def cards(V, F, part, component):
     component : (n,) int array
         What is linked; a card is small beside that.
     """
-    area, _ = triangle_areas_and_normals(V, F)
+    area, normal = triangle_areas_and_normals(V, F)
     own, linked = part[F[:, 0]], component[F[:, 0]]
     whole = np.zeros(int(part.max()) + 1)
     whole[own] = np.bincount(linked, area)[linked]
-    is_small = np.bincount(own, area, len(whole)) < CARD * whole
-    if is_small.any():
-        is_small &= outward_sign(Triangles(V, F), part) == 0.0
-    return is_small
+    total = np.bincount(own, area, len(whole))
+    is_small = total < CARD * whole
+    if not is_small.any():
+        return is_small
+    is_open = outward_sign(Triangles(V, F), part) == 0.0
+    height = (V[F[:, 0]] * normal).sum(axis=1)
+    volume = np.abs(np.bincount(own, area * height, len(whole))) / 3.0
+    thickness = 4.0 * volume / np.maximum(total, 1e-300)  # of a tube
+    is_strand = is_small & ~is_open & (extents(V, part) > SLENDER * thickness)
+    place = np.zeros(len(whole), dtype=np.intp)
+    place[own] = linked
+    is_strand &= (np.bincount(place, is_strand) >= STRANDS)[place]
+    is_strand &= (np.bincount(place, ~is_small) > 0.0)[place]  # a heap of sticks is no hair
+    return is_small & is_open | is_strand
 
 
 def moments_of_normals(area, normal, of_face, count):

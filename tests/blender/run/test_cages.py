@@ -8,7 +8,7 @@ import pytest
 from live_steps import bits, confirm, tick_to_rest, wake_to_rest
 from mathutils import Matrix
 from rich_mesh import position_of
-from scene import add_monkey, bmesh_of, cubify, given, select
+from scene import add_monkey, bmesh_of, cubify, given, reports_of, select
 from scipy.spatial import KDTree
 
 
@@ -105,6 +105,18 @@ def test_a_fine_cage_does_not_tangle():
     finely()
     assert share(obj) > 0.5
     assert folds(obj) <= was_folded + 12
+
+
+@pytest.mark.parametrize("cuts, is_told", [(0, True), (1, False)])
+def test_it_is_told_that_a_cage_has_too_few_faces(cuts, is_told):
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    with bmesh_of(obj.data) as edited:
+        if cuts:
+            bmesh.ops.subdivide_edges(edited, edges=edited.edges, cuts=cuts, use_grid_fill=True)
+    under_subdivision(obj)
+    text = f'What is seen of "{obj.name}" keeps its form'
+    assert (text in reports_of(lambda: cubify(refine="AUTO"))) is is_told
 
 
 def test_it_is_more_cubic_than_a_cage_that_is_cubic_itself():

@@ -10,6 +10,7 @@ from solver import ProxyOptions, stylize
 from solver.proxy.sheets import cards
 
 COUNT, ROWS = 150, 6
+SIDES = 5
 
 
 def hair():
@@ -31,6 +32,24 @@ def hair():
     return V, np.concatenate([np.stack([i, i + 2, i + 1], 1), np.stack([i + 1, i + 2, i + 3], 1)])
 
 
+def strands(count=COUNT):
+    """Return closed tubes where the cards are."""
+    cards_of_hair, _ = hair()
+    left, right = cards_of_hair.reshape(COUNT, ROWS, 2, 3)[:count].swapaxes(0, 2).swapaxes(1, 2)
+    middle, across = (left + right) / 2.0, (right - left) / 4.0
+    up = middle * np.linalg.norm(across, axis=2)[..., None]
+    angle = np.linspace(0.0, 2.0 * np.pi, SIDES, endpoint=False)[:, None, None, None]
+    rings = middle + np.cos(angle) * across + np.sin(angle) * up  # (sides,count,rows,3)
+    V = rings.transpose(1, 2, 0, 3).reshape(count, -1, 3)
+    i, side = np.arange(ROWS - 1)[:, None] * SIDES, np.arange(SIDES)
+    a, b = (i + side).ravel(), (i + (side + 1) % SIDES).ravel()
+    walls = [np.stack([a, b, b + SIDES], 1), np.stack([a, b + SIDES, a + SIDES], 1)]
+    k, last = np.arange(1, SIDES - 1), (ROWS - 1) * SIDES
+    lids = [np.stack([0 * k, k + 1, k], 1), last + np.stack([0 * k, k, k + 1], 1)]
+    F = np.concatenate(walls + lids) + V.shape[1] * np.arange(count)[:, None, None]
+    return V.reshape(-1, 3), F.reshape(-1, 3)
+
+
 def angle_to_axes(U, F):
     normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
     size = np.linalg.norm(normal, axis=1)
@@ -38,10 +57,10 @@ def angle_to_axes(U, F):
     return np.degrees(np.average(np.arccos(np.minimum(cosine, 1.0)), weights=size))
 
 
-@pytest.mark.parametrize("crispness", [0.0, 0.9])
-def test_a_head_becomes_as_cubic_as_without_keep_apart(crispness):
+@pytest.mark.parametrize("make, crispness", [(hair, 0.0), (hair, 0.9), (strands, 0.9)])
+def test_a_head_becomes_as_cubic_as_without_keep_apart(make, crispness):
     head = uv_sphere(32, 16)
-    V, F = joined(head, hair())
+    V, F = joined(head, make())
     n, results = len(head[0]), []
     for keep_apart in (False, True):
         proxy = ProxyOptions(keep_apart=keep_apart)
@@ -93,3 +112,17 @@ def test_what_is_large_or_closed_is_no_card():
     part = np.repeat(np.arange(len(sizes)), sizes)
     found = cards(V, F, part, np.zeros(len(V), int))
     assert found.tolist() == [False, *[True] * COUNT, False, False]
+
+
+def test_closed_strands_are_cards_where_they_are_many_on_something():
+    head = uv_sphere(32, 16)
+    for parts, count, expected in (
+        ((head, strands()), COUNT, True),
+        ((head, strands(50)), 50, False),
+        ((strands(),), COUNT, False),
+    ):
+        V, F = joined(*parts)
+        sizes = [len(head[0])] * (len(parts) - 1) + [ROWS * SIDES] * count
+        part = np.repeat(np.arange(len(sizes)), sizes)
+        found = cards(V, F, part, np.zeros(len(V), int))
+        assert found.tolist() == [False] * (len(parts) - 1) + [expected] * count

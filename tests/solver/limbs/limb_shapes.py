@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tubes: bars, springs and tails, and what covers them."""
+"""Tubes: bars, springs and tails, what covers them, and sleeves with nothing in them."""
 
 import numpy as np
 
@@ -56,3 +56,21 @@ def sleeve(turn, radius=0.24):
     z = np.linspace(0.1, 1.3, 30)
     V, F = tube(np.outer(z, [0.0, 0.0, 1.0]), radius, is_capped=False)
     return V @ turn.T, F
+
+
+def empty_sleeves(down, radius=0.25, wall=0.03, sides=32):
+    """Return a thick cloth around nothing: two sleeves, so many degrees below level, and between.
+
+    It goes along the outer side, and back along the inner one.
+    """
+    turn = np.radians(np.repeat([-down, 0.0, down], [40, 30, 40]))
+    path = np.cumsum(np.stack([np.cos(turn), 0.0 * turn, -np.sin(turn)], axis=1), axis=0) * 0.04
+    (V, F), (inner, _) = (tube(path, r, sides, is_capped=False) for r in (radius, radius - wall))
+    n = len(V)
+    rims = []
+    for first, is_begin in ((0, True), (n - sides, False)):
+        a = first + np.arange(sides)
+        b = np.roll(a, -1)
+        rim = np.concatenate([np.stack([a, b + n, b], 1), np.stack([a, a + n, b + n], 1)])
+        rims.append(rim if is_begin else rim[:, ::-1])
+    return np.concatenate([V, inner]), np.concatenate([F, F[:, ::-1] + n, *rims])

@@ -136,6 +136,23 @@ def test_a_sleeve_lies_as_the_arm_in_it():
     assert ways.min() > 0.9
 
 
+def test_sleeves_with_nothing_in_them_keep_their_direction():
+    V, F = limb_shapes.empty_sleeves(40.0)
+    U = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions
+    x = V[:, 0] - V[:, 0].mean()
+    for side in (-x, x):
+        is_sleeve = side > 0.8
+        assert angle_between(along_z(U[is_sleeve]), along_z(V[is_sleeve])) < 5.0
+
+
+def test_the_outer_side_of_a_sleeve_lies_as_the_inner_one():
+    V, F = limb_shapes.empty_sleeves(40.0)
+    rest = rest_mesh(V, F, DEFAULTS)
+    outer, inner = np.split(rest.limbs.shares.toarray()[rest.place[1]], 2)
+    assert np.median(np.abs(outer - inner).sum(axis=1)) < 0.05
+    assert outer.sum(axis=1).min() > 0.9
+
+
 def test_halves_have_frames_that_are_mirror_images_bit_for_bit():
     V, F = limb_shapes.bar(tilted(35))
     V = V + [1.5, 0.0, 0.0]
