@@ -257,8 +257,9 @@ class KeepApart:
 
     def _counts(self, pairs):
         """Return which pairs (k,2) count: not two cards, nor what both crossed at rest."""
-        is_new = ~self._rest.crosses_at_rest(pairs).all(axis=1)
-        return is_new & ~self._is_card[pairs].all(axis=1)
+        is_new = ~self._is_card[pairs].all(axis=1)
+        is_new[is_new] = ~self._rest.crosses_at_rest(pairs[is_new]).all(axis=1)
+        return is_new
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""
