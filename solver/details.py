@@ -127,23 +127,28 @@ def _diffused(graph, conductance, near):
 def _solved(A, b, near):
     """Solve A x = b (n,3) from a solution near it, by conjugate gradients.
 
-    To a hundredth of the distance, roughly.
+    To a hundredth of the distance, roughly: single precision is enough, and takes half of the time.
     """
-    x = near.copy()
-    scale = 1.0 / A.diagonal()[:, None]
-    residual = b - A @ x
+    A = A.astype(np.float32)
+    x, b = (np.array(values.T, np.float32, order="C") for values in (near, b))
+    scale = 1.0 / A.diagonal()
+    residual = b - _image(A, x)
     z = scale * residual
-    direction, rate = z.copy(), (residual * z).sum()
+    direction, rate = z.copy(), float((residual * z).sum())
     goal = _TOLERANCE**2 * max(rate, 1e-300)
     for _ in range(_MOST_ITERATIONS):
         if rate <= goal:
             break
-        image = A @ direction
-        step = rate / (direction * image).sum()
+        image = _image(A, direction)
+        step = rate / float((direction * image).sum())
         x += step * direction
         residual -= step * image
         np.multiply(scale, residual, out=z)
-        rate, before = (residual * z).sum(), rate
+        rate, before = float((residual * z).sum()), rate
         direction *= rate / before
         direction += z
-    return x
+    return np.array(x.T, np.float64, order="C")
+
+
+def _image(A, columns):
+    return np.stack([A @ column for column in columns])

@@ -357,17 +357,18 @@ class Run:
         if soft_apart is None:
             self.reason = self._end
         else:
-            self._phase = partial(self._soften, soft_apart)
+            self._phase = self._soften
 
-    def _soften(self, apart: KeepApart, fewest: int | None = None) -> None:
+    def _soften(self, fewest: int | None = None) -> None:
         """Leave soft what has come to cross, again and again while that helps."""
-        looked = copy(apart)
+        looked = copy(self._apart)
+        assert looked is not None
         crossing = looked.look(self.stylization)
         if fewest is None or len(crossing) < fewest:
             self._apart, self._before = looked, self.stylization
             if len(crossing):
                 self.stylization = self.stylization.softened(crossing)
-                self._phase = partial(self._soften, apart, len(crossing))
+                self._phase = partial(self._soften, len(crossing))
                 return
         self.stylization = self._before
         self._conclude()

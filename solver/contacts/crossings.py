@@ -39,7 +39,7 @@ def crossings(V, F, is_asked=None):
     used = np.flatnonzero(np.all(np.all(np.isfinite(V), axis=1)[F], axis=1))
     if len(used) < 2 or not (is_asked is None or is_asked[used].any()):
         return np.empty((0, 2), np.intp)
-    low, high = _boxes(V, F[used])
+    low, high = boxes(V, F[used])
     origin = low.min(axis=0)
     size = float((high.max(axis=0) - origin).max())
     if not size > 0.0:
@@ -104,7 +104,7 @@ class Watched:
     """
 
     def __init__(self, V, F, is_moved, reach, counts):
-        low, high = _boxes(V, F)
+        low, high = boxes(V, F)
         margin = reach * is_moved[:, None]
         low, high = low - margin, high + margin
         origin = low.min(axis=0)
@@ -123,7 +123,7 @@ class Watched:
         return self._used[_Planes(V, self._F).crossing(*self._pairs)]
 
 
-def _boxes(V, F):
+def boxes(V, F):
     """Return the lower and the upper corners (m,3) of the boxes around triangles."""
     places = np.ascontiguousarray(V.T)
     a, b, c = (places.take(corner, axis=1) for corner in F.T)

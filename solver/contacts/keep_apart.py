@@ -96,14 +96,20 @@ class KeepApart:
         self._before: _Before | None = None
         self._at_end = np.empty(0, np.intp)
         self._crossing = np.empty((0, 2), np.intp)
+        self._looked_at: FloatArray | None = None
         self.crossings, self.pressed, self.vertices = 0, 0, np.empty(0, np.intp)
 
     def look(self, stylization):
         """Find what crosses in a shape near the one at the end; return its solved vertices (k,).
 
-        What has crossed there does not count.
+        What has crossed there does not count. Another look is for what has moved since the last.
         """
-        self._crossing = self._new(stylization.positions)
+        U = stylization.positions
+        before, self._looked_at = self._looked_at, U
+        if before is None:
+            self._crossing = self._new(U)
+        else:
+            self._crossing = self._pairs_after(self._crossing, before, U)
         pairs = self._firm(self._crossing)
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
         if self._before is not None:  # parts may cross: to leave them soft would not be worth it
@@ -219,13 +225,13 @@ class KeepApart:
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
         U = pushed(V, state.U, shown, pairs, self._counts, is_free, impose)
-        pairs = self._pairs_after(state, U)
+        pairs = self._pairs_after(state.pairs, state.U, U)
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
 
-    def _pairs_after(self, state, U):
-        """Return the pairs that cross after some vertices of a state have been moved."""
-        is_moved = (U != state.U).any(axis=1)[self._shown].any(axis=1)
-        pairs = state.pairs[~is_moved[state.pairs].any(axis=1)]
+    def _pairs_after(self, pairs, before, U):
+        """Return the pairs that cross after some vertices have been moved, of those before."""
+        is_moved = (before != U).any(axis=1)[self._shown].any(axis=1)
+        pairs = pairs[~is_moved[pairs].any(axis=1)]
         return np.concatenate([pairs, self._new(U, is_moved)])
 
     def _best_so_far(self) -> "_State":
@@ -256,8 +262,9 @@ class KeepApart:
 
     def _counts(self, pairs):
         """Return which pairs (k,2) count: not two cards, nor what both crossed at rest."""
-        is_new = ~self._rest.crosses_at_rest(pairs).all(axis=1)
-        return is_new & ~self._is_card[pairs].all(axis=1)
+        is_new = ~self._is_card[pairs].all(axis=1)
+        is_new[is_new] = ~self._rest.crosses_at_rest(pairs[is_new]).all(axis=1)
+        return is_new
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

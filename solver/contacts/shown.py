@@ -11,6 +11,7 @@ import numpy as np
 
 from ..mesh.overlaps import entries
 from ..styles.hulls import spiral
+from .crossings import boxes
 
 DIRECTIONS = 32
 """evenly over the sphere"""
@@ -77,33 +78,36 @@ def _is_blocked(V, points, F, pairs, least):
 
     Not one of the two (k,2) that they lie on.
     """
-    low, size = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
+    low, high = boxes(V, F)
+    origin, size = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
     side = int(np.clip(np.sqrt(len(F)), 8, _MOST_CELLS))
     scale = side / max(size, 1e-300) * (1.0 - 1e-9)
-    cell = ((points[:, :2] - low) * scale).astype(np.intp).clip(0, side - 1)
-    corners = V[F]
-    first, last = (
-        ((end - low) * scale).astype(np.intp).clip(0, side - 1)
-        for end in (corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1))
+    cell, first, last = (
+        ((x[:, :2] - origin) * scale).astype(np.intp).clip(0, side - 1) for x in (points, low, high)
     )
+    number = cell[:, 0] * side + cell[:, 1]
+    of_cells = np.bincount(number, minlength=side * side)
     count = np.zeros((side + 1, side + 1), dtype=np.intp)
-    np.add.at(count, (cell[:, 0] + 1, cell[:, 1] + 1), 1)
-    count = count.cumsum(axis=0).cumsum(axis=1)
+    count[1:, 1:] = of_cells.reshape(side, side).cumsum(axis=0).cumsum(axis=1)
     (x, y), (right, top) = first.T, (last + 1).T
     inside = count[right, top] - count[x, top] - count[right, y] + count[x, y]
-    near = np.flatnonzero((inside > 0) & (corners[:, :, 2].max(axis=1) > points[:, 2].min()))
+    near = np.flatnonzero((inside > 0) & (high[:, 2] > points[:, 2].min()))
     box, (column, row) = entries(first[near].T, last[near].T)
-    triangle, of_cell = near[box], column * side + row
-    number = cell[:, 0] * side + cell[:, 1]
-    order = np.argsort(number, kind="stable")
-    begin = np.searchsorted(number[order], of_cell)
-    times = np.searchsorted(number[order], of_cell, "right") - begin
-    triangle = np.repeat(triangle, times)
-    within = np.arange(len(triangle)) - np.repeat(np.cumsum(times) - times, times)
-    point = order[np.repeat(begin, times) + within]
-    is_other = (pairs[point] != triangle[:, None]).all(axis=1)
-    point, triangle = point[is_other], triangle[is_other]
-    is_above = _height(corners[triangle], points[point]) > least
+    of_cell = column * side + row
+    times, begin = of_cells[of_cell], (np.cumsum(of_cells) - of_cells)[of_cell]
+    triangle = np.repeat(near[box], times)
+    within = np.arange(len(triangle)) - np.repeat(np.cumsum(times) - times - begin, times)
+    point = np.argsort(number, kind="stable")[within]
+    is_near = np.ones(len(point), dtype=bool)
+    for own in pairs.T:
+        is_near &= own.take(point) != triangle
+    for begin, end, place in zip([*low.T[:2], None], high.T, points.T, strict=True):
+        at = place.take(point)
+        is_near &= end.take(triangle) >= at
+        if begin is not None:
+            is_near &= begin.take(triangle) <= at
+    point, triangle = point[is_near], triangle[is_near]
+    is_above = _height(V[F[triangle]], points[point]) > least
     is_blocked = np.zeros(len(points), dtype=bool)
     is_blocked[point[is_above]] = True
     return is_blocked

@@ -30,14 +30,9 @@ class Corners:
 
     def pulls(self, values):
         """Return L_f x of values x (m,3,...) at the corners."""
-        found = np.zeros_like(values)
-        for k in range(3):
-            a, b = (k + 1) % 3, (k + 2) % 3
-            weight = self._C[:, k].reshape(-1, *[1] * (values.ndim - 2))
-            flux = weight * (values[:, a] - values[:, b])
-            found[:, a] += flux
-            found[:, b] -= flux
-        return found
+        weight = self._C.reshape(-1, 3, *[1] * (values.ndim - 2))
+        flux = [weight[:, k] * (values[:, k - 2] - values[:, k - 1]) for k in range(3)]
+        return np.stack([flux[k - 1] - flux[k - 2] for k in range(3)], axis=1)
 
     def sums(self, values):
         """Return the sums (n,d) of values (m,3,d) at the corners of each vertex."""

@@ -133,34 +133,35 @@ class FaceStep:
         at = rows, np.repeat(F[self._free], 3, axis=0).ravel()
         free = pulls[self._free].swapaxes(1, 2).ravel()
         self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
-        if len(rest.links):
-            self._add_links()
+        self._add_links()
 
     def _add_links(self):
-        """Let links pull at the triangles around their vertices, in equal shares."""
+        """Let links pull at the triangles around their vertices, in equal shares.
+
+        Positions times ``_of_links`` (3n,n) are what pulls at the vertices, and that times
+        ``_around`` (k,n) what pulls at ``_linked`` (k,) triangles.
+        """
         rest, F = self._rest, self._rest.F
-        m, n = len(F), len(rest.V)
-        count = np.bincount(F.ravel(), minlength=n)
+        n = len(rest.V)
         row, column, _, gather = rest.links.entries(rest.V)
         at = (3 * row[:, None] + np.arange(3)).ravel(), np.repeat(column, 3)
-        of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
-        shares = (1.0 / count[F.ravel()], F.ravel(), np.arange(0, 3 * m + 1, 3))
-        around = sp.kron(sp.csr_matrix(shares, shape=(m, n)), sp.identity(3), format="csr")
-        of_faces = sp.csr_matrix(around @ of_links)
-        free = (3 * self._free[:, None] + np.arange(3)).ravel()
-        self._free_pulls = self._free_pulls + of_faces[free]
-        entries = of_faces.tocoo()
-        f, i = np.divmod(entries.row, 3)
-        pulled = [entries.data[:, None] * part[f, :, i] for part in self._parts]
-        for axis in range(3):
-            of_axis = np.bincount(entries.col, pulled[0][:, axis], n)
-            self._steady[:, axis] += of_axis
-        columns = np.tile((3 * entries.col[:, None] + np.arange(3)).ravel(), 2)
-        rows = np.repeat(np.concatenate([f, f + m]), 3)
-        values = np.stack(pulled[1:]).ravel()
-        self._angles = self._angles + sp.csr_matrix(
-            (values, (rows, columns)), shape=self._angles.shape
-        )
+        self._of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
+        is_linked = np.zeros(n, dtype=bool)
+        is_linked[row] = True
+        f, corner = np.nonzero(is_linked[F])
+        self._linked, number = np.unique(f, return_inverse=True)
+        shares = 1.0 / np.bincount(F.ravel(), minlength=n)[F[f, corner]]
+        at = number, F[f, corner]
+        self._around = sp.csr_matrix((shares, at), shape=(len(self._linked), n))
+        self._is_free = self._target.is_free[self._linked]
+        self._of_free = np.searchsorted(self._free, self._linked[self._is_free])
+        along, *self._linked_parts = (part[self._linked] for part in self._parts)
+        self._steady += self._pulled_by_links(along)
+
+    def _pulled_by_links(self, R):
+        """Return the pulls (n,3) at the vertices, for rotations (k,3,3) of what is linked."""
+        of_vertices = self._around.T @ R.swapaxes(1, 2).reshape(-1, 9)
+        return self._of_links.T @ of_vertices.reshape(-1, 3)
 
     @property
     def of_faces(self):
@@ -174,8 +175,11 @@ class FaceStep:
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
         """(n,3,3) rotations of the vertices: between those of the triangles around them."""
-        transposed = self.of_faces.swapaxes(1, 2).reshape(-1, 1, 9)
-        return svd_rotations(self._corners.sums(np.repeat(transposed, 3, axis=1)).reshape(-1, 3, 3))
+        R, F = self.of_faces, self._rest.F
+        near = np.empty((len(self._rest.V), 3, 3))
+        near[F] = R[:, None]
+        transposed = np.repeat(R.swapaxes(1, 2).reshape(-1, 1, 9), 3, axis=1)
+        return fit_rotations(self._corners.sums(transposed).reshape(-1, 3, 3), near)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
@@ -190,15 +194,23 @@ class FaceStep:
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         xy = (self._angles @ U.ravel()).reshape(2, -1)
+        linked = (self._around @ (self._of_links @ U).reshape(-1, 9)).reshape(-1, 3, 3)
+        xy[:, self._linked] += [np.einsum("kij,kji->k", R, linked) for R in self._linked_parts]
         gains = np.hypot(*xy)
         is_clear = gains > 0.0
         self._turn = np.where(is_clear, xy, [[1.0], [0.0]]) / np.where(is_clear, gains, 1.0)
         turned = self._steady + (self._angles.T @ self._turn.ravel()).reshape(-1, 3)
         if len(self._free):
             S = (self._free_pulls @ U).reshape(-1, 3, 3)
+            S[self._of_free] += linked[self._is_free]
             self._free_R = fit_rotations(S, self._free_R)
             gains[self._free] = np.einsum("mij,mji->m", self._free_R, S)
             turned += self._free_pulls.T @ self._free_R.swapaxes(1, 2).reshape(-1, 3)
+        cosine, sine = self._turn[:, self._linked, None, None]
+        across, aside = self._linked_parts
+        R = cosine * across + sine * aside
+        R[self._is_free] = self._free_R[self._of_free]
+        turned += self._pulled_by_links(R)
         self._rhs = self._right_hand_side(U, turned)
         return self._energies(U, gains), np.zeros(self._rest.topology.component_count)
 

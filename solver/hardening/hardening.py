@@ -8,7 +8,7 @@ from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.samples import extents
-from ..rotation_fit import orthonormalize, svd_rotations
+from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
 from .face_step import Target
@@ -98,7 +98,7 @@ class Hardening:
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
         share = self.crispness[:, None, None]
         mixed = (1.0 - share) * self.rotations + share * R
-        return svd_rotations(mixed.swapaxes(1, 2))
+        return fit_rotations(mixed.swapaxes(1, 2), R)
 
 
 def hold_of(rest):
@@ -171,7 +171,7 @@ def _share_of_thickness(rest):
 
 def _at_faces(R, F):
     """Return rotations (n,3,3) of vertices at the triangles (m,3,3)."""
-    means = R[F].mean(axis=1)
+    means = (R[F[:, 0]] + R[F[:, 1]] + R[F[:, 2]]) / 3.0
     sides = np.linalg.det(means) < 0.0  # mirrored frames are between mirrored ones
     means[sides] *= -1.0
     means = orthonormalize(means, _ORTHONORMALIZATIONS)

@@ -191,11 +191,17 @@ def _lengths(V, links):
 def _farthest(V, node, place):
     """Return the vertices (m,d,3) of each node that are farthest in each of `_WAYS`, or itself."""
     used = np.flatnonzero(node >= 0)
+    used = used[np.argsort(node[used], kind="stable")]
+    places, of_node = V[used], node[used]
     found = np.repeat(place[:, None], len(_WAYS), axis=1)
-    for number, way in enumerate(_WAYS):
-        order = used[np.lexsort((V[used] @ way, node[used]))]
-        last = np.append(np.flatnonzero(np.diff(node[order])), len(order) - 1)
-        found[node[order[last]], number] = V[order[last]]
+    if not len(used):
+        return found
+    first = np.append(True, np.diff(of_node) > 0)
+    begin, number = np.flatnonzero(first), np.cumsum(first) - 1
+    for way, direction in enumerate(_WAYS):
+        height = places @ direction
+        last = np.flatnonzero(height == np.maximum.reduceat(height, begin)[number])
+        found[of_node[last], way] = places[last]
     return found
 
 
