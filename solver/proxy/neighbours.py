@@ -11,7 +11,8 @@ is the nearest one, no third part lies between. A link is accepted
 Both are measured by the parts, not by the selection: two characters at opposite ends
 of a scene are as close to their clothes as one alone. Parts that are farther apart, or side by
 side at a distance, are not linked; and vertices of one part never are, however close its fingers.
-Nor is a planar sheet to smaller parts, see `sheets.py`.
+Nor is a planar sheet to smaller parts, see `sheets.py`. Parts that cross and that all this leaves
+apart are linked where they do, see `through.py`.
 """
 
 import numpy as np
@@ -21,6 +22,7 @@ from .links import links_to_triangles, no_links
 from .nearest_triangles import FEW, NearestTriangles, is_in_box
 from .samples import extents, surface_samples
 from .sheets import is_ground
+from .through import links_through
 
 CONTACT = 0.01
 LAYER = 0.03
@@ -64,8 +66,6 @@ def neighbour_links(V, F, normals, areas, part, count):
 
     nearest = NearestTriangles(V, corners, part, chosen, sizes, reach)
     i, triangle, barycentric, d = nearest.ways()
-    if not len(i):
-        return no_links()
     share = np.zeros(len(V))
     share[chosen] = area
     weights = share[i] / np.maximum(dot(*d.T, *d.T), np.maximum(share[i], spacing[i] ** 2))
@@ -73,7 +73,8 @@ def neighbour_links(V, F, normals, areas, part, count):
     is_kept = _is_accepted(V[corners[triangle]], normals[i], sizes[both], d)
     is_kept &= (weights > LEAST_WEIGHT) & ~is_ground(V, F, part, *both)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
-    return links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
+    links = links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
+    return links.joined(links_through(V, F, part, count, links, areas, spacing))
 
 
 def _near_others(V, part, count):

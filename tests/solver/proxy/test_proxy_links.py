@@ -19,6 +19,7 @@ from solver.proxy.closest_point import closest_points
 from solver.proxy.links import Links, links_between, links_to_triangles
 from solver.proxy.neighbours import neighbour_links
 from solver.proxy.thickness import outward_sign, thickness_links
+from solver.proxy.through import links_through
 
 
 def mixed_links(V):
@@ -207,3 +208,33 @@ def test_the_energy_falls_with_links_too_and_a_second_run_has_the_same_bits(make
     assert np.diff(energies).max() <= by_device(device, 1e-12, 1e-6)
     second = stylize(V, F, 0.4, keep_rotation=True, **options)
     assert first.positions.tobytes() == second.positions.tobytes()
+
+
+def spiked(depth=0.15, height=1.0):
+    """Return a ball with a stick in it, its end below the surface, and which vertices it has."""
+    V, F = shapes.sphere(3)
+    top = V[:, 2].max()
+    x, y = 0.03 * np.array([[1, 0, -1, 0], [0, 1, 0, -1]], float)
+    ends = [np.column_stack([x, y, np.full(4, z)]) for z in (top - depth, top - depth + height)]
+    sides = [[i, (i + 1) % 4, 4 + i] for i in range(4)]
+    sides += [[(i + 1) % 4, 4 + (i + 1) % 4, 4 + i] for i in range(4)]
+    stick = np.concatenate(ends), np.array([*sides, [0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]])
+    return *proxy_shapes.joined((V, F), stick), np.arange(len(V), len(V) + 8)
+
+
+def test_a_stick_stays_in_what_it_goes_into():
+    V, F, stick = spiked()
+    links, part = neighbours_of(V, F)
+    assert len(links) and (part[links.vertices[:, 0]] != part[links.vertices[:, 1]]).all()
+    U = stylize(V, F, 0.6, keep_rotation=True).positions
+    ball = slice(stick[0])
+    is_top = (np.hypot(*V[ball, :2].T) < 0.2) & (V[ball, 2] > 0.0)
+    assert U[stick[:4], 2].mean() < U[ball, 2][is_top].mean() - 0.05
+
+
+def test_what_others_connect_already_is_linked_as_before():
+    V, F = proxy_shapes.eye_in_head()
+    links, part = neighbours_of(V, F)
+    areas, _ = areas_and_normals(V, F)
+    added = links_through(V, F, part, 2, links, areas, np.full(len(V), 0.01))
+    assert len(added) == 0
