@@ -11,8 +11,8 @@ from ..proxy.cavities import OF_STRENGTH
 from ..proxy.thickness import STRENGTH
 from .of_shape import limbs_of_shape
 
-INNER = 0.15
-"""least share of the area of a hollow part that faces itself across cavities..."""
+INNER = 0.3
+"""least share of a side of a hollow part that faces itself across cavities..."""
 SLENDER = 0.5
 """...and that is a limb, in a part whose wall is one: the wire of a spring is no cloth"""
 
@@ -36,7 +36,9 @@ def with_hollows(limbs, V, skin, walls, cavities, part, areas):
     i, j = cavities.vertices[:, 0], cavities.vertices[:, 1]
     # a link of this weight stands for so much area, see `facing_pairs`
     inner = cavities.weights[:, 0] * ((V[j] - V[i]) ** 2).sum(axis=1) / (OF_STRENGTH * STRENGTH)
-    is_hollow = np.bincount(part[i], inner, len(total)) > INNER * total
+    has_two_sides = np.bincount(part[walls.vertices[:, 0]], minlength=len(total)) > 0
+    side = np.where(has_two_sides, 0.5, 1.0) * total
+    is_hollow = np.bincount(part[i], inner, len(total)) > INNER * side
     own = areas * np.asarray(limbs.shares.sum(axis=1)).ravel()
     is_hollow &= np.bincount(part, own) < SLENDER * total
     if not is_hollow.any():
