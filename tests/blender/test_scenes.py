@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What artists do with an object beside us: undo, links, rigs, animation, many objects at once."""
 
-import os
-
 import bpy
 import pytest
-from mathutils import Matrix
 from rich_mesh import add_rich_monkey, points_of, position_of
 from scene import add_monkey, cubify, select
 from snapshot import differences
 from world import snapshot_world
-
-MANY = int(os.environ.get("CUBIC_CRAFT_OBJECTS", "60"))
 
 
 def step(message):
@@ -87,17 +82,6 @@ def test_a_linked_result_is_seen_and_left_alone_beside_a_local_mesh(tmp_path):
             operator()
 
 
-def test_a_linked_result_made_local_can_be_restored(tmp_path):
-    obj = add_monkey()
-    before = position_of(obj.data).tobytes()
-    cubify()
-    linked = link(library_with(tmp_path, obj))
-    select(linked)
-    bpy.ops.object.make_local(type="SELECT_OBDATA")
-    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    assert position_of(the().data).tobytes() == before
-
-
 def test_an_override_of_a_linked_object_with_a_mesh_of_its_own(tmp_path):
     linked = link(library_with(tmp_path, add_monkey()))
     override = linked.override_create(remap_local_usages=True)
@@ -151,26 +135,3 @@ def test_rigged_subdivided_keyed_animated_and_driven():
     assert [evaluated(frame) for frame in frames] == before
     for name, points in keys.items():
         assert points_of(obj.data, name).tobytes() == points.tobytes()
-
-
-def test_many_objects_in_one_click():
-    """``CUBIC_CRAFT_OBJECTS=1000``: some with a mesh of their own, some sharing one."""
-    bpy.ops.mesh.primitive_cube_add(size=1)
-    first = bpy.context.object
-    objects = [first]
-    for number in range(MANY - 1):
-        twin = first.copy()
-        if number % 2:
-            twin.data = first.data.copy()
-        bpy.context.collection.objects.link(twin)
-        objects.append(twin)
-    for obj in {obj.data: obj for obj in objects}.values():
-        bpy.context.view_layer.objects.active = obj
-        obj.data.transform(Matrix.Shear("XY", 4, (0.2, 0.3)))
-    before = [position_of(obj.data).tobytes() for obj in objects]
-    select(*objects)
-    assert cubify(max_iterations=2) == {"FINISHED"}
-    shapes = {position_of(obj.data).tobytes() for obj in objects}
-    assert len(shapes) == 1 and shapes != set(before)
-    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    assert [position_of(obj.data).tobytes() for obj in objects] == before

@@ -38,12 +38,6 @@ def test_layouts_give_the_same(name):
     assert np.array_equal(result.positions, EXPECTED)
 
 
-def test_float32_is_computed_in_64_bit():
-    result = stylize(V.astype(np.float32), F, 0.4, device="numpy", proxy=PAPER)
-    assert result.positions.dtype == np.float64
-    assert np.allclose(result.positions, EXPECTED, atol=1e-4)
-
-
 @pytest.mark.parametrize("proxy", [PAPER, None])
 def test_a_trimesh(proxy):
     mesh = trimesh.Trimesh(V, F, process=False)
@@ -61,16 +55,6 @@ def test_a_trimesh(proxy):
 def facing_axes(mesh):
     """Return how much of a surface faces an axis, on average."""
     return np.average(np.abs(mesh.face_normals).max(axis=1), weights=mesh.area_faces)
-
-
-def test_a_trimesh_with_pins_and_a_cubeness_per_vertex():
-    mesh = trimesh.Trimesh(V, F, process=False)
-    pinned = np.flatnonzero(mesh.vertices[:, 2] < -0.5)
-    cubeness = np.where(mesh.vertices[:, 0] > 0.0, 0.4, 0.0)  # of a type that notices changes
-    result = stylize(
-        mesh.vertices, mesh.faces, cubeness, read_only(pinned), device="numpy", proxy=PAPER
-    )
-    assert len(pinned) and np.array_equal(result.positions[pinned], V[pinned])
 
 
 @pytest.mark.parametrize("ending", [".ply", ".vtk", ".vtu", ".off"])

@@ -6,11 +6,10 @@ import dataclasses
 import meshio
 import numpy as np
 import pytest
-from command import QUICK, cubic_craft, in_a_process, quick
+from command import QUICK, cubic_craft, quick
 from scipy.spatial.transform import Rotation
 
-from cubic_craft import PAPER, CubicCraftError, ProxyOptions, stylize
-from cubic_craft.command_line import arguments, style
+from cubic_craft import PAPER, ProxyOptions, stylize
 from cubic_craft.styles import forms
 from scripts.benchmark.shapes import blob
 
@@ -101,18 +100,6 @@ for option in dataclasses.fields(ProxyOptions):
     PROXIES[given] = dataclasses.replace(ProxyOptions(), **{option.name: value})
 
 
-@pytest.mark.parametrize("given", PROXIES)
-def test_each_option_of_the_proxy_reaches_the_solver(given, monkeypatch):
-    def watched(*_, proxy, **__):
-        assert proxy == PROXIES[given]
-        raise CubicCraftError("as far as this")
-
-    monkeypatch.setattr(style, "stylize", watched)
-    surface = style.Surface(V, [F])
-    with pytest.raises(style.InputError, match="as far as this"):
-        style.stylized(surface, arguments.parse(["in.obj", "out.obj", *given.split()]))
-
-
 def test_the_default_device_uses_what_is_installed(tmp_path):
     options = ("--refine", "off", "--tolerance", "1e-5")
     line = cubic_craft(save(tmp_path / "blob.ply"), "cubic.ply", *options, folder=tmp_path)[0]
@@ -185,19 +172,3 @@ def test_normals_are_rotated(tmp_path):
     ply = meshio.read(tmp_path / "cubic.ply").point_data
     assert np.allclose(np.stack([ply[name] for name in columns], axis=1), turned, atol=1e-6)
     assert np.allclose(meshio.read(tmp_path / "cubic.vtu").point_data["Normals"], turned)
-
-
-def test_single_precision_stays_single(tmp_path):
-    name = save(tmp_path / "blob.ply", V.astype(np.float32))
-    cubic_craft(name, "cubic.ply", *QUICK, folder=tmp_path)
-    assert meshio.read(tmp_path / "cubic.ply").points.dtype == np.float32
-    cubic_craft(name, "cubic.vtk", *QUICK, folder=tmp_path)
-    assert np.allclose(meshio.read(tmp_path / "cubic.vtk").points, quick(V, F).positions, atol=1e-4)
-
-
-def test_an_existing_output_is_replaced(tmp_path):
-    name = save(tmp_path / "blob.ply")
-    (tmp_path / "cubic.ply").write_text("old")
-    cubic_craft(name, "cubic.ply", *QUICK, folder=tmp_path, run=in_a_process)
-    assert len(meshio.read(tmp_path / "cubic.ply").points) == len(V)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["blob.ply", "cubic.ply"]

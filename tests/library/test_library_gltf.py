@@ -86,17 +86,6 @@ def test_other_programs_read_it_and_are_read(tmp_path):
     assert np.array_equal(made.faces, F)
 
 
-def test_other_formats_become_gltf_and_back(tmp_path):
-    mesh = trimesh.Trimesh(V, F, process=False)
-    mesh.export(tmp_path / "blob.ply")
-    cubic_craft("blob.ply", "a.glb", *QUICK, folder=tmp_path)
-    cubic_craft("a.glb", "b.obj", "--cubeness", "0", *QUICK, folder=tmp_path)
-    for name in ("a.glb", "b.obj"):
-        surface = read(tmp_path / name).surface
-        assert np.allclose(surface.points, quick(V, F).positions, atol=1e-5)
-        assert np.array_equal(surface.triangles, F)
-
-
 def solved(tmp_path, change):
     """Return the data of a changed file before and after, and the lines of the command."""
     name = save(tmp_path / "a.glb", change)
@@ -145,21 +134,6 @@ def test_what_is_not_shown_is_neither_solved_nor_changed(tmp_path):
     before, after, lines = solved(tmp_path, change)
     assert np.array_equal(after.values(4), before.values(4))
     assert lines[1] == "cubic-craft: note: only the scene that is shown first is changed"
-
-
-def test_a_mesh_in_several_places_becomes_one_for_each(tmp_path):
-    def change(data):
-        data.tree["nodes"] = [{"mesh": 0}, {"mesh": 0, "translation": [1.5, 0, 0]}]
-        data.tree["scenes"][0]["nodes"] = [0, 1]
-
-    before, after, lines = solved(tmp_path, change)
-    points = np.concatenate([V, V + [1.5, 0, 0]])
-    result = quick(points, np.concatenate([F, F + len(V)]))
-    assert np.allclose(shown(tmp_path / "b.glb")[0], result.positions, atol=1e-5)
-    assert [node["mesh"] for node in after.tree["nodes"]] == [1, 0]
-    assert len(before.tree["meshes"]) == 1 and "324 vertices" in lines[0]
-    made = trimesh.load_scene(tmp_path / "b.glb", process=False).to_mesh()
-    assert np.allclose(made.bounds, [result.positions.min(0), result.positions.max(0)], atol=1e-5)
 
 
 def boned(turn):
@@ -212,38 +186,6 @@ def test_normals_that_are_stored_as_integers_stay_normals(kind, dtype, tmp_path)
     turned = np.einsum("nij,nj->ni", quick(V, F).rotations, NORMALS)
     found = after.values(primitive["attributes"]["NORMAL"])
     assert np.allclose(found, turned, atol=0.02)
-
-
-def test_positions_that_are_stored_as_integers_become_numbers(tmp_path):
-    low, size = V.min(0), np.ptp(V, axis=0).max()
-
-    def change(data):
-        stored = np.zeros((len(V), 4), np.uint16)
-        stored[:, :3] = np.round((V - low) / size * 65535)
-        position = data.add(stored, componentType=5123, type="VEC3", normalized=True)
-        view = data.tree["accessors"][position]["bufferView"]
-        data.tree["bufferViews"][view]["byteStride"] = 8
-        data.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = position
-        data.tree["nodes"][0] |= {"scale": [size] * 3, "translation": low.tolist()}
-
-    solved(tmp_path, change)
-    assert np.allclose(shown(tmp_path / "a.glb")[0], V, atol=1e-4)
-    assert np.allclose(shown(tmp_path / "b.glb")[0], quick(V, F).positions, atol=1e-3)
-
-
-def test_normals_that_two_meshes_share_turn_with_each(tmp_path):
-    def change(data):
-        shell(data)
-        data.tree["meshes"][1]["primitives"][0]["attributes"]["NORMAL"] = 2
-        data.tree["nodes"][1]["translation"] = [9, 0, 0]
-        data.tree["scenes"][0]["nodes"] = [0, 1]
-
-    _, after, _ = solved(tmp_path, change)
-    points = np.concatenate([V, 1.1 * V + [9, 0, 0]])
-    rotations = quick(points, np.concatenate([F, F + len(V)])).rotations.reshape(2, -1, 3, 3)
-    for mesh, R in zip(after.tree["meshes"], rotations, strict=True):
-        normals = after.values(mesh["primitives"][0]["attributes"]["NORMAL"])
-        assert np.allclose(normals, np.einsum("nij,nj->ni", R, NORMALS), atol=1e-4)
 
 
 def test_sparse_positions_are_read_whole(tmp_path):

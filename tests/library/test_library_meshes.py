@@ -37,14 +37,6 @@ def test_a_trimesh_keeps_all():
     assert np.allclose(made.vertex_normals, anew) and not np.allclose(anew, normals, atol=1e-3)
 
 
-def test_uvs_of_a_trimesh_stay():
-    pytest.importorskip("PIL")  # which trimesh needs for textures
-    uv = np.random.default_rng(2).random((len(V), 2))
-    visual = trimesh.visual.TextureVisuals(uv=uv)
-    made = stylize_mesh(trimesh.Trimesh(V, F, visual=visual, process=False), **QUICK)
-    assert np.array_equal(made.visual.uv, uv)
-
-
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 def test_a_meshio_mesh_keeps_all(kind):
     mesh = meshio.Mesh(
@@ -74,18 +66,6 @@ def test_quads_and_polygons_of_meshio_are_solved_as_they_are():
     made = stylize_mesh(meshio.Mesh(V, cells), 0.4, pinned, **QUICK)
     assert np.array_equal(made.points[:4], V[:4])
     assert [len(block.data) for block in made.cells] == [100, len(F) - 100, 1]
-
-
-def test_seams_of_a_texture_stay_closed():
-    V, F = blob(1)
-    half = np.arange(len(F)) % 2 == 0
-    places = np.concatenate([V, V])  # each vertex once more, as UVs would part them
-    faces = np.where(half[:, None], F, F + len(V))
-    made = stylize_mesh(trimesh.Trimesh(places, faces, process=False), 0.4, device="numpy")
-    used = np.isin(np.arange(len(V)), F[half]) & np.isin(np.arange(len(V)), F[~half])
-    assert used.any() and np.array_equal(
-        made.vertices[: len(V)][used], made.vertices[len(V) :][used]
-    )
 
 
 def test_a_scene_is_solved_as_it_stands():

@@ -2,7 +2,6 @@
 """What is in the wheel: the files of the solver, under another name."""
 
 import ast
-import doctest
 import inspect
 import pydoc
 import re
@@ -26,7 +25,6 @@ SOURCES = [
     *((ROOT / "library", path) for path in (ROOT / "library" / "command_line").rglob("*.py")),
     (ROOT / "library", ROOT / "library" / "__main__.py"),
 ]
-BACKENDS = "cubic_craft.backends"
 
 
 def copy_of(room, path):
@@ -149,25 +147,6 @@ def test_annotations_are_complete_and_can_be_evaluated(function, returned):
     found = hints.pop("return", None)
     assert (get_origin(found) or found) == returned
     assert set(hints) == set(inspect.signature(function).parameters) - {"self"}
-
-
-PUBLIC = [
-    name
-    for name in cubic_craft.__all__
-    if callable(value := getattr(cubic_craft, name))
-    and ">>>" in (inspect.getdoc(value) or "")
-    and not value.__module__.startswith(BACKENDS)  # depends on the machine
-]
-
-
-@pytest.mark.parametrize("name", PUBLIC)
-def test_the_example_of_a_docstring_runs_as_it_is_installed(name):
-    text = inspect.getdoc(getattr(cubic_craft, name))
-    assert "from solver" not in text
-    runner = doctest.DocTestRunner()
-    runner.run(doctest.DocTestParser().get_doctest(text, {}, name, None, None))
-    failed, tried = runner.summarize()
-    assert tried and not failed
 
 
 @pytest.mark.parametrize(("page", "title"), examples("cubic_craft"), ids=str)

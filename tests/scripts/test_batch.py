@@ -3,13 +3,11 @@
 
 import json
 import shutil
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from batch_kit import CUBE, MESHES, QUICK, batch, files_in, statuses
-from headless import headless
+from batch_kit import CUBE, QUICK, batch, files_in, statuses
 
 CORPUS = Path(__file__).resolve().parents[1] / "corpus" / "files"
 SOUND = ("doubled_corners.ply", "loose.obj", "moebius.obj")
@@ -55,20 +53,6 @@ def test_the_report_has_all_files(done):
             assert each["outputs"] == [Path(each["input"]).stem + ".obj"]
 
 
-def test_each_file_has_a_line(done):
-    _, process = done
-    assert process.stdout == ""
-    assert "Traceback" not in process.stderr
-    lines = process.stderr.splitlines()
-    assert "left out, of kinds that are not read: 1 .txt" in lines
-    rows = dict(line.split(", ", 1)[1].split(": ", 1) for line in lines if line[1:7] == " of 6,")
-    assert sorted(rows) == sorted((*SOUND, *BROKEN))
-    assert rows["moebius.obj"].startswith("24 vertices, cubeness 0.4: ")
-    assert rows["moebius.obj"].endswith(" GB")
-    assert all(rows[name].startswith("failed: ") for name in BROKEN)
-    assert lines[-1] == "headless_render.py: 3 of 6 files failed"
-
-
 def test_a_report_of_lines_has_one_for_each_file_as_soon_as_it_is_done(tmp_path):
     (tmp_path / "a.obj").write_text(CUBE)
     (tmp_path / "b.obj").write_text("v 0 0 0\n")
@@ -93,20 +77,6 @@ def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
     assert process.returncode == 0, process.stderr
     ends = ["_0001.png", "_0002.png", "_cubic_0.1.ply", "_cubic_0.2.ply"]
     assert files_in(tmp_path / "out") == [f"{name}{end}" for name in ("one", "two") for end in ends]
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
-def test_files_may_have_any_name(tmp_path):
-    names = ['it\'s "$HOME" `ls`;#', "[b] line\nbreak", "-lead Größe 立方体 🧊", "[red]a"]
-    folder = tmp_path / "-odd [red] folder"
-    folder.mkdir()
-    for name in names:
-        (folder / f"{name}.obj").write_text(CUBE)
-    process = headless(".", "--output-folder=-out 立", "--jobs", 2, *MESHES, cwd=folder)
-    assert process.returncode == 0, process.stderr
-    assert files_in(folder / "-out 立") == sorted(f"{name}.obj" for name in names)
-    rows = [line for line in process.stderr.splitlines() if line[1:7] == " of 4,"]
-    assert len(rows) == len(names), "each has one line"
 
 
 def test_every_file_gets_the_handles_and_options_and_says_what_is_left_out(tmp_path):

@@ -4,7 +4,6 @@
 import io
 import os
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -129,21 +128,6 @@ def test_names_of_results(folder):
     assert names("sub") == {"sub/a.obj": "a_obj", "sub/a.ply": "a_ply"}
 
 
-def test_names_that_differ_in_case_only_are_kept_apart(folder):
-    (folder / "sub" / "A.obj").write_text(CUBE)
-    if len(list((folder / "sub").iterdir())) < 2:
-        pytest.skip("they are the same file here")
-    first, second = names("sub").values()
-    assert first.casefold() != second.casefold()
-    assert names("sub") == names("sub")
-
-
-def test_results_are_not_taken_for_inputs(folder):
-    (folder / "out").mkdir()
-    (folder / "out" / "a.obj").write_text(CUBE)
-    assert "out/a.obj" not in names(".", is_recursive=True)
-
-
 def test_the_key_changes_with_all_that_decides_about_the_result(folder):
     def key(*words, version="1"):
         return key_of(folder / "a.obj", decisive(batch_options(*words), version))
@@ -195,14 +179,6 @@ def test_what_is_done_counts_with_its_key_and_outputs_only(folder):
     (folder / "a.png").unlink()
     assert do(job, batch) == done
     assert do(job, batch) == kept
-
-
-def test_a_file_that_is_given_out_twice_is_done_once(folder):
-    job, batch = batch_of(folder, f"import time; time.sleep(0.5)\n{WRITES}")
-    with ThreadPoolExecutor() as pool:
-        found = list(pool.map(lambda each: do(job, each)["status"], [batch] * 3))
-    assert sorted(found) == ["done", "kept", "kept"]
-    assert not list(folder.glob(".*"))
 
 
 @pytest.mark.parametrize(

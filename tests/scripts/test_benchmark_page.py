@@ -94,18 +94,6 @@ def test_the_page_says_which_settings_its_rows_have(results):
     assert all("paper" in section.partition("\n|")[0] for section in measured)
 
 
-def test_gap_is_one_at_rest_and_none_at_best(case):
-    assert [summary.gap_of(case, energy) for energy in (2.0, 1.25, 1.0)] == [1.0, 0.25, 0.0]
-    assert summary.gap_of(case, summary.energy_at_gap(0.05, 2.0, 1.0)) == pytest.approx(0.05)
-    with pytest.raises(ValueError, match=r"1\.0 must be above .* 1\.0"):
-        summary.gap_of(case | {"rest": 1.0}, 1.0)
-
-
-def test_lowest_energy_is_that_of_any_iteration(case):
-    case["ours"][1]["curve"].insert(2, [2.5, 0.8])
-    assert summary.lowest(case) == 0.8
-
-
 def test_the_first_time_counts_and_the_median_needs_every_run(case):
     curve = [(1.0, 9.0), (2.0, 5.0), (3.0, 6.0), (4.0, 4.0)]
     assert [summary.seconds_to_energy(curve, at) for at in (5.5, 4.0, 3.9)] == [2.0, 4.0, None]
@@ -124,12 +112,6 @@ def test_fit_leaves_out_small_sizes_and_those_without_a_best_energy():
     cases = [size(1000, 50.0), size(10_000, 1.0), unknown, size(100_000, 10.0)]
     assert summary.fit(cases) == pytest.approx((1.0, 1e-4))
     assert summary.fit(cases[:2]) == (None, None)
-
-
-def test_fit_of_noise_is_that_of_least_squares():
-    # in logarithms to the base 10 the points are (4, 0), (5, 1), (6, 1): slope 1/2
-    cases = [size(10**4, 1.0), size(10**5, 10.0), size(10**6, 10.0)]
-    assert summary.fit(cases) == pytest.approx((0.5, 10 ** (1 / 6 - 2)))
 
 
 @pytest.mark.parametrize(

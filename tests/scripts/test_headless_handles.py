@@ -65,35 +65,6 @@ def test_where_handles_overlap_the_first_counts(inputs, tmp_path):
     np.testing.assert_allclose(found[TOP[1:]], REST[TOP[1:]] + np.array(UP), rtol=1e-6)
 
 
-def test_at_rest_nothing_moves(inputs, tmp_path):
-    found = posed_obj(inputs, tmp_path, {"vertices": TOP}, {"vertices": BOTTOM, "scale": [1, 1, 1]})
-    np.testing.assert_allclose(found, REST, rtol=0, atol=1e-6 * TINY)
-
-
-def test_vertices_below_the_threshold_are_not_held(inputs, tmp_path):
-    handles = write(tmp_path, {"group": "light", "threshold": 0.5})
-    common = (inputs / "awkward.blend", "--object", "twin", *FAST, "--save-mesh", "posed.abc")
-    result = headless_shared(*common, "--handles", handles, cwd=tmp_path)
-    assert result.returncode == 2
-    assert 'weighs 0.5 or more in the vertex group "light"' in result.stderr
-
-
-def test_groups_of_a_blend_and_pins_before_handles(inputs, tmp_path):
-    """The object is placed anywhere; the handle is in its own coordinates."""
-    path = write(
-        tmp_path, {"group": "pinned", "threshold": 0.9, "translate": UP}, {"vertices": TOP}
-    )
-    common = (inputs / "awkward.blend", "--object", "twin", *FAST)
-    headless_ok(*common, "--handles", path, "--save-mesh", "a.blend", cwd=tmp_path)
-    headless_ok(
-        *(*common, "--handles", path, "--pin", "pinned", "--save-mesh", "b.blend"), cwd=tmp_path
-    )
-    for name, way in (("a.blend", np.array(UP)), ("b.blend", np.zeros(3))):
-        [content] = read_files(tmp_path / name, folder=tmp_path)
-        found = content["twin"][0]
-        np.testing.assert_allclose(found[BOTTOM], REST[BOTTOM] + way, rtol=1e-6)
-
-
 # what stands in the file, and what the one line must name
 REFUSED = {
     "no JSON": ("{", ["is not JSON", "line 1"]),

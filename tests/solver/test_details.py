@@ -67,11 +67,6 @@ def test_an_edge_of_the_whole_stays_sharp_and_a_fold_does_not():
     assert off[at_fold].min() > 20.0
 
 
-def test_without_a_size_all_normals_are_as_they_are():
-    rest = rest_mesh(*shapes.blob(3), PAPER)
-    assert rest.cubic_normals is rest.normals
-
-
 def test_bumps_are_left_and_the_whole_is_as_cubic():
     V, F, bump = bumpy_ball()
     heights, widths = [], []

@@ -73,13 +73,6 @@ def test_a_sphere_becomes_a_cube(device):
     assert face_alignment(result.positions, F) > 0.94
 
 
-def test_the_orientation_turns_the_cube(device):
-    V, F = shapes.sphere(3)
-    result = stylize(V, F, 0.8, orientation=Q, device=device, proxy=PAPER)
-    assert face_alignment(result.positions @ Q.T, F) > 0.94
-    assert face_alignment(result.positions, F) < 0.9
-
-
 def test_turning_the_mesh_equals_turning_the_cube(device):
     V, F = shapes.blob()
     a = stylize(V @ Q.T, F, 0.4, device=device, **FIXED).positions @ Q
@@ -109,31 +102,12 @@ def test_components_behave_as_each_alone(device):
     np.testing.assert_array_equal(together[first], V[first])  # the loose vertex
 
 
-@pytest.mark.parametrize("scale", [1e-2, 1e-4])
-def test_a_tiny_part_is_solved_like_a_large_one(scale, device):
-    V, F = shapes.blob(2)
-    both = np.concatenate([V, scale * V + [3.0, 0.0, 0.0]])
-    result = stylize(both, np.concatenate([F, F + len(V)]), 0.4, device=device, **FIXED)
-    large, tiny = result.positions[: len(V)], result.positions[len(V) :]
-    # the places of both in the same 32 bit: the smaller the part, the fewer are left for its shape
-    tolerance = by_device(device, 1e-6, 2e-5 / scale)
-    assert np.abs((tiny - [3.0, 0.0, 0.0]) / scale - large).max() < tolerance
-
-
 def test_the_same_input_gives_the_same_bits(device):
     V, F = shapes.skewed_blob()
     a, b = (stylize(V, F, 0.4, device=device, proxy=PAPER) for _ in range(2))
     np.testing.assert_array_equal(a.positions, b.positions)
     np.testing.assert_array_equal(a.rotations, b.rotations)
     assert a.energy == b.energy
-
-
-def test_pinned_vertices_stay_exactly(device):
-    V, F = shapes.blob()
-    pins = np.flatnonzero(V[:, 2] > 1.0)
-    result = stylize(V, F, 0.6, pins, device=device, proxy=PAPER)
-    np.testing.assert_array_equal(result.positions[pins], V[pins])
-    assert np.abs(result.positions - V).max() > 0.05
 
 
 def test_pins_follow_their_targets(device):
@@ -145,17 +119,6 @@ def test_pins_follow_their_targets(device):
     np.testing.assert_array_equal(result.positions[pins], targets[pins])
     free = np.setdiff1d(np.arange(len(V)), pins)
     assert np.abs(result.positions[free] - V[free]).max() > 0.1
-
-
-def test_a_pinned_loose_vertex_goes_to_its_target(device):
-    V, F = shapes.two_blobs()
-    loose = len(shapes.blob(2)[0])
-    targets = np.full(V.shape, np.nan)
-    targets[[0, loose]] = [V[0], [1.0, 2.0, 3.0]]
-    result = stylize(
-        V, F, 0.2, [0, loose], targets=targets, device=device, max_iterations=3, proxy=PAPER
-    )
-    np.testing.assert_array_equal(result.positions[[0, loose]], targets[[0, loose]])
 
 
 def test_a_cubeness_map_acts_where_it_is(device):
@@ -252,7 +215,8 @@ def test_a_form_may_be_a_name():
         ("prism", forms.prism(6)),
         (["cube", "cone"], [forms.cube(), forms.cone()]),
     ):
-        of = {"device": "numpy", "form_of": upper if isinstance(name, list) else None}
+        which = upper if isinstance(name, list) else None
+        of = {"device": "numpy", "form_of": which, "proxy": PAPER, "max_iterations": 3}
         assert stylize(V, F, form=name, **of) == stylize(V, F, form=form, **of)
 
 

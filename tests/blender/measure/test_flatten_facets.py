@@ -166,20 +166,6 @@ def test_edits_become_a_part_of_the_result(bridge):
     assert position_of(obj.data).tobytes() == original.tobytes()
 
 
-def test_undo_and_redo():
-    obj = add_ball()
-    cubify()
-    bpy.ops.ed.undo_push(message="Cubify")
-    cubic = position_of(obj.data).tobytes()
-    flatten()
-    bpy.ops.ed.undo_push(message="Flatten")
-    flat = position_of(obj.data).tobytes()
-    assert flat != cubic
-    for step, expected in ((bpy.ops.ed.undo, cubic), (bpy.ops.ed.redo, flat)):
-        step()
-        assert position_of(bpy.data.objects["Ball"].data).tobytes() == expected
-
-
 def test_several_meshes_and_a_shared_one():
     first, other, plain = add_ball("First"), add_ball("Other"), add_monkey("Plain")
     twin = add_copy(first, is_linked=True)
@@ -272,13 +258,6 @@ def test_what_has_lost_its_original_is_refused():
             vertex.co.z += 0.3
     with unchanged(obj):
         assert "has no result whose original is known" in refusal()
-
-
-def test_a_mesh_that_cannot_be_written_is_refused_and_stays():
-    obj = add_ball()
-    cubify()
-    obj.data["cubic_craft_note"] = "of the artist"
-    assert not bpy.ops.cubic_craft.flatten.poll()
 
 
 def test_the_panel_offers_it_for_results_only(extension):

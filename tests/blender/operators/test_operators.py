@@ -60,16 +60,6 @@ def test_all_else_stays_bit_identical(result, keys):
     assert differences(before, snapshot_object(obj), SETTINGS) == []
 
 
-def test_cubify_again_starts_from_the_original():
-    obj = add_monkey()
-    cubify(cubeness=0.9)
-    cubify(cubeness=0.2)
-    twice = position_of(obj.data)
-    other = add_monkey()
-    cubify(cubeness=0.2)
-    assert position_of(other.data).tobytes() == twice.tobytes()
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_cubify_after_apply_starts_from_the_original(turn):
     """As if the transform had been applied first; but for squares that are cut the other way."""
@@ -122,48 +112,6 @@ def test_the_settings_of_the_active_object_are_those_of_all():
     assert second.cubic_craft.cubeness == pytest.approx(0.9)
     assert second.cubic_craft.together == "PARTS"
     assert position_of(first.data).tobytes() == position_of(second.data).tobytes()
-
-
-def test_several_objects_and_a_shared_mesh():
-    first = add_monkey("First")
-    twin = add_copy(first, is_linked=True)
-    other = add_monkey("Other", location=(3, 0, 0))
-    select(other, first, twin)
-    before = position_of(first.data)
-    assert cubify(together="PARTS") == {"FINISHED"}
-    assert position_of(first.data).tobytes() == position_of(other.data).tobytes()
-    assert position_of(first.data).tobytes() != before.tobytes()
-    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    for obj in (first, other):
-        assert position_of(obj.data).tobytes() == before.tobytes()
-
-
-def test_new_objects_of_a_shared_mesh_are_each_solved_as_they_stand():
-    first = add_monkey("First")
-    twin = add_copy(first, is_linked=True)
-    twin.scale, twin.rotation_euler = (1.0, 1.0, 3.0), (0.5, 0.0, 0.0)
-    bpy.context.view_layer.update()
-    select(first, twin)
-    cubify(result="NEW_OBJECT", space="WORLD", together="PARTS")
-    shapes = [
-        position_of(bpy.data.objects[name].data) for name in ("First Cubic", "First.001 Cubic")
-    ]
-    bpy.ops.cubic_craft.show_source()
-    select(twin)
-    cubify(result="MESH", space="WORLD")
-    assert position_of(twin.data).tobytes() == shapes[1].tobytes()
-    assert shapes[0].tobytes() != shapes[1].tobytes()
-
-
-def test_the_object_that_differs_from_its_twin_is_named():
-    first = add_monkey("First")
-    twin = add_copy(first, is_linked=True)
-    twin.name = "Twin"
-    twin.scale.z = 3.0
-    bpy.context.view_layer.update()
-    select(first, twin)
-    report = reports_of(cubify)
-    assert '"Twin" shares its mesh with "First" and now has its shape; make it single' in report
 
 
 def test_objects_that_differ_from_their_twin_are_named_at_once():
@@ -237,17 +185,6 @@ def test_every_setting_can_be_driven_and_animated():
         obj.keyframe_insert(f"cubic_craft.{name}", frame=1)
 
 
-def test_one_bad_object_does_not_stop_the_others():
-    good = add_monkey("Good")
-    lamp = bpy.data.objects.new("Wire", bpy.data.meshes.new("Wire"))
-    lamp.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1)], [])
-    bpy.context.collection.objects.link(lamp)
-    select(good, lamp)
-    before = position_of(good.data)
-    assert "Wire" in reports_of(cubify)
-    assert position_of(good.data).tobytes() != before.tobytes()
-
-
 def test_the_map_scales_cubeness_and_inverts():
     obj = add_monkey()
     everything = range(len(obj.data.vertices))
@@ -266,15 +203,6 @@ def test_the_map_scales_cubeness_and_inverts():
     np.testing.assert_array_equal(shapes["None", False], before)
 
 
-def test_half_the_weight_is_half_the_cubeness_and_half_the_crispness():
-    obj = add_monkey()
-    obj.vertex_groups.new(name="Half").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
-    cubify(cubeness=0.8, crispness=1.0, map_group="Half")
-    mapped = position_of(obj.data)
-    cubify(cubeness=0.4, crispness=0.5, map_group="")
-    np.testing.assert_allclose(mapped, position_of(obj.data), atol=1e-5)
-
-
 def test_rotation_says_whether_the_shape_may_turn():
     obj = add_triangles()
     before = position_of(obj.data)
@@ -286,35 +214,6 @@ def test_rotation_says_whether_the_shape_may_turn():
         U, _, Vt = np.linalg.svd(A.T @ B)
         turns[rotation] = np.linalg.norm(U @ Vt - np.eye(3))
     assert turns["KEEP"] < 0.3 * turns["FREE"]
-
-
-@pytest.mark.parametrize("add", [add_monkey, add_triangles])
-def test_the_rotation_is_kept_by_default(add):
-    obj = add()
-    cubify(rotation="KEEP")
-    kept = position_of(obj.data)
-    cubify()
-    np.testing.assert_array_equal(position_of(obj.data), kept)
-
-
-def test_numpy_and_taichi_give_the_same_shape():
-    obj = add_monkey()
-    shapes = []
-    for device in ("NUMPY", "CPU"):
-        cubify(device=device)
-        assert ("numpy" if device == "NUMPY" else "taichi-cpu") in obj.cubic_craft.status
-        shapes.append(position_of(obj.data))
-    np.testing.assert_allclose(*shapes, atol=1e-5)
-
-
-def test_n_gons_are_kept_and_solved():
-    bpy.ops.mesh.primitive_cylinder_add(vertices=9, end_fill_type="NGON")
-    obj = bpy.context.object
-    sizes = sorted(p.loop_total for p in obj.data.polygons)
-    before = position_of(obj.data)
-    assert cubify(cubeness=1.0) == {"FINISHED"}
-    assert np.abs(position_of(obj.data) - before).max() > 0.01
-    assert sorted(p.loop_total for p in obj.data.polygons) == sizes == [4] * 9 + [9, 9]
 
 
 def test_enabling_again_and_again_leaves_no_trace(extension):

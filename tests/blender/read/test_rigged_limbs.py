@@ -183,18 +183,6 @@ def _edit(rig, name, change):
     return name
 
 
-def test_moving_the_figure_with_its_rig_changes_nothing(figure, part):
-    obj, rig = figure
-    obj.parent = rig
-    bpy.context.view_layer.update()
-    places = part("read.bones").bone_places
-    before = places(obj)
-    rig.location, rig.rotation_euler = (3.0, -2.0, 1.0), (0.1, 0.2, 0.3)
-    bpy.context.view_layer.update()
-    assert places(obj).groups == before.groups
-    np.testing.assert_allclose(places(obj).ends, before.ends, atol=2e-5)
-
-
 def _walk(rig):
     for frame in range(1, WALK + 1):
         swing = 0.5 * np.sin(2.0 * np.pi * frame / WALK)
@@ -279,21 +267,3 @@ def test_a_broken_rig_is_no_reason_to_refuse(figure, fault):
         bones = importlib.import_module(f"{module.__name__}.read.bones")
         assert len(bones.bone_places(obj).groups) == len(all_bones())
         bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_a_coat_without_bones_beside_a_rigged_body(figure, body, part):
-    obj, _ = figure
-    coat = obj.copy()
-    coat.data = obj.data.copy()
-    coat.modifiers.clear()
-    coat.location.x = 2.5
-    bpy.context.scene.collection.objects.link(coat)
-    for one in (obj, coat):
-        one.cubic_craft.together = "SELECTION"
-    select(obj, coat)
-    assert cubify() == {"FINISHED"}
-    V = body["mesh"][0]
-    is_own = body["weights"]["LowerArm.L"] > 0.5
-    for one in (obj, coat):
-        U = position_of(one.data).astype(float)
-        assert turned(V[is_own], U[is_own], np.array([1.0, 0.0, -1.0])) < 10.0

@@ -82,13 +82,6 @@ def test_three_objects_become_what_their_joined_mesh_becomes(trio, result):
     np.testing.assert_allclose(found, position_of(one.data), atol=ROUNDING)
 
 
-def test_each_says_what_was_solved_with_it(trio):
-    cubify()
-    count = sum(len(obj.data.vertices) for obj in trio)
-    (status,) = {obj.cubic_craft.status for obj in trio}
-    assert status.startswith(f"{count:,} vertices of 3 objects, ")
-
-
 @pytest.mark.parametrize("together", ["OFF", "PARTS"])
 def test_without_the_selection_each_is_solved_for_itself(trio, together):
     cubify(together=together)
@@ -145,15 +138,6 @@ def test_a_bad_one_among_three_is_named_and_the_others_are_done(trio):
         assert np.abs(position_of(obj.data) - shape).max() > 1e-3
         assert "of 2 objects" in obj.cubic_craft.status
     assert not turned.cubic_craft.status
-
-
-def test_one_that_is_scaled_flat_is_solved_alone(trio):
-    body, turned, _ = trio
-    turned.scale.z = 0.0
-    bpy.context.view_layer.update()
-    cubify()
-    assert "of 2 objects" in body.cubic_craft.status
-    assert " of " not in turned.cubic_craft.status and turned.cubic_craft.status
 
 
 def test_a_mesh_of_two_objects_takes_part_once(trio):

@@ -96,34 +96,6 @@ def test_what_is_seen_of_a_cage_becomes_cubic(add, least):
     assert position_of(obj.data).tobytes() == before.tobytes()
 
 
-def test_a_fine_cage_does_not_tangle():
-    obj = add_monkey()
-    under_subdivision(obj, 1)
-    bpy.ops.object.modifier_apply(modifier="Subdivision")
-    under_subdivision(obj)
-    was_folded = folds(obj)
-    finely()
-    assert share(obj) > 0.5
-    assert folds(obj) <= was_folded + 12
-
-
-def test_it_is_more_cubic_than_a_cage_that_is_cubic_itself():
-    obj, other = under_subdivision(add_monkey()), under_subdivision(add_monkey("Other"))
-    other.modifiers[0].show_viewport = False
-    for each in (obj, other):
-        select(each)
-        finely()
-    other.modifiers[0].show_viewport = True
-    assert share(obj) > share(other) + 0.15
-
-
-def test_one_level_in_the_viewport_gives_what_two_do():
-    one, two = under_subdivision(add_sphere(), 1), under_subdivision(add_sphere(), 2)
-    select(one, two)
-    finely()
-    assert bits(one) == bits(two)
-
-
 def test_halves_of_a_mirror_meet_in_its_plane():
     obj = under_subdivision(half_monkey())
     before = position_of(obj.data)

@@ -7,7 +7,7 @@ import bpy
 import pytest
 from live_steps import add_monkey
 from posing import LEFT, add_posable, follow, pin
-from scene import add_empty, add_triangles, cubify, given, select
+from scene import add_empty, add_triangles, cubify, select
 from worth_trying import values
 
 from solver.method import SETTINGS
@@ -153,14 +153,6 @@ def test_handles_count_as_they_are_posed_now(changes):
     assert changes(obj) == ["Handles"]
 
 
-def test_handles_that_a_script_gave_are_not_those_of_the_panel(changes):
-    obj, *_ = add_posable()
-    cubify(handles=[given(LEFT)])
-    assert changes(obj) == ["Handles"]
-    assert bpy.ops.cubic_craft.cubify() == {"FINISHED"}
-    assert changes(obj) == []
-
-
 def test_settings_that_cannot_be_used_are_no_change_but_a_problem(changes):
     obj = add_monkey()
     cubify()
@@ -205,13 +197,6 @@ def test_a_shape_key_is_a_result_until_it_is_restored(changes, last_run):
     cubify(result="MESH")
     assert changes(obj) == []
     bpy.ops.cubic_craft.restore()
-    assert last_run(obj) is None
-
-
-def test_a_shape_key_that_was_deleted_is_no_result(last_run):
-    obj = add_monkey()
-    cubify(result="SHAPE_KEY")
-    obj.shape_key_clear()
     assert last_run(obj) is None
 
 

@@ -11,7 +11,6 @@ from optional_marks import needs
 
 from solver import PAPER, Pose, Setup, SolverOptions, Stylization, rest_mesh, stylize
 from solver.global_step.motion import Motion
-from solver.styles.admm import admm_rotations
 
 pytestmark = [needs("pyamg"), needs_engine]
 
@@ -82,18 +81,6 @@ def test_energies_are_those_of_numpy(name):
         np.testing.assert_allclose(*map(astuple, energies), rtol=1e-6, atol=1e-12)
 
 
-@pytest.mark.thorough(1)
-@pytest.mark.parametrize("precision", ["f64", "f32"])
-def test_runs_end_where_those_of_numpy_do(precision):
-    V, F = shapes.two_blobs()
-    fast = stylize(V, F, 0.4, device="cpu", precision=precision, proxy=PAPER)
-    again = stylize(V, F, 0.4, device="cpu", precision=precision, proxy=PAPER)
-    plain = stylize(V, F, 0.4, device="numpy", proxy=PAPER)
-    assert fast.converged
-    assert fast.energy.total == pytest.approx(plain.energy.total, rel=1e-3)
-    np.testing.assert_array_equal(fast.positions, again.positions)
-
-
 def test_a_run_in_single_precision_is_not_held_up_by_the_rounding_of_its_energy():
     """It would take about 700 iterations, where it takes 100 to 500, by how processors round."""
     V, F = shapes.blob(2)
@@ -103,21 +90,3 @@ def test_a_run_in_single_precision_is_not_held_up_by_the_rounding_of_its_energy(
     results = [stylize(V, F, 0.4, proxy=PAPER, **options) for V in bumpy]
     assert all(result.converged for result in results)
     assert np.median([result.iterations for result in results]) < 550
-
-
-def test_rotations_that_the_kernel_does_not_certify_are_found_too(monkeypatch):
-    V, _ = shapes.two_blobs()
-    half = V[:, 0] < 3.0  # the larger one
-    turned = np.where(half[:, None], V, V * [-1, -1, 1])  # nothing that starts there is certified
-    solved = []
-
-    def spy(problem, *arguments):
-        solved.append(len(problem.lam))
-        return admm_rotations(problem, *arguments)
-
-    monkeypatch.setattr("solver.backends.taichi_local_step.admm_rotations", spy)
-    fast, plain = (stylization("two_blobs", device=device) for device in ("cpu", "numpy"))
-    energies = [state.energy_of(turned, steps=1) for state in (fast, plain)]
-    np.testing.assert_allclose(*map(astuple, energies), rtol=1e-9)
-    np.testing.assert_allclose(fast.rotations, plain.rotations, atol=1e-6)
-    assert 0 < sum(solved) <= np.count_nonzero(~half)

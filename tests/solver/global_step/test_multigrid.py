@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 import shapes
-from devices import by_device
 from engine_marks import needs_engine
 from optional_marks import needs
 
@@ -93,21 +92,6 @@ def test_it_ends_where_the_factorisation_does(pins, monkeypatch, device):
     assert np.abs(near.positions - exact.positions).max() < 5e-3
     np.testing.assert_array_equal(near.positions[pinned], V[pinned])
     np.testing.assert_array_equal(near.positions, again.positions)
-
-
-def test_the_plain_iteration_still_descends(monkeypatch, device):
-    monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
-    energies = []
-    stylize(
-        *shapes.skewed_blob(),
-        0.6,
-        device=device,
-        is_accelerated=False,
-        max_iterations=40,
-        on_iteration=lambda s: energies.append(s.energy.total),
-        proxy=PAPER,
-    )
-    assert np.diff(energies).max() <= by_device(device, 1e-9, 1e-6)
 
 
 def test_without_the_package_all_is_factorised(monkeypatch):

@@ -42,29 +42,6 @@ def test_covariances_match_the_definition():
     np.testing.assert_allclose(S, expected, atol=1e-12)
 
 
-def test_scatter_is_the_transpose_of_gather():
-    _, gather, scatter = matrices(*shapes.skewed_blob())
-    for H, T in zip(gather, scatter, strict=True):
-        assert abs(H.T - T).max() == 0.0
-
-
-def test_right_hand_side_of_the_identity_is_the_rest_shape():
-    V, F = shapes.skewed_blob()
-    L, _, scatter = matrices(V, F)
-    identity = np.tile(np.eye(3), (len(V), 1, 1))
-    rhs = sum(H @ identity[:, :, c] for c, H in enumerate(scatter)) / 3
-    np.testing.assert_allclose(rhs, L @ V, atol=1e-12)
-
-
-def test_covariances_at_rest_are_semidefinite_on_obtuse_triangles_too():
-    V, F = shapes.skewed_blob()
-    assert (cotangents(V, F) < 0).any()
-    _, gather, _ = matrices(V, F)
-    S = np.stack([H @ V for H in gather], axis=1)
-    np.testing.assert_allclose(S, S.swapaxes(1, 2), atol=1e-12)
-    assert np.linalg.eigvalsh(S).min() > -1e-12
-
-
 def soup():
     """Return random triangles: edges of many triangles, repeated triangles and vertices."""
     random = np.random.default_rng(3)

@@ -11,10 +11,9 @@ from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
 from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh, run, stylize
-from solver.backends import local_step_class
 from solver.mesh.rest_measures import triangle_areas_and_normals
 from solver.styles.active_set import active_set_rotations
-from solver.styles.admm import AdmmOptions, admm_rotations
+from solver.styles.admm import admm_rotations
 from solver.styles.local_problem import LocalProblem
 from solver.styles.polytope_step import polytopes
 
@@ -66,23 +65,6 @@ def test_the_active_set_is_as_good_as_a_tight_admm(name, lam):
     assert uncertified <= 0.02 * 3 * len(rest.V)
 
 
-@forms
-def test_the_subgradient_certifies_the_minimiser(name):
-    rest, form = rest_mesh(*shapes.blob(2), proxy=PAPER), POLYTOPES[name]()
-    problem = problem_of(deformed(rest.V, 0.05), rest, 0.4, form)
-    R = np.tile(np.eye(3), (len(rest.V), 1, 1))
-    R, states, is_done = active_set_rotations(problem, R, problem.starting(R))
-    assert is_done.mean() > 0.97
-    done = np.flatnonzero(is_done)
-    problem, R, s = problem.part(done), R[done], states[done, :3]
-    assert (s @ form.normals.T - form.offsets).max() < 1e-8  # within the body
-    x = problem.form_normals(R)
-    np.testing.assert_allclose((s * x).sum(axis=1), form.cost(x), atol=1e-8)
-    pull = np.einsum("nji,nj->ni", problem.Q, s) * problem.lam[:, None]
-    G = R @ (problem.S - problem.normals[:, :, None] * pull[:, None, :])
-    np.testing.assert_allclose(G, G.swapaxes(1, 2), atol=1e-7)  # stationary
-
-
 @pytest.mark.thorough(4)
 @forms
 def test_no_start_leads_to_less_than_the_search_from_many(name):
@@ -114,22 +96,6 @@ def test_every_device_gives_the_shape_of_numpy(name, device):
     np.testing.assert_allclose(one.positions, other.positions, atol=by_device(device, 1e-5, 0.01))
 
 
-@pytest.mark.thorough(3)
-@forms
-def test_the_energy_never_rises(name):
-    setup = Setup(rest_mesh(*shapes.blob(3), proxy=PAPER))
-    state = Stylization(
-        setup,
-        Style(0.8, Q, form=POLYTOPES[name]()),
-        options=SolverOptions(device="numpy", is_accelerated=False),
-    )
-    energies = []
-    for _ in range(30):
-        state.step()
-        energies.append(state.energy.total)
-    assert (np.diff(energies) <= 1e-12 * energies[0]).all()
-
-
 @pytest.mark.thorough(2)
 @forms
 def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
@@ -143,7 +109,7 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
     assert np.abs(other - one @ turn.T).max() < 2e-3 * np.ptp(V)
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @needs_engine
 @pytest.mark.parametrize(
     "name", sorted(set(POLYTOPES) - {"box", "slab", "pillar", "cylinder", "cone"})
@@ -209,14 +175,3 @@ def test_each_vertex_may_have_a_form_of_its_own(device):
             areas @ (normals @ kind.normals.T).max(axis=1) for kind in (form, kinds[1 - number])
         )
         assert own > others
-
-
-def test_rows_that_are_left_go_to_the_admm():
-    rest, form = rest_mesh(*shapes.blob(2), proxy=PAPER), POLYTOPES["dodecahedron"]()
-    lam = np.full(len(rest.V), 0.4)
-    U = rest.V * [-1, -1, 1]  # nothing that starts there is certified
-    body = polytopes([form], np.zeros(len(rest.V), int))
-    step = local_step_class("numpy")(rest, lam, Q[None], AdmmOptions(), body)
-    first = np.sum(step.update(U))
-    assert np.abs(step.R - np.eye(3)).max() > 1.0
-    assert np.sum(step.update(U)) <= first * (1 + 1e-9)
