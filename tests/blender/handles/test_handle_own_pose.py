@@ -71,23 +71,6 @@ def test_reset_pose_takes_it_away_in_one_undo_step():
     assert not bpy.ops.cubic_craft.handle_reset_pose.poll()
 
 
-def test_restore_keeps_it_and_a_new_object_has_it(posed):
-    obj, _, _ = add_bent()
-    before = position_of(obj.data)
-    cubify()
-    shape = position_of(obj.data)
-    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    assert position_of(obj.data).tobytes() == before.tobytes()
-    assert posed(obj)[1].matrix == numbers(BENT)
-    cubify(result="NEW_OBJECT")
-    made = bpy.context.object
-    assert made != obj and position_of(made.data).tobytes() == shape.tobytes()
-    assert posed(made)[1].matrix == numbers(BENT)
-    select(made)
-    cubify()
-    assert position_of(made.data).tobytes() == shape.tobytes()
-
-
 @pytest.mark.parametrize("then", [None, Matrix(), Matrix.Translation((0, 0, 2)) @ BENT])
 def test_apply_makes_it_the_rest(posed, then):
     obj, _, _ = add_bent()

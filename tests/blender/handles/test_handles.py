@@ -184,22 +184,6 @@ def test_a_matrix_that_is_no_affine_map_is_refused():
         cubify(handles=[given(RIGHT, Matrix.Translation((0, 0, 1)).transposed())])
 
 
-def test_each_of_several_objects_keeps_its_own_handles():
-    objects = [add_posable(name)[0] for name in "AB"]
-    for obj, group in zip(objects, (LEFT, RIGHT), strict=True):
-        pin(obj, group)
-    before = position_of(objects[0].data)
-    select(*objects)
-    cubify(cubeness=0.8)
-    for obj, group in zip(objects, (LEFT, RIGHT), strict=True):
-        held = [v.index for v in obj.data.vertices if obj.vertex_groups[group].index in
-                [g.group for g in v.groups]]  # fmt: skip
-        after = position_of(obj.data)
-        assert after[held].tobytes() == before[held].tobytes()
-        assert (after != before).any()
-        assert [handle.group for handle in obj.cubic_craft.handles] == [group]
-
-
 @pytest.mark.parametrize("way", ["apply", "edit"])
 @pytest.mark.parametrize("result", ["MESH", "NEW_OBJECT"])
 def test_a_pose_that_is_part_of_the_original_is_not_done_twice(posed, way, result):

@@ -181,28 +181,6 @@ def test_next_result_starts_from_there(bridge, cubify, monkey, name):
     np.testing.assert_allclose(extent, np.ptp(expected, axis=0), rtol=1e-3)
 
 
-def test_saved_and_loaded_and_undone(bridge, cubify, monkey, tmp_path):
-    name = monkey.name
-    base = bridge.read_positions(monkey.data)
-    cubify(monkey)
-    bpy.context.preferences.edit.use_global_undo = True
-    bpy.ops.ed.undo_push(message="Cubify")
-    apply_all(monkey, scale=(2, 2, 2), location=(0, 0, 0), rotation_euler=(0, 0, 0))
-    bpy.ops.ed.undo_push(message="Apply")
-    path = str(tmp_path / "monkey.blend")
-    bpy.ops.ed.undo()
-    obj = bpy.data.objects[name]
-    assert np.array_equal(bridge.original_positions(obj.data), base)
-    bpy.ops.ed.redo()
-    obj = bpy.data.objects[name]
-    assert np.array_equal(bridge.original_positions(obj.data), 2 * base)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects[name]
-    bridge.restore(obj)
-    assert np.array_equal(bridge.read_positions(obj.data), 2 * base)
-
-
 @pytest.mark.parametrize("axes", [(1, 1, 0), (1, 0, 0), (0, 0, 0)])
 def test_scaled_to_nothing_keeps_the_lost_extent(bridge, cubify, monkey, axes):
     mesh = monkey.data

@@ -354,19 +354,3 @@ def test_regions_are_saved_and_copied(reopen):
     assert (regions[0].group, regions[0].form, regions[0].form_sides) == ("Top", "PRISM", 7)
     copy = add_copy(bpy.data.objects["Kept"])
     assert copy.cubic_craft.regions[0].form == "PRISM"
-
-
-def test_a_failure_leaves_the_regions_as_they_were(part):
-    rollback = part("settings.rollback")
-    monkey = add_monkey()
-    add_group(monkey, "Top", upper)
-    region = add_region(monkey, "Top", form="PRISM")
-
-    def change():
-        with rollback.settings_kept([monkey.data]):
-            region.form = "CONE"
-            raise ValueError
-
-    with pytest.raises(ValueError):
-        change()
-    assert monkey.cubic_craft.regions[0].form == "PRISM"

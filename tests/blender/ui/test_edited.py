@@ -13,7 +13,7 @@ import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from mathutils import Matrix
 from rich_mesh import position_of
-from scene import bmesh_of, cubify, reports_of, select
+from scene import bmesh_of, cubify, reports_of
 
 
 @pytest.fixture
@@ -132,46 +132,6 @@ def test_strokes_stay_while_the_cubeness_changes(edited):
     assert "edits made by hand are lost (Ctrl-Z brings them back)" in said
     cubify(cubeness=0.4)
     assert position_of(obj.data).tobytes() == cubic.tobytes()
-
-
-def test_live_shows_and_keeps_strokes(live, begin):
-    obj = add_monkey()
-    cubify(max_iterations=1000, cubeness=0.4)
-    sculpted = edit(obj)
-    session = tick_to_rest(begin(obj, cubeness=0.1, max_iterations=1000))
-    shown = position_of(obj.data)
-    assert np.abs(shown - sculpted).max() > 0.01
-    live.live_properties().cubeness = 0.4
-    session.wake()
-    tick_to_rest(session)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
-    live.live_properties().cubeness = 0.1
-    confirm(live, session)
-    np.testing.assert_allclose(position_of(obj.data), shown, atol=1e-6)
-    cubify(max_iterations=1000, cubeness=0.4)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
-
-
-def test_strokes_are_saved_and_undone(tmp_path):
-    obj = add_monkey()
-    bpy.ops.ed.undo_push(message="Add")
-    cubify(cubeness=0.4)
-    sculpted = edit(obj)
-    bpy.ops.ed.undo_push(message="Sculpt")
-    cubify(cubeness=0.1)
-    bpy.ops.ed.undo_push(message="Cubify")
-    softer = position_of(obj.data)
-    bpy.ops.ed.undo()
-    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == sculpted.tobytes()
-    bpy.ops.ed.redo()
-    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == softer.tobytes()
-    path = str(tmp_path / "sculpted.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Suzanne"]
-    select(obj)
-    cubify(cubeness=0.4)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
 
 
 def test_the_first_original_comes_back():

@@ -49,10 +49,3 @@ def spring(turns=6, radius=0.12):
     """Return a coil spring of radius 1 that rises by 0.45 in each turn."""
     t = np.linspace(0, turns * 2 * np.pi, 60 * turns)
     return tube(np.stack([np.cos(t), np.sin(t), 0.45 * t / (2 * np.pi)], axis=1), radius, 16)
-
-
-def sleeve(turn, radius=0.24):
-    """Return an open tube around the upper half of the bar."""
-    z = np.linspace(0.1, 1.3, 30)
-    V, F = tube(np.outer(z, [0.0, 0.0, 1.0]), radius, is_capped=False)
-    return V @ turn.T, F

@@ -7,7 +7,6 @@ import shapes
 from devices import by_device
 from engine_marks import needs_engine
 from named_forms import POLYTOPES
-from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
 from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh, run, stylize
@@ -63,24 +62,6 @@ def test_the_active_set_is_as_good_as_a_tight_admm(name, lam):
         rows = np.flatnonzero(~is_done)
         R[rows], states[rows] = admm_rotations(problem.part(rows), R[rows], states[rows], TIGHT)
     assert uncertified <= 0.02 * 3 * len(rest.V)
-
-
-@pytest.mark.thorough(4)
-@forms
-def test_no_start_leads_to_less_than_the_search_from_many(name):
-    """Of one problem: the best of all vertices as starts is the best of 1,000 random starts."""
-    random = np.random.default_rng(5)
-    form, many = POLYTOPES[name](), 1000
-    S = np.tile(np.diag([1.5, 1.0, 0.8]) + 0.2 * random.normal(size=(3, 3)), (many, 1, 1))
-    normals = np.tile(shapes.rotation(10, 20, 30)[0], (many, 1))
-    body = polytopes([form], np.zeros(many, int))
-    problem = LocalProblem(S, normals, np.tile(Q, (many, 1, 1)), np.full(many, 0.5), body)
-    starts = Rotation.random(many, random_state=5).as_matrix()
-    by_admm, _ = admm_rotations(problem, starts, problem.starting(starts), TIGHT)
-    best = objective(problem, by_admm).min()
-    R, _, is_done = active_set_rotations(problem, starts, problem.starting(starts))
-    assert is_done.any()
-    assert objective(problem, R)[is_done].min() <= best + 1e-9
 
 
 @pytest.mark.thorough(3)
