@@ -3,6 +3,7 @@
 
 import importlib
 import json
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -378,3 +379,15 @@ def test_another_add_on_that_resets_taichi_does_no_harm(live, begin, one_phase):
     select(twin)
     bpy.ops.cubic_craft.cubify()
     assert bits(obj) == bits(twin)
+
+
+def test_the_cursor_says_that_blender_computes_where_there_is_a_window(extension):
+    waiting = importlib.import_module(
+        f"{extension.__name__}.cubic_craft_addon.live.elsewhere"
+    ).waiting
+    said = []
+    window = SimpleNamespace(cursor_modal_set=said.append, cursor_modal_restore=said.clear)
+    for each in (None, window):
+        with waiting(each):
+            assert said == (["WAIT"] if each else [])
+        assert said == []

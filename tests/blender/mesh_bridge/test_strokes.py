@@ -9,6 +9,7 @@ from dataclasses import asdict
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 from results import write
 from rich_mesh import cubic_like, points_of, position_of, set_position
 from scene import add_copy, bmesh_of
@@ -96,6 +97,19 @@ def test_they_are_transformed_with_the_mesh(bridge, cubify, plain_monkey, moment
     turned = linear @ rotations @ np.linalg.inv(linear)
     bridge.write_mesh(mesh, positions @ linear.T + (1, 2, 3), turned, start="EDITS")
     np.testing.assert_allclose(position_of(mesh), sculpted @ linear.T + (1, 2, 3), atol=1e-5)
+
+
+def test_those_in_our_shape_key_are_transformed_with_the_mesh(bridge, plain_monkey):
+    mesh, linear = plain_monkey.data, np.array([[0.0, -2, 0], [2, 0, 0], [0, 0, 2]])
+    positions, rotations = cubic_like(bridge.original_positions(mesh), 1)
+    bridge.write_mesh(mesh, positions, rotations)
+    sculpt(plain_monkey)
+    bridge.write_shape_key(plain_monkey, positions, rotations, start="EDITS")
+    sculpted = points_of(mesh, "Cubic")
+    mesh.transform(Matrix(linear).to_4x4(), shape_keys=True)
+    turned = linear @ rotations @ np.linalg.inv(linear)
+    bridge.write_shape_key(plain_monkey, positions @ linear.T, turned, start="EDITS")
+    np.testing.assert_allclose(points_of(mesh, "Cubic"), sculpted @ linear.T, atol=1e-5)
 
 
 def test_vertices_that_are_deleted_take_theirs_along(bridge, cubify, plain_monkey):

@@ -124,7 +124,7 @@ def test_a_mesh_of_two_objects_takes_part_once(trio):
     twin = trio[0].copy()
     bpy.context.collection.objects.link(twin)
     select(*trio, twin)
-    cubify()
+    assert "shares its mesh" not in reports_of(cubify)
     count = sum(len(obj.data.vertices) for obj in trio)
     assert trio[0].cubic_craft.status.startswith(f"{count:,} vertices of 3 objects")
 
