@@ -139,8 +139,8 @@ def test_few_triangles_of_touching_parts_cross_that_did_not_before(name):
     assert after <= rest + 0.01 * len(outcome_of(name).F)
 
 
-@pytest.mark.thorough(2)
-@pytest.mark.parametrize("name", ["clothes", "character", "monkey_507"])
+@pytest.mark.thorough(1)
+@pytest.mark.parametrize("name", ["monkey_507", "clothes", "character"])
 def test_a_second_run_has_the_same_bits(name):
     again = outcome_of.__wrapped__(name)
     assert np.array_equal(outcome_of(name).U, again.U)

@@ -38,7 +38,7 @@ def ramp(cubeness, form):
     return energy
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("cubeness", [3.5, 10.0, 2.0])
 @pytest.mark.parametrize("name", LEAST)
 def test_a_ball_ends_as_well_as_from_below(name, cubeness):

@@ -252,7 +252,8 @@ def test_a_form_may_be_a_name():
         ("prism", forms.prism(6)),
         (["cube", "cone"], [forms.cube(), forms.cone()]),
     ):
-        of = {"device": "numpy", "form_of": upper if isinstance(name, list) else None}
+        which = upper if isinstance(name, list) else None
+        of = {"device": "numpy", "form_of": which, "proxy": PAPER, "max_iterations": 3}
         assert stylize(V, F, form=name, **of) == stylize(V, F, form=form, **of)
 
 

@@ -31,10 +31,6 @@ def film(obj):
     return np.array([shown(obj, frame) for frame in range(1, FRAMES + 1)])
 
 
-def jumps(frames):
-    return np.linalg.norm(frames[2:] - 2.0 * frames[1:-1] + frames[:-2], axis=2)
-
-
 @pytest.fixture
 def bakes(part):
     """Return a function that makes a Bake of objects, for tests that stop it."""
@@ -127,33 +123,6 @@ def test_the_baked_object_keeps_uvs_materials_and_groups(extension, bending, tmp
     assert [slot.name for slot in cubic.material_slots] == ["Clay"]
     assert [group.name for group in cubic.vertex_groups] == ["Low", "High"]
     assert [modifier.type for modifier in cubic.modifiers] == ["MESH_CACHE"]
-
-
-def test_no_vertex_jumps_more_than_three_times_as_far_as_in_the_input(extension, bending, tmp_path):
-    before = film(bending)
-    bake(tmp_path)
-    mine, theirs = jumps(read_pc2(tmp_path / "Ball.pc2")), jumps(before)
-    assert mine.max() <= 3.0 * theirs.max()
-    assert np.percentile(mine, 99) <= 3.05 * np.percentile(theirs, 99)
-
-
-def test_what_is_at_rest_is_the_same_in_all_frames_bit_for_bit(extension, bending, tmp_path):
-    bending.modifiers.clear()
-    bake(tmp_path)
-    cached = read_pc2(tmp_path / "Ball.pc2")
-    assert (cached == cached[0]).all()
-    assert np.abs(cached[0] - shown(bending, 1)).max() > 0.1
-
-
-def test_what_is_pinned_stays_with_the_animation(extension, bending, tmp_path):
-    low = [v.index for v in bending.data.vertices if v.co.z < -0.7]
-    group = bending.vertex_groups.new(name="Pinned")
-    group.add(low, 1.0, "REPLACE")
-    bpy.ops.cubic_craft.handle_add(group="Pinned")
-    bending.cubic_craft.handles[0].is_cubic = False
-    before = film(bending)
-    bake(tmp_path)
-    np.testing.assert_allclose(read_pc2(tmp_path / "Ball.pc2")[:, low], before[:, low], atol=1e-5)
 
 
 def test_objects_that_are_kept_together(extension, bending, tmp_path):
@@ -266,16 +235,6 @@ def test_a_stopped_bake_keeps_its_frames_and_continues_bit_for_bit(
     np.testing.assert_array_equal(read_pc2(parts / "Ball.pc2"), read_pc2(whole / "Ball.pc2"))
 
 
-def test_a_bake_that_lies_still_continues_bit_for_bit(extension, bending, bakes, tmp_path):
-    bending.modifiers.clear()
-    work = bakes(tmp_path, bending)
-    advance(work, 6)
-    work.discard()  # as when another file is opened
-    bake(tmp_path)
-    cached = read_pc2(tmp_path / "Ball.pc2")
-    assert len(cached) == FRAMES and (cached == cached[0]).all()
-
-
 def test_after_other_settings_it_begins_anew(extension, bending, bakes, tmp_path):
     work = bakes(tmp_path, bending)
     advance(work, 4)
@@ -297,18 +256,6 @@ def test_what_another_bake_works_on_is_left_to_it(extension, bending, bakes, tmp
     assert [path.name for path in tmp_path.iterdir()] == ["Ball.unfinished"]
     assert bake(tmp_path) == {"FINISHED"}
     assert [path.name for path in tmp_path.iterdir()] == ["Ball.pc2"]
-
-
-def test_one_process_writes_a_file(part, tmp_path):
-    new_file, lock = part("environment.new_file"), part("environment.lock")
-    path = tmp_path / "file"
-    with new_file.replacing(path) as partial:
-        partial.write_text("ours")
-        with pytest.raises(lock.BusyError, match='"file" is being written'):
-            lock.Lock(path)
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
-    lock.Lock(path).release()
-    assert path.read_text() == "ours"
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, confirm, tick_to_rest
-from mathutils import Euler, Matrix
+from mathutils import Matrix
 from scene import add_empty, add_monkey, add_triangles, cubify, select
 from solids import share_facing
 
@@ -152,16 +152,6 @@ def test_open_sides_are_completed(seen_sides, count):
     check_has_sides(sides, np.concatenate([wanted, -wanted]))
 
 
-def test_what_is_edited_counts_as_it_is_now(seen_sides):
-    obj = add_dodecahedron_faces(5)
-    edited = bmesh.from_edit_mesh(obj.data)
-    edited.transform(Euler((0.5, 0.6, 0.7)).to_matrix().to_4x4())
-    bmesh.update_edit_mesh(obj.data)
-    wanted = selected_normals(obj)
-    pick()
-    check_has_sides(seen_sides(obj), wanted)
-
-
 def test_many_directions_are_few(part, seen_sides):
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
     obj = bpy.context.object
@@ -195,40 +185,6 @@ def test_it_is_in_files_copies_and_new_objects(reopen):
     made = bpy.context.object
     assert made.cubic_craft.form == "FACES" and made.cubic_craft.form_directions == picked
     assert reopen("Hull").cubic_craft.form_directions == picked
-
-
-def test_a_result_is_out_of_date_when_other_faces_are_picked(part):
-    obj = add_monkey()
-    cubify(form="FACES", form_directions=GIVEN, **OPTIONS)
-    changes = part("run.up_to_date").changes_since
-    run = part("mesh_bridge").last_run(obj)
-    assert changes(obj, run) == []
-    obj.cubic_craft.form_directions = "0 0 1, 1 1 0, -1 1 0"
-    assert changes(obj, run) == ["Directions"]
-    obj.cubic_craft.form = "CUBE"
-    assert changes(obj, run) == ["Form", "Directions"]
-
-
-def test_three_axes_from_a_script_are_the_cube():
-    one, other = add_triangles(), add_triangles()
-    select(one)
-    cubify(**OPTIONS)
-    select(other)
-    cubify(form="FACES", form_directions=GIVEN, **OPTIONS)
-    assert bits(other) != bits(add_triangles())
-    found, wanted = (np.frombuffer(bits(obj), np.float32) for obj in (other, one))
-    np.testing.assert_allclose(found, wanted, atol=2e-5)
-
-
-def test_live_follows_the_directions(live, begin):
-    obj = add_triangles()
-    session = tick_to_rest(begin(obj, form="FACES", form_directions=GIVEN))
-    before = bits(obj)
-    live.live_properties().form_directions = "1 1 1, -1 -1 1, -1 1 -1, 1 -1 -1"
-    tick_to_rest(session)
-    assert bits(obj) != before
-    confirm(live, session)
-    assert obj.cubic_craft.form_directions == "1 1 1, -1 -1 1, -1 1 -1, 1 -1 -1"
 
 
 @pytest.mark.parametrize(

@@ -70,17 +70,6 @@ def test_a_cube_as_an_object_is_the_cube():
     np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-3)
 
 
-def test_a_box_of_equal_sides_is_the_cube_for_a_mirrored_object_too():
-    shapes = []
-    for form in ("CUBE", "BOX"):
-        obj = add_triangles()
-        obj.scale.x, obj.rotation_euler = -1.0, (0.3, 0.4, 0.5)
-        bpy.context.view_layer.update()
-        cubify(form=form, **OPTIONS)
-        shapes.append(bits(obj))
-    assert shapes[0] == shapes[1]
-
-
 def test_directions_of_half_a_box_are_completed(body_of):
     ball = add_triangles()
     ball.cubic_craft.form, ball.cubic_craft.form_object = "DIRECTIONS", add_solid("plane")
@@ -142,18 +131,6 @@ def test_live_follows_the_object_while_it_is_edited(live, begin):
     check_same_as_cubify(obj)
 
 
-def test_the_object_may_be_deleted_in_live(live, begin):
-    obj, form = add_triangles(), add_solid("cone")
-    session = tick_to_rest(begin(obj, form="OBJECT", form_object=form))
-    bpy.data.objects.remove(form)
-    live.live_properties().cubeness = 0.5
-    tick_to_rest(session)
-    assert "Form" in session.all_problems[0]
-    live.live_properties().form = "PRISM"
-    confirm(live, session)
-    assert session.written.summary
-
-
 @pytest.mark.parametrize("form", ["TETRAHEDRON", "PRISM", "DODECAHEDRON"])
 def test_halves_stay_mirror_images(form):
     obj = add_lump()
@@ -175,29 +152,6 @@ def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
         select(obj)
         cubify(form="TETRAHEDRON", orientation=(0.2, 0.3, 0.4), **OPTIONS)
     np.testing.assert_allclose(position_of(other.data) * FLIP_X, position_of(one.data), atol=2e-3)
-
-
-def test_flipped_normals_do_not_turn_the_form_upside_down():
-    one = add_triangles()
-    other = add_copy(one)
-    other.data.flip_normals()
-    for obj in (one, other):
-        select(obj)
-        cubify(form="PYRAMID", **OPTIONS)
-    np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-4)
-
-
-def test_objects_that_are_solved_together_may_have_different_forms():
-    one, other = add_triangles(), add_triangles()
-    other.location.x = 9.0
-    one.cubic_craft.form, other.cubic_craft.form = "OCTAHEDRON", "CUBE"
-    bpy.context.view_layer.update()
-    select(one)
-    cubify(cubeness=0.8)
-    octahedron = bits(one)
-    select(other)
-    cubify(cubeness=0.8)
-    assert bits(other) != octahedron
 
 
 @pytest.mark.thorough(3)
@@ -240,15 +194,3 @@ def test_facets_of_the_form_can_be_made_planar(body_of, form):
     ball.cubic_craft.form, ball.cubic_craft.form_sides = "CONE", 3  # not what it was made with
     assert bpy.ops.cubic_craft.flatten(tolerance=0.05) == {"FINISHED"}
     assert share_facing(ball, normals, 0.05) > 0.5
-
-
-def test_the_overlay_draws_the_form(part):
-    obj = add_monkey()
-    lines_of = part("form.overlay").lines_of
-    for form, edges in (("CUBE", 12), ("TETRAHEDRON", 6), ("DODECAHEDRON", 30)):
-        obj.cubic_craft.form = form
-        points, colors = lines_of(obj)
-        assert len(points) == len(colors) == 2 * (3 + edges)
-    corners = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
-    assert (points[6:].min(axis=0) < corners.min(axis=0)).all()
-    assert (points[6:].max(axis=0) > corners.max(axis=0)).all()

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
-from lumps import FLIP_X, add_lump, partner_of
+from lumps import FLIP_X
 from mathutils import Matrix
 from rich_mesh import position_of
 from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
@@ -92,17 +92,6 @@ def test_the_ball_counts_as_it_is_seen_in_the_world(capture_of, turn, scale, is_
     np.testing.assert_allclose(capture_of(obj).at(x @ linear.T), at_rest @ linear.T, atol=1e-4)
 
 
-def test_modifiers_count(capture_of):
-    ball, monkey = add_ball(subdivisions=4), add_monkey()
-    monkey.cubic_craft.capture_object = ball
-    x = np.array([[0.3, 0.0, 0.95]])
-    np.testing.assert_allclose(capture_of(monkey).at(x), x / np.linalg.norm(x), atol=0.02)
-    cast = ball.modifiers.new("Cast", "CAST")
-    cast.cast_type, cast.factor = "CUBOID", 1.0
-    bpy.context.view_layer.update()
-    np.testing.assert_allclose(capture_of(monkey).at(x), [[0, 0, 1]], atol=0.02)
-
-
 def test_a_cubified_ball_with_more_vertices_on_top_counts_by_its_vertices(capture_of):
     ball, monkey = add_ball(subdivisions=4), add_monkey()
     monkey.cubic_craft.capture_object = ball
@@ -156,28 +145,6 @@ def add_far_ball():
     return ball
 
 
-def test_a_strength_of_nothing_is_no_capture():
-    """Bit for bit, whatever the object is."""
-    plane, obj, other = add_solid("plane"), add_triangles(), add_triangles()
-    for each, options in ((obj, {}), (other, {"capture_object": plane.name})):
-        select(each)
-        cubify(capture_strength=0.0, **options, **OPTIONS)
-    assert bits(obj) == bits(other)
-
-
-def test_where_the_map_is_nothing_nothing_moves():
-    cushion, ball = shape_ball(add_ball("Cushion")), add_ball(subdivisions=4)
-    group = ball.vertex_groups.new(name="Map")
-    upper = [v.index for v in ball.data.vertices if v.co.z > 0.0]
-    group.add(upper, 1.0, "REPLACE")
-    before = position_of(ball.data)
-    cubify(capture_object=cushion.name, capture_strength=2.0, map_group="Map", **PURE)
-    moved = np.abs(position_of(ball.data) - before).max(axis=1) > 1e-6
-    lower = np.setdiff1d(np.arange(len(before)), upper)
-    assert moved[upper].mean() > 0.9
-    assert moved[lower].mean() < 0.1  # a narrow ring beside it may bend
-
-
 def test_live_follows_the_ball_while_it_is_edited(live, begin):
     cushion, obj = add_ball("Cushion", location=(9, 0, 0)), add_triangles()
     obj.cubic_craft.refine = "OFF"
@@ -202,18 +169,6 @@ def test_live_follows_the_ball_while_it_is_edited(live, begin):
     check_same_as_cubify(obj)
 
 
-def test_the_ball_may_be_deleted_in_live(live, begin):
-    cushion, obj = shape_ball(add_ball("Cushion")), add_triangles()
-    session = tick_to_rest(begin(obj, capture_object=cushion))
-    bpy.data.objects.remove(cushion)
-    live.live_properties().cubeness = 0.5
-    tick_to_rest(session)
-    assert 'no object "Cushion"' in session.all_problems[0]
-    live.live_properties().capture_object = ""
-    confirm(live, session)
-    assert session.written.summary and obj.cubic_craft.capture_object is None
-
-
 def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
     """Both look alike in the world, where the ball is."""
     tilted = shape_ball(add_ball("Tilted"), stretch=(1.0, 1.5, 0.7))
@@ -228,19 +183,6 @@ def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
         select(obj)
         cubify(capture_object=tilted.name, capture_strength=1.0, orientation=(0.2, 0, 0), **OPTIONS)
     np.testing.assert_allclose(position_of(other.data) * FLIP_X, position_of(one.data), atol=2e-3)
-
-
-def test_halves_stay_mirror_images():
-    tilted = shape_ball(add_ball("Tilted"), stretch=(1.0, 1.5, 0.7))
-    tilted.rotation_euler = (0.3, 0.2, 0.4)
-    bpy.context.view_layer.update()
-    obj = add_lump()
-    before = position_of(obj.data)
-    partner = partner_of(before, 1e-6)
-    cubify(capture_object="Tilted", symmetry=(True, False, False), **PURE)
-    after = position_of(obj.data)
-    np.testing.assert_array_equal(after[partner], after * FLIP_X)
-    assert np.abs(after - before).max() > 0.01
 
 
 def test_what_is_solved_together_may_have_different_captures_or_none(part):

@@ -71,34 +71,6 @@ def test_reset_pose_takes_it_away_in_one_undo_step():
     assert not bpy.ops.cubic_craft.handle_reset_pose.poll()
 
 
-def test_it_is_saved_and_copied(posed, reopen):
-    obj, _, _ = add_bent()
-    select(obj)
-    bpy.ops.object.duplicate()
-    bpy.context.object.name = "Copy"
-    one, other = reopen("Body"), bpy.data.objects["Copy"]
-    assert posed(one)[1].matrix == posed(other)[1].matrix == numbers(BENT)
-    other.cubic_craft.handles[1].pose = Matrix()
-    assert posed(one)[1].matrix == numbers(BENT), "a copy has a pose of its own"
-
-
-def test_restore_keeps_it_and_a_new_object_has_it(posed):
-    obj, _, _ = add_bent()
-    before = position_of(obj.data)
-    cubify()
-    shape = position_of(obj.data)
-    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
-    assert position_of(obj.data).tobytes() == before.tobytes()
-    assert posed(obj)[1].matrix == numbers(BENT)
-    cubify(result="NEW_OBJECT")
-    made = bpy.context.object
-    assert made != obj and position_of(made.data).tobytes() == shape.tobytes()
-    assert posed(made)[1].matrix == numbers(BENT)
-    select(made)
-    cubify()
-    assert position_of(made.data).tobytes() == shape.tobytes()
-
-
 @pytest.mark.parametrize("then", [None, Matrix(), Matrix.Translation((0, 0, 2)) @ BENT])
 def test_apply_makes_it_the_rest(posed, then):
     obj, _, _ = add_bent()
@@ -110,17 +82,6 @@ def test_apply_makes_it_the_rest(posed, then):
     np.testing.assert_allclose(posed(obj)[1].matrix, numbers(wanted), atol=1e-6)
     assert (posed(obj)[1].matrix == IDENTITY) == (then is None)
     assert obj.cubic_craft.handles[1].pose != BENT
-
-
-def test_apply_to_a_linked_copy_does_not_pose_it_twice(posed):
-    obj, _, _ = add_bent()
-    select(obj)
-    bpy.ops.object.duplicate(linked=True)
-    copy = bpy.context.object
-    select(obj)
-    cubify()
-    assert bpy.ops.cubic_craft.apply() == {"FINISHED"}
-    assert posed(copy)[1].matrix == posed(obj)[1].matrix == IDENTITY
 
 
 def test_apply_keeps_pose_and_motion_of_a_handle_that_follows(posed):

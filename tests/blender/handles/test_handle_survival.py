@@ -3,9 +3,9 @@
 
 import bpy
 import numpy as np
-from posing import LEFT, RIGHT, add_posable, mapped, pose
+from posing import LEFT, RIGHT, add_posable, pose
 from rich_mesh import position_of
-from scene import add_empty, cubify, select
+from scene import cubify, select
 
 FAR = {"location": (40, -30, 20), "rotation_euler": (1, 2, 3), "scale": (2, 2, 2)}
 
@@ -20,25 +20,6 @@ def solved(obj):
     select(obj)
     assert cubify() == {"FINISHED"}
     return position_of(obj.data)
-
-
-def test_renaming_object_and_empty(posed):
-    obj, _, _ = add_posable()
-    empty = pose(obj)
-    before = posed(obj)
-    obj.name, obj.data.name, empty.name = "Torso", "Torso", "Control"
-    assert posed(obj) == before
-
-
-def test_saving_and_loading(posed, reopen):
-    obj, left, right = add_posable(**FAR)
-    pose(obj)
-    before, original = posed(obj), position_of(obj.data)
-    obj = reopen("Body")
-    assert posed(obj) == before
-    after = solved(obj)
-    np.testing.assert_allclose(after[right], mapped(original[right], before[1].matrix), atol=1e-6)
-    assert after[left].tobytes() == original[left].tobytes()
 
 
 def test_a_deleted_target_stays_deleted_in_the_file(posed, reopen):
@@ -101,52 +82,6 @@ def test_a_linked_copy_has_the_same_pose_and_the_same_shape(posed):
     assert cubify() == {"FINISHED"}
     alone = position_of(obj.data)
     np.testing.assert_array_equal(solved(copy), alone)
-
-
-def test_a_new_object_keeps_the_pose(posed):
-    obj, _, _ = add_posable()
-    pose(obj)
-    select(obj)
-    cubify(result="NEW_OBJECT")
-    made = bpy.context.object
-    shape = position_of(made.data)
-    put(made, {"location": (3, 2, 1)})
-    assert posed(made) == posed(obj)
-    np.testing.assert_array_equal(solved(made), shape)
-
-
-def test_parents_of_the_object_do_not_matter(posed):
-    obj, _, _ = add_posable()
-    pose(obj)
-    before = posed(obj)
-    parent = add_empty("Parent")
-    obj.parent = parent
-    put(parent, FAR)
-    assert posed(obj) == before
-
-
-def test_an_empty_that_is_animated_poses_frame_by_frame(posed):
-    obj, _, _ = add_posable()
-    empty = pose(obj)
-    empty.keyframe_insert("location", frame=1)
-    empty.location.z += 2
-    empty.keyframe_insert("location", frame=11)
-    matrices = []
-    for frame in (1, 11, 1):
-        bpy.context.scene.frame_set(frame)
-        matrices.append(posed(obj)[1].matrix)
-    assert matrices[0] == matrices[2] != matrices[1]
-
-
-def test_an_empty_with_a_constraint_goes_where_that_puts_it(posed):
-    obj, _, _ = add_posable(location=(1, 2, 3))
-    empty = pose(obj)
-    other = add_empty("Other", location=(4, 4, 4))
-    empty.constraints.new("COPY_LOCATION").target = other
-    bpy.context.view_layer.update()
-    matrix = np.reshape(posed(obj)[1].matrix, (4, 4))
-    rest = np.array(obj.cubic_craft.handles[1].rest)
-    np.testing.assert_allclose((matrix @ rest)[:3, 3], (3, 2, 1), atol=1e-4)
 
 
 def test_renaming_a_vertex_group(posed):

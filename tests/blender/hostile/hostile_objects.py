@@ -10,6 +10,10 @@ from hostile_meshes import SEEDS, broken_meshes
 from hypothesis import strategies as st
 from mathutils import Matrix
 from rich_mesh import position_of, set_points
+from worth_trying import values
+
+from solver.method import SETTINGS
+from solver.styles.form_names import FORMS, OF_OBJECT
 
 TRANSFORMS = {
     "none": Matrix(),
@@ -35,6 +39,14 @@ POSES = {
     "far": Matrix.Translation((1e6, 0, 0)),
 }
 """matrices of handles"""
+OPTIONS = {name: values(each) for name, each in SETTINGS.items()} | {
+    "form": [each for each, *_ in FORMS if each not in (*OF_OBJECT, "FACES")],
+    "result": ["MESH", "SHAPE_KEY", "NEW_OBJECT"],
+    "map_group": ["", "Map"],
+    "device": ["CPU", "CPU", "NUMPY"],
+    "max_iterations": [3],
+}
+"""values of the settings"""
 
 
 @dataclass
@@ -62,25 +74,7 @@ class Asked:
 @st.composite
 def asked(draw):
     """Draw an object and what Cubify is asked to do with it."""
-    options = {
-        "cubeness": draw(st.sampled_from([0.4, 0.0, 1.0, 10.0])),
-        "result": draw(st.sampled_from(["MESH", "SHAPE_KEY", "NEW_OBJECT"])),
-        "solidity": draw(st.sampled_from([0.0, 0.1, 1.0, 10.0])),
-        "keep_pose": draw(st.booleans()),
-        "detail": draw(st.sampled_from([0.0, 0.05, 0.3, 1.0])),
-        "keep_apart": draw(st.booleans()),
-        "together": draw(st.sampled_from(["OFF", "PARTS", "SELECTION"])),
-        "refine": draw(st.sampled_from(["AUTO", "OFF"])),
-        "rotation": draw(st.sampled_from(["KEEP", "FREE"])),
-        "symmetry": draw(st.sampled_from([(False,) * 3, (True, False, False), (True,) * 3])),
-        "floor": draw(st.sampled_from(["AUTO", "ON", "OFF"])),
-        "space": draw(st.sampled_from(["OBJECT", "WORLD", "FRAME"])),
-        "orientation": draw(st.sampled_from([(0.0, 0.0, 0.0), (0.3, -1.0, 20.0)])),
-        "map_group": draw(st.sampled_from(["", "Map"])),
-        "map_invert": draw(st.booleans()),
-        "device": draw(st.sampled_from(["CPU", "CPU", "NUMPY"])),
-        "max_iterations": 3,
-    }
+    options = {name: draw(st.sampled_from(each)) for name, each in OPTIONS.items()}
     return Asked(
         draw(broken_meshes(for_blender=True)),
         draw(st.sampled_from(sorted(TRANSFORMS))),

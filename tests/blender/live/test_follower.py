@@ -96,20 +96,6 @@ def test_a_material_outlives_other_faces_of_the_original(live, follow):
     assert [m.name for m in follower.data.materials] == ["Marble"]
 
 
-def test_what_the_original_gets_meanwhile_is_on_an_undressed_result(live, follow):
-    obj = add_monkey()
-    session = tick_to_rest(follow(obj))
-    obj.vertex_groups.new(name="Pin").add(range(50), 1.0, "REPLACE")
-    obj.data.materials.append(bpy.data.materials.new("Clay"))
-    obj.cubic_craft.handles.add().group = "Pin"
-    tick_to_rest(session)
-    confirm(live, session)
-    follower = follower_of(obj)
-    assert follower.vertex_groups["Pin"].weight(49) == 1.0
-    assert [m.name for m in follower.data.materials] == ["Clay"]
-    assert [handle.group for handle in follower.cubic_craft.handles] == ["Pin"]
-
-
 def test_weights_painted_on_it_are_kept_and_so_is_the_mode(live, follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))
@@ -122,35 +108,6 @@ def test_weights_painted_on_it_are_kept_and_so_is_the_mode(live, follow):
     confirm(live, session)
     assert follower.mode == "WEIGHT_PAINT" and bpy.context.object == follower
     assert follower.vertex_groups["Shine"].weight(7) == 0.25 and bits(follower) == shown
-
-
-def test_an_undo_of_something_else_leaves_it_dressed(live, follow):
-    obj = add_monkey()
-    name = obj.name
-    bpy.ops.ed.undo_push(message="Monkey")
-    session = tick_to_rest(follow(obj))
-    dress(follower_of(obj))
-    bpy.ops.ed.undo_push(message="Dressed")
-    shown = bits(bpy.data.objects[NAME])
-    obj.data.vertices[40].co.y -= 0.3
-    obj.data.update()
-    bpy.ops.ed.undo_push(message="Moved")
-    tick_to_rest(session)
-    assert bits(bpy.data.objects[NAME]) != shown
-    bpy.ops.ed.undo()
-    tick_to_rest(session)
-    assert bits(bpy.data.objects[NAME]) == shown
-    confirm(live, session)
-    check_dressed(bpy.data.objects[NAME])
-    assert len(bpy.data.objects) == 3 and bpy.context.object == bpy.data.objects[name]
-
-
-def test_cancelling_leaves_nothing_of_it(live, follow):
-    obj = add_monkey()
-    session = tick_to_rest(follow(obj))
-    dress(follower_of(obj))
-    session.on(live.Event.CANCEL)
-    assert NAME not in bpy.data.objects and len(bpy.data.meshes) == 1
 
 
 def seen(obj):
@@ -240,13 +197,6 @@ def test_what_other_objects_deform_is_seen_alike_beside_the_original(live, follo
     check()
     confirm(live, session)
     check()
-
-
-def test_those_of_several_objects_stay_together(live, follow):
-    body, eye = add_monkey(), add_monkey("Eye", location=(0.5, -1.0, 0.5), scale=(0.2, 0.2, 0.2))
-    tick_to_rest(follow(body, eye))
-    ways = [follower_of(o).matrix_world.translation - o.location for o in (body, eye)]
-    assert (ways[0] - ways[1]).length < 1e-5 and ways[0].x > 2.0
 
 
 def look_along(direction, distance, is_perspective):

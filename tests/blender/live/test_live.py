@@ -2,10 +2,8 @@
 """Live without its window: the session is driven tick by tick, and what happens to it is real."""
 
 import importlib
-from types import SimpleNamespace
 
 import bpy
-import numpy as np
 import pytest
 from live_steps import (
     add_monkey,
@@ -36,21 +34,6 @@ def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
     bpy.ops.cubic_craft.cubify()
     other = snapshot_mesh(bpy.context.object.data)
     assert not differences(one, other, ignore=("*name*", "rna/shape_keys", "shape_keys/rna/user"))
-    assert bits(obj) == bits(twin)
-
-
-def test_the_path_does_not_matter(live, begin):
-    twin, obj = add_monkey("Twin"), add_monkey()
-    session = begin(obj, cubeness=0.1)
-    for cubeness in (0.9, 0.3, 2.0, 0.55):
-        live.live_properties().cubeness = cubeness
-        for _ in range(2):
-            session.tick(bpy.context)
-    live.live_properties().orientation = (0.1, 0.2, 0.3)
-    confirm(live, session)
-    assert obj.cubic_craft.cubeness == pytest.approx(0.55)
-    select(twin)
-    bpy.ops.cubic_craft.cubify(cubeness=obj.cubic_craft.cubeness, orientation=(0.1, 0.2, 0.3))
     assert bits(obj) == bits(twin)
 
 
@@ -159,31 +142,6 @@ def test_several_objects_are_live_together(live, begin, together):
     assert [bits(obj) for obj in objects] == [bits(obj) for obj in twins]
 
 
-def test_a_mesh_of_two_objects_is_solved_once(live, begin):
-    obj = add_monkey()
-    other = bpy.data.objects.new("Other", obj.data)
-    bpy.context.collection.objects.link(other)
-    session = begin(obj, other)
-    assert len(session.meshes) == 1
-    assert session.mesh_of(other) is session.meshes[0]
-    confirm(live, session)
-
-
-def test_shape_keys_are_carried_along_in_the_preview(live, begin):
-    obj = add_rich_monkey(keys=True)
-    session = tick_to_rest(begin(obj, cubeness=0.8))
-    shown = {key.name: bytes(_points(key)) for key in obj.data.shape_keys.key_blocks}
-    confirm(live, session)
-    written = {key.name: bytes(_points(key)) for key in obj.data.shape_keys.key_blocks}
-    assert shown == written
-
-
-def _points(key):
-    values = np.empty(3 * len(key.points), np.float32)
-    key.points.foreach_get("co", values)
-    return values.tobytes()
-
-
 def test_the_panel_stays_that_of_live_whatever_is_active(live, begin):
     a, b = add_monkey("A"), add_monkey("B")
     session = begin(a, b)
@@ -215,21 +173,3 @@ def test_without_a_window_it_says_so():
     add_monkey()
     with pytest.raises(RuntimeError, match="needs a window"):
         bpy.ops.cubic_craft.live()
-
-
-def test_a_tick_keeps_to_its_slice(live, begin, monkeypatch):
-    """By a clock on which each phase of the solver takes a third of it, and all else nothing."""
-    session_module = importlib.import_module(f"{live.__name__}.session")
-    slices = importlib.import_module(f"{live.__name__}.slices")
-    runs_module = importlib.import_module(f"{live.__name__}.live_runs")
-    session = begin(add_monkey(), tolerance=1e-6)
-    (mesh,) = session.meshes
-    phases = []
-    clock = SimpleNamespace(perf_counter=lambda: len(phases) * 0.34 * slices.SLICE)
-    monkeypatch.setattr(session_module, "time", clock)
-    monkeypatch.setattr(runs_module, "time", clock)
-    advance = mesh.run.advance
-    monkeypatch.setattr(mesh.run, "advance", lambda: phases.append(advance()))
-    for number in range(1, 6):
-        session.tick(bpy.context)
-        assert len(phases) == 3 * number and mesh.is_working

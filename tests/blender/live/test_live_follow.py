@@ -195,18 +195,6 @@ def test_where_it_is_written_can_be_changed_meanwhile(live, begin, first):
     assert (bits(obj) == before) == (other == "NEW_OBJECT")
 
 
-def test_a_setting_that_changes_after_a_stroke_is_solved_with_it(live, follow):
-    obj = add_monkey()
-    session = tick_to_rest(follow(obj))
-    stroke(obj)
-    session.tick(bpy.context)
-    live.live_properties().cubeness = 0.9
-    tick_to_rest(session)
-    confirm(live, session)
-    obj.cubic_craft.cubeness = 0.9
-    check_same_as_new_object(obj, follower_of(obj))
-
-
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
 def test_a_file_saved_meanwhile_has_the_result_and_the_original(live, follow, mode, tmp_path):
     obj = add_monkey()
@@ -242,18 +230,6 @@ def test_a_file_that_blender_saves_by_itself_has_it_too(live, follow, tmp_path):
     select(follower_of(obj))
     assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
     assert bits(follower_of(obj)) == bits(obj)
-
-
-def test_a_copy_of_the_follower_is_the_artists(live, follow):
-    obj = add_monkey()
-    session = tick_to_rest(follow(obj))
-    select(follower_of(obj))
-    bpy.ops.object.duplicate()
-    copy = bpy.context.object
-    tick_to_rest(session)
-    assert session.is_ended and "another mesh" in session.end_message
-    assert len(bpy.data.objects) == 3 and bits(copy) == bits(obj)
-    assert not [key for key in copy.keys() if "follower" in key]  # noqa: SIM118 - of an object
 
 
 def test_undo_and_redo_of_a_stroke_are_followed(live, follow):
@@ -348,16 +324,6 @@ def check_the_timeline_is_followed(live, follow, obj):
     check_same_as_new_object(obj, follower_of(obj))
 
 
-def test_the_timeline_is_followed(live, follow):
-    obj = add_box()
-    push_in(obj)
-    key = obj.data.shape_keys.key_blocks["Pushed"]
-    for frame in (1, 10):
-        key.value = frame / 10
-        key.keyframe_insert("value", frame=frame)
-    check_the_timeline_is_followed(live, follow, obj)
-
-
 @pytest.mark.parametrize(
     ("owner", "name", "values"),
     [
@@ -386,18 +352,6 @@ def test_settings_that_the_timeline_changes_are_followed(
         key.value = frame / 10 if is_moving else 0.5
         key.keyframe_insert("value", frame=frame)
     check_the_timeline_is_followed(live, follow, obj)
-
-
-def test_modifiers_can_be_switched_on_and_off_meanwhile(live, follow):
-    obj = add_box()
-    session = tick_to_rest(follow(obj))
-    for is_on in (True, False):
-        live.live_properties().with_modifiers = is_on
-        tick_to_rest(session)
-        assert (len(follower_of(obj).data.vertices) > 8) == is_on
-        assert len(bpy.data.objects) == 2
-    confirm(live, session)
-    check_same_as_new_object(obj, follower_of(obj))
 
 
 def test_a_map_does_not_keep_it_awake_in_modes_that_cannot_be_read(follow):

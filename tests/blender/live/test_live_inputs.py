@@ -6,7 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
-from live_steps import STEPS, add_monkey, bits, check_same_as_cubify, confirm, tick_to_rest
+from live_steps import add_monkey, bits, check_same_as_cubify, confirm, tick_to_rest
 from posing import LEFT, RIGHT, add_posable, follow, pin, pose
 from rich_mesh import position_of
 from scene import add_empty, add_triangles
@@ -20,20 +20,6 @@ def test_the_frame_object_restarts_it(live, begin):
     tick_to_rest(session)
     before = bits(obj)
     frame.rotation_euler = (0.3, 0.2, 0.5)
-    tick_to_rest(session)
-    assert bits(obj) != before
-    confirm(live, session)
-    check_same_as_cubify(obj)
-
-
-def test_it_follows_the_object_that_is_turned_in_the_world(live, begin):
-    obj = add_monkey()
-    session = tick_to_rest(begin(obj, together="PARTS"))
-    before = bits(obj)
-    obj.location.x += 1.0
-    tick_to_rest(session)
-    assert bits(obj) == before, "where it stands does not matter"
-    obj.rotation_euler.z = 0.6
     tick_to_rest(session)
     assert bits(obj) != before
     confirm(live, session)
@@ -70,36 +56,6 @@ def test_painted_weights_restart_it(live, begin):
     check_same_as_cubify(obj)
 
 
-def test_weights_changed_before_the_last_shape_is_evaluated_count(live, begin):
-    """Blender tells of both at once then, so that it looks like the update of Live alone."""
-    obj = add_monkey()
-    group = obj.vertex_groups.new(name="Map")
-    group.add(range(len(obj.data.vertices)), 0.5, "REPLACE")
-    session = begin(obj, map_group="Map")
-    for _ in range(STEPS):
-        session.tick(bpy.context)
-        if not session.meshes[0].is_working:
-            break
-        bpy.context.view_layer.update()
-    group.add(range(100), 1.0, "REPLACE")
-    obj.data.update()
-    bpy.context.view_layer.update()
-    shape = bits(obj)
-    tick_to_rest(session)
-    assert bits(obj) != shape
-    session.on(live.Event.CANCEL)
-
-
-def test_weight_paint_goes_on(live, begin):
-    obj = add_monkey()
-    session = begin(obj)
-    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
-    tick_to_rest(session)
-    assert not session.is_ended
-    confirm(live, session)
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
 def test_a_handle_is_posed_live(live, begin):
     obj, _, right = add_posable()
     pin(obj, LEFT)
@@ -115,19 +71,6 @@ def test_a_handle_is_posed_live(live, begin):
     assert not session.take_back(), "Ctrl-Z is for Blender, which has moved the empty"
     confirm(live, session)
     check_same_as_cubify(obj)
-
-
-def test_a_handle_added_live_counts(live, begin):
-    obj, left, _ = add_posable()
-    original = position_of(obj.data)
-    session = tick_to_rest(begin(obj, cubeness=0.9))
-    assert np.abs(position_of(obj.data) - original)[left].max() > 1e-3
-    bpy.ops.cubic_craft.handle_add(group=LEFT)
-    tick_to_rest(session)
-    assert np.array_equal(position_of(obj.data)[left], original[left])
-    live.live_properties().use_handles = False
-    tick_to_rest(session)
-    assert not np.array_equal(position_of(obj.data)[left], original[left])
 
 
 def test_moving_object_and_handles_together_restarts_nothing(live, begin):

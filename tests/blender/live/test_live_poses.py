@@ -4,9 +4,9 @@
 import bpy
 import numpy as np
 import pytest
-from live_steps import bits, check_gone, confirm, follower_of, tick_to_rest
+from live_steps import bits, check_gone, confirm, tick_to_rest
 from mathutils import Matrix
-from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, mapped, pin
+from posing import IDENTITY, LEFT, RIGHT, add_posable, mapped, pin
 from rich_mesh import position_of
 from scene import select
 
@@ -153,47 +153,3 @@ def test_a_file_saved_in_the_middle_has_the_pose(live, begin, tmp_path):
     obj = bpy.data.objects["Body"]
     assert handle_of(obj).pose != Matrix()
     check_right(obj, right, original, UP)
-
-
-def test_an_empty_that_is_added_moves_it_on_from_there(live, begin):
-    obj, right = add_pinned()
-    original = position_of(obj.data)
-    session = raised(live, begin(obj), obj)
-    obj.cubic_craft.active_handle = 1
-    assert bpy.ops.cubic_craft.handle_follow() == {"FINISHED"}
-    empty = bpy.context.object
-    tick_to_rest(session)
-    check_right(obj, right, original, UP)
-    empty.location.x += 1
-    tick_to_rest(session)
-    wanted = mapped(original[right], UP) + np.float32([1, 0, 0])
-    np.testing.assert_allclose(position_of(obj.data)[right], wanted, atol=1e-6)
-
-
-def test_a_new_object_takes_the_pose_and_the_old_one_keeps_its_own(live, begin):
-    obj, right = add_pinned()
-    original = position_of(obj.data)
-    session = raised(live, begin(obj, result="NEW_OBJECT"), obj)
-    confirm(live, session)
-    made = follower_of(obj)
-    assert bits(obj) == original.tobytes()
-    check_right(made, right, original, UP)
-    assert live.pose_of(made, handle_of(made)) == UP
-    assert live.pose_of(obj, handle_of(obj)) == IDENTITY
-
-
-def test_of_two_objects_each_has_its_poses(live, begin):
-    obj, right = add_pinned()
-    other, _, _ = add_posable(name="Other", location=(4, 0, 0))
-    pin(other, LEFT)
-    empty = follow(other, RIGHT)
-    original = position_of(obj.data)
-    session = tick_to_rest(begin(obj, other, together="OFF"))
-    before = bits(other)
-    live.set_pose(obj, handle_of(obj), UP)
-    tick_to_rest(session)
-    check_right(obj, right, original, UP)
-    assert bits(other) == before
-    assert empty.location.length > 0
-    confirm(live, session)
-    assert live.pose_of(other, handle_of(other)) == IDENTITY

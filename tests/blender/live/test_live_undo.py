@@ -120,30 +120,6 @@ def test_undo_to_another_shape_starts_from_that(live, begin):
     assert bits(obj) == shape
 
 
-def test_taking_back_goes_through_the_settings_first(live, begin):
-    obj = add_monkey()
-    original = bits(obj)
-    session = tick_to_sight(begin(obj, cubeness=0.4))
-    live.live_properties().cubeness = 0.9
-    session.tick(bpy.context)
-    assert session.take_back()
-    assert live.live_properties().cubeness == pytest.approx(0.4)
-    session.tick(bpy.context)
-    assert not session.is_ended
-    assert session.take_back()
-    assert session.is_ended and bits(obj) == original
-
-
-def test_taking_back_leaves_moved_objects_to_blender(live, begin):
-    obj = add_monkey()
-    session = tick_to_sight(begin(obj, space="WORLD"))
-    obj.rotation_euler.x = 0.5
-    bpy.context.view_layer.update()
-    session.tick(bpy.context)
-    assert not session.take_back()
-    assert not session.is_ended
-
-
 def test_taking_back_ends_live_where_blender_has_undone_all_of_it(live, begin):
     obj = add_triangles()
     frame = bpy.data.objects.new("Frame", None)

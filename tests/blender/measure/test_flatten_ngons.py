@@ -82,18 +82,6 @@ def test_ngons_end_at_the_borders_of_the_artist(border):
         assert x.min() > -0.01 or x.max() < 0.01
 
 
-def test_ngons_of_a_shape_key():
-    obj = add_ball()
-    cubify(result="SHAPE_KEY", refine="AUTO")
-    flatten(dissolve=True)
-    made = bpy.context.object
-    assert made.data.shape_keys is None and obj.data.shape_keys is not None
-    assert len(largest(made.data)) == 6
-    assert planar_share(made) > PLANAR
-    bpy.ops.cubic_craft.show_source()
-    assert len(bpy.data.shape_keys) == 1  # none is left over
-
-
 def test_ngons_keep_shape_keys_with_their_settings_and_drivers():
     obj = add_ball()
     obj.shape_key_add(name="Basis", from_mix=False)

@@ -3,7 +3,6 @@
 
 from typing import Any
 
-import bpy
 from rich_mesh import add_rich_monkey, cubic_like
 
 NOTE = "cubic_craft_note"
@@ -34,8 +33,3 @@ def live_attributes(mesh: Any) -> list[str]:
     """List what a preview has left on a mesh."""
     points = [a.name for a in mesh.attributes if a.domain == "POINT"]
     return [name for name in points if name.startswith("cubic_craft_live")]
-
-
-def mesh_named(name: str) -> Any:
-    """Look a mesh up anew, as one must after an undo or a load."""
-    return bpy.data.meshes[name]

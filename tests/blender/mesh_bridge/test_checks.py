@@ -119,15 +119,6 @@ def test_coordinates_without_number(bridge, error, monkey, value):
         bridge.read_positions(mesh)
 
 
-def test_shape_key_without_number(bridge, error, keyed_monkey):
-    mesh = keyed_monkey.data
-    points = points_of(mesh, "Wide")
-    points[4] = np.nan
-    set_points(mesh, "Wide", points)
-    with pytest.raises(error, match=r'"Suzanne".* in shape key "Wide" .*vertex 4'):
-        bridge.check_editable(keyed_monkey)
-
-
 def test_shape_keys_that_do_not_fit(bridge, cubify, error, keyed_monkey):
     mesh = keyed_monkey.data
     cubify(keyed_monkey)

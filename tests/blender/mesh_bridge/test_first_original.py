@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """*From Here* replaces the original; the first one stays on the mesh until Apply."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 from rich_mesh import points_of, position_of, set_position
-from scene import add_monkey, bmesh_of, select
+from scene import add_monkey, select
 from sculpting import check_bits, check_near, sculpt, shapes_of
 from snapshot import STORED, unchanged
 
@@ -104,32 +103,6 @@ def test_it_is_transformed_with_the_mesh(bridge, cubify, monkey):
     bridge.restore_first(monkey)
     whole = (ways[1] @ ways[0]).T
     check_near(shapes_of(monkey), [points @ whole for points in before], 1e-5)
-
-
-def test_apply_removes_it(bridge, cubify, monkey):
-    cubify(monkey, seed=1)
-    sculpt(monkey)
-    cubify(monkey, seed=2)
-    bridge.discard_original(monkey.data)
-    assert not bridge.has_first(monkey.data) and not bridge.has_traces(monkey.data)
-
-
-def test_it_is_lost_with_the_original(bridge, cubify, error, plain_monkey):
-    """Nobody can tell that of new vertices that were moved each its own way."""
-    mesh = plain_monkey.data
-    cubify(plain_monkey, seed=1)
-    sculpt(plain_monkey)
-    cubify(plain_monkey, seed=2)
-    with bmesh_of(mesh) as bm:
-        some = bm.verts[100:200]
-        made = bmesh.ops.extrude_vert_indiv(bm, verts=some)["verts"]
-        for vertex in made:
-            vertex.co = np.multiply(vertex.co, 1 + np.sin(9 * np.array(vertex.co)))
-    assert bridge.has_first(mesh) and not bridge.has_original(mesh)
-    with unchanged(plain_monkey), pytest.raises(error, match="can no longer be determined"):
-        bridge.restore_first(plain_monkey)
-    cubify(plain_monkey, seed=3)
-    assert not bridge.has_first(mesh)
 
 
 def test_joined_meshes_go_back_each_to_its_own(bridge, cubify):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from rich_mesh import add_rich_monkey, points_of, position_of
 from scene import add_copy, add_monkey, bmesh_of, select
-from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, unchanged
 
 
 def add_cube(**where):
@@ -34,34 +34,6 @@ def join(active, *others):
 
 def moved(points, matrix):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def test_two_results(bridge, cubify):
-    one, other = add_monkey(location=(1, 2, 3), rotation=(0.1, 0.2, 0.3)), add_sphere()
-    first, second = position_of(one.data), position_of(other.data)
-    cubify(one)
-    cubify(other, seed=2)
-    (matrix,) = join(one, other)
-    mesh = one.data
-    assert bridge.has_original(mesh) and not bridge.is_edited(mesh)
-    before = snapshot_object(one)
-    bridge.restore(one)
-    assert position_of(mesh)[: len(first)].tobytes() == first.tobytes()
-    np.testing.assert_allclose(position_of(mesh)[len(first) :], moved(second, matrix), atol=2e-6)
-    assert differences(before, snapshot_object(one), ignore=(*POSITIONS, *STORED)) == []
-    assert not bridge.has_traces(mesh)
-
-
-@pytest.mark.parametrize("vertex", [3, -3], ids=["first", "last"])
-def test_an_edit_of_any_part_is_noticed(bridge, cubify, vertex):
-    one, other = add_monkey(), add_sphere()
-    cubify(one)
-    cubify(other, seed=2)
-    join(one, other)
-    assert not bridge.is_edited(one.data)
-    one.data.vertices[vertex].co.x += 0.1
-    one.data.update()
-    assert bridge.is_edited(one.data)
 
 
 @pytest.mark.parametrize("into", ["cubic", "plain"])
@@ -192,19 +164,3 @@ def test_modifiers_that_copy(bridge, cubify):
         offset = parts[2 * number] - parts[0]
         np.testing.assert_allclose(offset, np.broadcast_to(offset[:1], offset.shape), atol=1e-5)
         assert abs(offset[0, 1]) > 1
-
-
-def test_one_lost_part_is_no_original(bridge, cubify, error):
-    """It would be put together of the original of one and the result of the other."""
-    one, other = add_monkey(), add_sphere()
-    cubify(one)
-    cubify(other)
-    join(one, other)
-    with bmesh_of(one.data) as bm:
-        made = bmesh.ops.subdivide_edges(bm, edges=bm.edges[:50], cuts=1)["geom_inner"]
-        for vertex in made:
-            if isinstance(vertex, bmesh.types.BMVert):
-                vertex.co.z += 0.1 * np.sin(50 * vertex.co.x)
-    assert not bridge.has_original(one.data)
-    with pytest.raises(error, match="can no longer be determined"):
-        bridge.restore(one)

@@ -60,43 +60,6 @@ def test_preview_under_groups_of_its_names(bridge, monkey):
     assert differences(before, snapshot_mesh(monkey.data)) == []
 
 
-def test_groups_get_another_name_on_the_next_update(bridge, cubify, plain_monkey):
-    cubify(plain_monkey)
-    plain_monkey.vertex_groups.new(name="cubic_craft_original.002")
-    group = plain_monkey.vertex_groups.new(name="Ear")
-    group.name = "cubic_craft_original"
-    bpy.context.view_layer.update()
-    assert group.name == NUMBERED
-    group.name = "cubic_craft_live"
-    bpy.context.view_layer.update()
-    assert group.name == "cubic_craft_live.001"
-    assert "cubic_craft_original.002" in plain_monkey.vertex_groups
-
-
-def test_new_name_of_a_group_is_free(bridge, cubify, plain_monkey):
-    cubify(plain_monkey)
-    plain_monkey.data.uv_layers[0].name = NUMBERED
-    plain_monkey.vertex_groups.new(name="cubic_craft_original.002")
-    group = plain_monkey.vertex_groups.new(name="cubic_craft_original")
-    bpy.context.view_layer.update()
-    assert group.name == "cubic_craft_original.003"
-
-
-def test_groups_of_a_mesh_without_ours_keep_their_names(plain_monkey):
-    add_groups(plain_monkey)
-    bpy.context.view_layer.update()
-    assert set(NAMES) <= set(plain_monkey.vertex_groups.keys())
-
-
-def test_group_of_another_object_with_the_mesh(bridge, cubify, plain_monkey):
-    cubify(plain_monkey)
-    other = bpy.data.objects.new("Other", plain_monkey.data)
-    bpy.context.collection.objects.link(other)
-    other.vertex_groups[0].name = "cubic_craft_original"
-    bpy.context.view_layer.update()
-    assert plain_monkey.vertex_groups[0].name == other.vertex_groups[0].name == NUMBERED
-
-
 def test_groups_get_another_name_when_a_file_is_opened(extension, bridge, cubify, tmp_path):
     obj = add_rich_monkey(keys=False)
     cubify(obj)
@@ -136,20 +99,6 @@ def test_group_in_edit_mode(bridge, cubify, plain_monkey, rename):
     assert position_of(mesh).tobytes() == original
 
 
-def test_numbered_attributes_are_the_artists(bridge, cubify, plain_monkey):
-    """Blender gives a number to names that are taken, here by ours."""
-    mesh = plain_monkey.data
-    cubify(plain_monkey)
-    mesh.uv_layers.new(name="cubic_craft_original")
-    mesh.color_attributes.new("cubic_craft_original", "FLOAT_COLOR", "POINT")
-    mesh.attributes.new("cubic_craft_rotation", "FLOAT_VECTOR", "POINT")
-    cubify(plain_monkey)
-    bridge.restore(plain_monkey)
-    left = {a.name for a in mesh.attributes if a.name.startswith("cubic_craft")}
-    assert left == {NUMBERED, "cubic_craft_original.002", "cubic_craft_rotation.001"}
-    assert not bridge.has_traces(mesh)
-
-
 @pytest.mark.parametrize("kind", ["UV map", "color", "vector of faces", "number"])
 @pytest.mark.parametrize("name", NAMES)
 def test_attribute_of_the_artist_in_the_way(bridge, error, monkey, kind, name):
@@ -175,16 +124,3 @@ def test_attribute_of_the_artist_in_the_way(bridge, error, monkey, kind, name):
     bridge.discard_original(mesh)
     assert not bridge.has_traces(mesh)
     assert differences(before, snapshot_object(monkey)) == []
-
-
-def test_restore_beside_an_attribute_in_the_way(bridge, cubify, error, plain_monkey):
-    """Our name that is not in use on this mesh: only Cubify needs it."""
-    mesh = plain_monkey.data
-    original = position_of(mesh).tobytes()
-    cubify(plain_monkey)
-    mesh.uv_layers[0].name = "cubic_craft_original.key1"
-    with pytest.raises(error, match=r'attribute "cubic_craft_original\.key1"'):
-        cubify(plain_monkey)
-    bridge.restore(plain_monkey)
-    assert position_of(mesh).tobytes() == original
-    assert mesh.uv_layers[0].name == "cubic_craft_original.key1"

@@ -4,9 +4,8 @@
 import json
 
 import bpy
-import numpy as np
 import pytest
-from rich_mesh import cubic_like, points_of, position_of
+from rich_mesh import cubic_like, position_of
 from snapshot import differences, snapshot_object, unchanged
 
 NOTE = "cubic_craft_note"
@@ -70,14 +69,6 @@ def test_valid_note_is_not_in_the_way(bridge, cubify, keyed_monkey):
     cubify(keyed_monkey)
 
 
-def test_attribute_of_the_artist_with_a_similar_name(bridge, cubify, monkey):
-    monkey.data.attributes.new("cubic_craft_originality", "FLOAT", "POINT")
-    with unchanged(monkey):
-        assert not bridge.has_traces(monkey.data)
-        cubify(monkey)
-        bridge.restore(monkey)
-
-
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
 def test_traces_come_and_go(bridge, cubify, monkey, result):
     assert not bridge.has_traces(monkey.data)
@@ -120,13 +111,3 @@ def test_stale(bridge, cubify, error, plain_monkey, what):
     assert NOTE not in mesh
     assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft")]
     assert position_of(mesh).tobytes() == shape
-
-
-def test_forget_an_edited_key_keeps_it(bridge, cubify, keyed_monkey):
-    mesh = keyed_monkey.data
-    cubify(keyed_monkey, "SHAPE_KEY")
-    mesh.shape_keys.key_blocks["Cubic"].points[3].co.x += 1
-    points = points_of(mesh, "Cubic")
-    bridge.discard_original(mesh)
-    assert not bridge.has_traces(mesh)
-    assert np.array_equal(points_of(mesh, "Cubic"), points)

@@ -45,19 +45,6 @@ def test_shows_what_write_mesh_would_write(bridge, state):
         assert points_of(obj.data, "Cubic").tobytes() == position_of(obj.data).tobytes()
 
 
-def test_keys_that_do_not_turn(bridge, error, keyed_monkey):
-    mesh = keyed_monkey.data
-    copy = mesh.copy()
-    positions, rotations = cubic_like(bridge.original_positions(mesh))
-    unturned = np.broadcast_to(np.eye(3), rotations.shape)
-    bridge.write_mesh(copy, positions, unturned)
-    preview = bridge.Preview(mesh)
-    preview.show(mesh, positions)
-    key_names = mesh.shape_keys.key_blocks.keys()
-    for name in key_names:
-        assert points_of(mesh, name).tobytes() == points_of(copy, name).tobytes()
-
-
 @pytest.mark.parametrize("key_value", [0.0, 0.4, 1.0])
 def test_the_picture_does_not_depend_on_the_value_of_our_key(bridge, key_value):
     obj = add_monkey(bridge, "Cubic")
@@ -102,24 +89,6 @@ def snapshot_shapes(obj):
     return shapes, position_of(obj.data).tobytes(), ours, obj.data.get(NOTE)
 
 
-def test_a_second_preview_ends_the_first(bridge, monkey):
-    with unchanged(monkey):
-        base = bridge.read_positions(monkey.data)
-        show_some(bridge, monkey.data)
-        preview = bridge.Preview(monkey.data)
-        assert bridge.read_positions(monkey.data).tobytes() == base.tobytes()
-        preview.show(monkey.data, *cubic_like(base, 4))
-        bridge.end_preview(monkey.data)
-
-
-def test_nothing_shown_yet(bridge, monkey):
-    before = snapshot_object(monkey)
-    bridge.Preview(monkey.data)
-    assert differences(before, snapshot_object(monkey), ignore=STORED) == []
-    assert bridge.end_preview(monkey.data)
-    assert differences(before, snapshot_object(monkey)) == []
-
-
 def test_position_that_differs_from_the_basis(bridge, keyed_monkey):
     mesh = keyed_monkey.data
     flat = np.float32(position_of(mesh) + 0.25).ravel()
@@ -127,17 +96,6 @@ def test_position_that_differs_from_the_basis(bridge, keyed_monkey):
     with unchanged(keyed_monkey):
         show_some(bridge, mesh)
         bridge.end_preview(mesh)
-
-
-def test_attributes_keep_their_order_and_active_one(bridge, plain_monkey):
-    mesh = plain_monkey.data
-    for place in range(len(mesh.attributes)):
-        mesh.attributes.active_index = place
-        with unchanged(plain_monkey):
-            name = mesh.attributes[place].name
-            show_some(bridge, mesh, [1])
-            assert mesh.attributes[mesh.attributes.active_index].name == name
-            bridge.end_preview(mesh)
 
 
 def test_property_in_the_way(bridge, error, plain_monkey):
@@ -169,10 +127,6 @@ def test_edit_mode_and_changed_meshes_are_refused(bridge, error, plain_monkey):
     mesh.vertices.add(1)
     with pytest.raises(error, match="changed while a preview"):
         preview.show(mesh, base)
-
-
-def test_no_mesh(bridge):
-    assert not bridge.has_preview(None)
 
 
 def test_mesh_without_vertices(bridge):

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from previewed import add_monkey, live_attributes, show_some
 from rich_mesh import points_of, position_of
-from scene import add_copy
 from snapshot import STORED, differences, snapshot_object
 
 # Edit Mode numbers all attributes anew, so that any one may become the active one.
@@ -91,20 +90,6 @@ def test_active_key_changed_in_edit_mode(bridge, mode, keyed_monkey, result):
         assert np.array_equal(one, other)
 
 
-def test_two_objects_with_different_active_keys(bridge, mode, keyed_monkey):
-    mesh = keyed_monkey.data
-    twin = add_copy(keyed_monkey, is_linked=True)
-    twin.active_shape_key_index = 3
-    keyed_monkey.active_shape_key_index = 1
-    for obj in (keyed_monkey, twin):
-        before = through_edit_mode(obj, mode)
-        show_some(bridge, mesh)
-        mode(obj, "EDIT")
-        assert bridge.end_preview(mesh)
-        mode(obj, "OBJECT")
-        assert differences(before, snapshot_object(obj), ignore=_OF_EDIT_MODE) == []
-
-
 def _move(bm):
     bm.verts[3].co.x += 1
 
@@ -144,21 +129,6 @@ def test_shape_of_the_artist_is_kept(bridge, mode, state, edit):
     assert live_attributes(mesh) == [] and not bridge.has_preview(mesh)
 
 
-def test_edit_of_a_key_is_kept_on_the_base_before(bridge, mode, keyed_monkey):
-    mesh = keyed_monkey.data
-    keyed_monkey.active_shape_key_index = 3  # Wide
-    before = through_edit_mode(keyed_monkey, mode)
-    show_some(bridge, mesh)
-    mode(keyed_monkey, "EDIT")
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.verts.ensure_lookup_table()
-    bm.verts[3].co.x += 1
-    assert bridge.end_preview(mesh)
-    mode(keyed_monkey, "OBJECT")
-    changed = differences(before, snapshot_object(keyed_monkey), ignore=_OF_EDIT_MODE)
-    assert [p for p in changed if "points" in p] == ["mesh/shape_keys/blocks/Wide/points"]
-
-
 def test_faces_deleted_and_vertices_kept(bridge, mode, plain_monkey):
     mesh = plain_monkey.data
     base = position_of(mesh)
@@ -169,21 +139,6 @@ def test_faces_deleted_and_vertices_kept(bridge, mode, plain_monkey):
     assert bridge.end_preview(mesh)
     mode(plain_monkey, "OBJECT")
     assert position_of(mesh).tobytes() == base.tobytes()
-
-
-def test_attribute_deleted(bridge, mode, keyed_monkey):
-    mesh = keyed_monkey.data
-    smile = points_of(mesh, "Smile")
-    show_some(bridge, mesh)
-    shown = points_of(mesh, "Basis")
-    mode(keyed_monkey, "EDIT")
-    layers = bmesh.from_edit_mesh(mesh).verts.layers.float_vector
-    layers.remove(layers["cubic_craft_live"])
-    assert bridge.end_preview(mesh)
-    mode(keyed_monkey, "OBJECT")
-    assert points_of(mesh, "Basis").tobytes() == shown.tobytes()
-    assert np.array_equal(points_of(mesh, "Smile"), smile)
-    assert live_attributes(mesh) == []
 
 
 @pytest.mark.parametrize("state", ["plain", "keys"])

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from rich_mesh import add_rich_monkey, cubic_like, points_of, position_of, set_position
-from scene import add_copy, select
+from scene import select
 from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 
 NOTE = "cubic_craft_note"
@@ -181,72 +181,6 @@ def test_next_result_starts_from_there(bridge, cubify, monkey, name):
     np.testing.assert_allclose(extent, np.ptp(expected, axis=0), rtol=1e-3)
 
 
-def test_there_and_back_is_the_original(bridge, cubify, monkey):
-    base = bridge.read_positions(monkey.data)
-    cubify(monkey)
-    for scale in (2, 0.5):
-        apply_all(monkey, scale=(scale,) * 3, location=(0, 0, 0), rotation_euler=(0, 0, 0))
-    bridge.restore(monkey)
-    assert np.array_equal(bridge.read_positions(monkey.data), base)
-
-
-def test_unit_scale_moves_nothing(bridge, cubify, monkey):
-    with unchanged(monkey):
-        cubify(monkey)
-        bpy.context.scene.unit_settings.scale_length = 0.01
-        assert not bridge.is_edited(monkey.data)
-        bridge.restore(monkey)
-
-
-def test_saved_and_loaded_and_undone(bridge, cubify, monkey, tmp_path):
-    name = monkey.name
-    base = bridge.read_positions(monkey.data)
-    cubify(monkey)
-    bpy.context.preferences.edit.use_global_undo = True
-    bpy.ops.ed.undo_push(message="Cubify")
-    apply_all(monkey, scale=(2, 2, 2), location=(0, 0, 0), rotation_euler=(0, 0, 0))
-    bpy.ops.ed.undo_push(message="Apply")
-    path = str(tmp_path / "monkey.blend")
-    bpy.ops.ed.undo()
-    obj = bpy.data.objects[name]
-    assert np.array_equal(bridge.original_positions(obj.data), base)
-    bpy.ops.ed.redo()
-    obj = bpy.data.objects[name]
-    assert np.array_equal(bridge.original_positions(obj.data), 2 * base)
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects[name]
-    bridge.restore(obj)
-    assert np.array_equal(bridge.read_positions(obj.data), 2 * base)
-
-
-def test_hidden_vertices_are_applied_as_well(bridge, cubify, monkey):
-    mesh = monkey.data
-    base = bridge.read_positions(mesh)
-    cubify(monkey)
-    with edit_mode(monkey, hide=range(100)):
-        pass
-    monkey.scale, monkey.rotation_euler, monkey.location = (2, 2, 2), (0, 0, 0), (0, 0, 0)
-    select(monkey)
-    apply(location=True, rotation=True, scale=True)
-    assert not bridge.is_edited(mesh)
-    bridge.restore(monkey)
-    assert np.array_equal(bridge.read_positions(mesh), 2 * base)
-    hidden = [vertex.hide for vertex in mesh.vertices]
-    assert hidden[:100] == [True] * 100
-
-
-def test_hidden_vertices_that_stay_are_an_edit(bridge, cubify, monkey):
-    mesh = monkey.data
-    base = bridge.read_positions(mesh)
-    cubify(monkey)
-    with edit_mode(monkey, hide=range(100)):
-        bpy.ops.transform.mirror(constraint_axis=(True, False, False))
-    assert bridge.is_edited(mesh)
-    bridge.restore(monkey)
-    assert np.array_equal(bridge.read_positions(mesh), base)
-
-
 @pytest.mark.parametrize("axes", [(1, 1, 0), (1, 0, 0), (0, 0, 0)])
 def test_scaled_to_nothing_keeps_the_lost_extent(bridge, cubify, monkey, axes):
     mesh = monkey.data
@@ -297,17 +231,6 @@ def test_flat_meshes_keep_what_stands_out(bridge, make):
     np.testing.assert_allclose(bridge.original_positions(obj.data), expected, atol=1e-5)
 
 
-def test_shared_meshes(bridge, cubify, plain_monkey):
-    mesh = plain_monkey.data
-    base = bridge.read_positions(mesh)
-    twin = add_copy(plain_monkey, is_linked=True)
-    cubify(plain_monkey)
-    with edit_mode(twin):
-        bpy.ops.transform.translate(value=(0, 0, 2))
-    bridge.restore(plain_monkey)
-    np.testing.assert_allclose(np.ptp(bridge.read_positions(mesh), 0), np.ptp(base, 0), atol=1e-5)
-
-
 def test_edit_of_a_key_survives_a_transform(bridge, keyed_monkey):
     mesh = keyed_monkey.data
     keyed_monkey.location, keyed_monkey.rotation_euler = (0, 0, 0), (0, 0, 0)
@@ -322,16 +245,6 @@ def test_edit_of_a_key_survives_a_transform(bridge, keyed_monkey):
     expected["Wide"][20] += back
     for name, points in expected.items():
         np.testing.assert_allclose(points_of(mesh, name), points, atol=2e-5)
-
-
-def test_position_unequal_to_basis_goes_along(bridge, cubify, keyed_monkey):
-    mesh = keyed_monkey.data
-    set_position(mesh, position_of(mesh) * 3)
-    before = position_of(mesh)
-    cubify(keyed_monkey)
-    apply_all(keyed_monkey, scale=(2, 2, 2), location=(0, 0, 0), rotation_euler=(0, 0, 0))
-    bridge.restore(keyed_monkey)
-    assert np.array_equal(position_of(mesh), 2 * before)
 
 
 def test_results_of_the_first_version(bridge, cubify, error, monkey):

@@ -2,7 +2,7 @@
 import bpy
 import pytest
 from results import COPIED
-from rich_mesh import cubic_like, points_of
+from rich_mesh import cubic_like
 from snapshot import (
     POSITIONS,
     SHAPE_KEY_POINTS,
@@ -35,17 +35,6 @@ def test_copy_and_source(bridge, monkey):
     assert bpy.context.view_layer.objects.active == new
 
 
-def test_shape_keys_of_the_copy(bridge, cubify, keyed_monkey):
-    new = cubify(keyed_monkey, "NEW_OBJECT")
-    assert new.data.shape_keys != keyed_monkey.data.shape_keys
-    drivers = new.data.shape_keys.animation_data.drivers
-    assert [curve.data_path for curve in drivers] == ['key_blocks["Wide"].value']
-    cubify(keyed_monkey)
-    for name in ("Smile", "Frown", "Wide"):
-        ours = points_of(new.data, name)
-        assert ours.tobytes() == points_of(keyed_monkey.data, name).tobytes()
-
-
 @pytest.mark.parametrize("first", ["mesh", "key"])
 def test_source_with_a_result_of_ours(bridge, monkey, first):
     """The copy starts from the original; the source keeps its result."""
@@ -60,25 +49,6 @@ def test_source_with_a_result_of_ours(bridge, monkey, first):
         new = bridge.write_new_object(monkey, *cubic_like(base, 2))
     assert differences(expected, snapshot_mesh(new.data), ignore=COPIED) == []
     assert bridge.original_positions(new.data).tobytes() == base.tobytes()
-
-
-def test_collections(bridge, cubify, plain_monkey):
-    rooms = [bpy.data.collections.new(name) for name in ("Hall", "Attic")]
-    for room in rooms:
-        bpy.context.scene.collection.children.link(room)
-        room.objects.link(plain_monkey)
-    bpy.context.scene.collection.objects.unlink(plain_monkey)
-    new = cubify(plain_monkey, "NEW_OBJECT")
-    assert set(new.users_collection) == set(rooms)
-
-
-def test_rigid_body(bridge, cubify, plain_monkey):
-    """Copying one links the copy to the collection of the rigid body world by itself."""
-    bpy.ops.rigidbody.object_add()
-    assert len(plain_monkey.users_collection) == 2
-    new = cubify(plain_monkey, "NEW_OBJECT")
-    assert set(new.users_collection) == set(plain_monkey.users_collection)
-    assert new.rigid_body is not None
 
 
 @pytest.mark.parametrize("place", [0, 2, 5])
@@ -124,10 +94,3 @@ def test_object_of_another_scene(bridge, cubify, plain_monkey):
     new = cubify(plain_monkey, "NEW_OBJECT")
     assert list(new.users_collection) == [other.collection]
     assert bpy.context.view_layer.objects.active != new
-
-
-def test_mesh_of_two_objects(bridge, cubify, plain_monkey):
-    twin = bpy.data.objects.new("Twin", plain_monkey.data)
-    new = cubify(plain_monkey, "NEW_OBJECT")
-    assert plain_monkey.data == twin.data != new.data
-    assert new.data.users == 1

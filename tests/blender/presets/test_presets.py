@@ -8,9 +8,9 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import add_monkey, cubify
+from scene import add_monkey
 
-from solver.method import LOOK, PAPER, SETTINGS
+from solver.method import LOOK, SETTINGS
 
 OURS = ["Soft", "Rounded", "Cubic", "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper"]
 BY_DEFAULT = {name: SETTINGS[name].default for name in LOOK}
@@ -46,31 +46,6 @@ def save(name, **settings):
 def shape_of(obj):
     values = {name: getattr(obj.cubic_craft, name) for name in LOOK}
     return {n: round(x, 6) if isinstance(x, float) else x for n, x in values.items()}
-
-
-def test_ours_are_there_without_a_user_folder(files, monkey):
-    assert not Path(bpy.utils.user_resource("SCRIPTS", path="presets/cubic_craft")).exists()
-    assert [preset.identifier for preset in files.presets()] == OURS
-    assert all(preset.is_included and preset.description for preset in files.presets())
-
-
-def test_each_of_ours_is_another_look(files, monkey):
-    looks = {}
-    for name in OURS:
-        monkey.cubic_craft.preset = "Cubic"
-        monkey.cubic_craft.preset = name
-        assert monkey.cubic_craft.preset == name
-        looks[name] = shape_of(monkey)
-    assert len(set(map(str, looks.values()))) == len(OURS)
-
-
-def test_cubic_is_the_defaults(files, monkey):
-    assert monkey.cubic_craft.preset == "Cubic"
-    before = shape_of(monkey)
-    monkey.cubic_craft.preset = "Chunky"
-    assert shape_of(monkey) != before
-    monkey.cubic_craft.preset = "Cubic"
-    assert shape_of(monkey) == before
 
 
 def test_settings_that_are_no_preset_are_custom(files, monkey):
@@ -150,15 +125,6 @@ def test_a_preset_is_plain_assignments(files, monkey):
     assert all(line.startswith("bpy.context.object.cubic_craft.") for line in lines[1:] if line)
 
 
-def test_a_preset_that_is_edited_in_place_is_read_again(files, monkey):
-    save("Mine", cubeness=0.9)
-    path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
-    monkey.cubic_craft.preset = "Cubic"
-    path.write_text(path.read_text(encoding="utf-8").replace("= 0.9", "= 0.75"), encoding="utf-8")
-    monkey.cubic_craft.preset = "Mine"
-    assert monkey.cubic_craft.cubeness == 0.75
-
-
 def test_what_a_file_has_beside_a_look_is_neither_run_nor_set(files, monkey, tmp_path):
     save("Mine", cubeness=0.9)
     path = Path(bpy.utils.preset_find("Mine", "cubic_craft"))
@@ -210,15 +176,6 @@ def test_each_of_ours_sets_all_of_a_look_but_the_paper_leaves_the_cubeness(files
         assert set(preset.values) == set(LOOK) - left
 
 
-def test_as_in_the_paper(files, rooms, monkey):
-    monkey.cubic_craft.cubeness, monkey.cubic_craft.solidity = 0.9, 0.7
-    monkey.cubic_craft.preset = "As_in_the_Paper"
-    settings = rooms("cubic_craft_addon.settings.properties").settings_of(monkey)
-    assert settings.proxy == rooms("solver").PAPER
-    assert files.find("As_in_the_Paper").values == PAPER
-    assert settings.cubeness == pytest.approx(0.9), "how cubic is the artist's choice"
-
-
 def test_reset_gives_the_defaults_but_for_what_belongs_to_the_mesh(monkey):
     settings = monkey.cubic_craft
     settings.preset, settings.device, settings.space = "Chunky", "NUMPY", "FRAME"
@@ -228,12 +185,6 @@ def test_reset_gives_the_defaults_but_for_what_belongs_to_the_mesh(monkey):
     assert settings.preset == "Cubic" and settings.device == "AUTO" and settings.space == "WORLD"
     assert not any(settings.orientation) and settings.result == "MESH"
     assert settings.map_group == "Mine" and settings.map_invert
-
-
-def test_a_preset_is_no_setting_of_cubify(files, monkey):
-    monkey.cubic_craft.preset = "Crisp"
-    assert cubify(refine="AUTO") == {"FINISHED"}
-    assert monkey.cubic_craft.preset == "Crisp"
 
 
 def test_live_takes_presets_and_reset(files, live, begin, monkey):

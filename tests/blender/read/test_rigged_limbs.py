@@ -25,8 +25,6 @@ POSE = {
     "LowerLeg.R": (-0.7, (1, 0, 0)),
     "Spine": (0.2, (0, 0, 1)),
 }
-WALK = 16
-"""frames"""
 
 
 def cubify(iterations=1000, **settings):
@@ -183,55 +181,6 @@ def _edit(rig, name, change):
     return name
 
 
-def test_moving_the_figure_with_its_rig_changes_nothing(figure, part):
-    obj, rig = figure
-    obj.parent = rig
-    bpy.context.view_layer.update()
-    places = part("read.bones").bone_places
-    before = places(obj)
-    rig.location, rig.rotation_euler = (3.0, -2.0, 1.0), (0.1, 0.2, 0.3)
-    bpy.context.view_layer.update()
-    assert places(obj).groups == before.groups
-    np.testing.assert_allclose(places(obj).ends, before.ends, atol=2e-5)
-
-
-def _walk(rig):
-    for frame in range(1, WALK + 1):
-        swing = 0.5 * np.sin(2.0 * np.pi * frame / WALK)
-        for side, sign in ((".L", 1.0), (".R", -1.0)):
-            turn(rig, f"UpperLeg{side}", sign * swing, (1, 0, 0))
-            turn(rig, f"LowerLeg{side}", 0.3 - 0.3 * np.cos(2 * np.pi * frame / WALK), (1, 0, 0))
-            turn(rig, f"UpperArm{side}", -sign * swing, (1, 0, 0))
-            for bone in ("UpperLeg", "LowerLeg", "UpperArm"):
-                pose = rig.pose.bones[bone + side]
-                pose.keyframe_insert("rotation_quaternion", frame=frame)
-
-
-def test_a_walk_is_steady_and_keeps_its_arms_away_from_the_body(figure, body, tmp_path, extension):
-    obj, rig = figure
-    _walk(rig)
-    obj.cubic_craft.refine, obj.cubic_craft.cubeness = "OFF", 0.4
-    scene = bpy.context.scene
-    scene.frame_start, scene.frame_end = 1, WALK
-    source = np.array([_shown(obj, frame) for frame in range(1, WALK + 1)])
-    select(obj)
-    assert bpy.ops.cubic_craft.bake_animation(folder=str(tmp_path)) == {"FINISHED"}
-    film = np.array([_shown(bpy.context.object, frame) for frame in range(1, WALK + 1)])
-    assert film.shape == source.shape and np.abs(film - source).max() > 0.01 * SIZE
-    jumps, own = (np.linalg.norm(np.diff(x, 2, axis=0), axis=2) for x in (film, source))
-    most = importlib.import_module(f"{extension.__name__}.solver").MOST_JUMPS
-    assert jumps.max() <= most * own.max()
-    for side in "LR":
-        is_own = body["weights"][f"Hand.{side}"] > 0.5
-        away = np.abs(film[:, is_own, 0].mean(axis=1) - source[:, is_own, 0].mean(axis=1))
-        assert away.max() < 0.02 * SIZE
-
-
-def _shown(obj, frame):
-    bpy.context.scene.frame_set(frame)
-    return seen(obj).astype(float)
-
-
 def test_whatever_is_wrong_with_a_rig_the_shape_tells_instead(figure, part):
     obj, rig = figure
     places = part("read.bones").bone_places
@@ -279,21 +228,3 @@ def test_a_broken_rig_is_no_reason_to_refuse(figure, fault):
         bones = importlib.import_module(f"{module.__name__}.read.bones")
         assert len(bones.bone_places(obj).groups) == len(all_bones())
         bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_a_coat_without_bones_beside_a_rigged_body(figure, body, part):
-    obj, _ = figure
-    coat = obj.copy()
-    coat.data = obj.data.copy()
-    coat.modifiers.clear()
-    coat.location.x = 2.5
-    bpy.context.scene.collection.objects.link(coat)
-    for one in (obj, coat):
-        one.cubic_craft.together = "SELECTION"
-    select(obj, coat)
-    assert cubify() == {"FINISHED"}
-    V = body["mesh"][0]
-    is_own = body["weights"]["LowerArm.L"] > 0.5
-    for one in (obj, coat):
-        U = position_of(one.data).astype(float)
-        assert turned(V[is_own], U[is_own], np.array([1.0, 0.0, -1.0])) < 10.0

@@ -72,42 +72,12 @@ def test_objects_that_are_solved_together_share_a_plane():
     assert np.ptp(left, axis=0).max() > 0.3
 
 
-def test_without_symmetry_they_do_not():
-    obj = add_lump()
-    partner = partner_of(position_of(obj.data), 1e-4)
-    cubify(keep_symmetric=False)
-    after = position_of(obj.data)
-    assert (after[partner] != after * FLIP_X).any()
-
-
 def test_what_is_symmetric_stays_so_without_being_asked():
     obj = add_monkey()
     cubify()
     after = position_of(obj.data)
     assert (in_order(after) == in_order(after * FLIP_X)).all()
     assert "507 of 507 match" in obj.cubic_craft.status
-
-
-def test_what_is_solved_with_others_has_no_plane_of_its_own():
-    """An eye would be held in its place."""
-    head, eye = add_monkey(), add_monkey(location=(0.4, 0, 1.5))
-    select(head, eye)
-    cubify()
-    assert "match" not in head.cubic_craft.status + eye.cubic_craft.status
-
-
-def test_about_three_axes_at_once():
-    bpy.ops.mesh.primitive_torus_add(major_segments=32, minor_segments=16)
-    obj = bpy.context.object
-    V = position_of(obj.data)
-    cubify(symmetry=(True, True, True), orientation=(0.3, 0.2, 0.5))
-    after = position_of(obj.data)
-    for axis in range(3):
-        flip = np.ones(3, np.float32)
-        flip[axis] = -1.0
-        partner = partner_of(V, 1e-4, flip)
-        assert (partner >= 0).all()
-        assert (after[partner] == after * flip).all()
 
 
 def test_the_cube_is_mirrored_as_well():
@@ -281,13 +251,3 @@ def test_what_is_not_symmetric_is_refused():
         cubify(symmetry=(False, False, True))
     assert bits(obj) == before
     assert cubify(symmetry=(True, False, False)) == {"FINISHED"}
-
-
-def test_restore_gives_all_bits_back():
-    obj = add_ball()
-    halve(obj)
-    before = bits(obj)
-    cubify(symmetry=(False, True, False))
-    assert bits(obj) != before
-    bpy.ops.cubic_craft.restore()
-    assert bits(obj) == before

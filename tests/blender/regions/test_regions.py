@@ -102,22 +102,6 @@ def test_a_region_of_everything_is_the_object_with_its_settings():
     np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-6)
 
 
-def test_a_region_of_a_cube_may_only_be_stronger_or_turned():
-    ball = add_ball(4)
-    add_group(ball, "Top", blended)
-    region = add_region(ball, "Top", cubeness=0.0)
-    cubify(cubeness=0.5, **OPTIONS)
-    V = position_of(ball.data)
-    weak = V.copy()
-    region.cubeness = 0.5
-    cubify(cubeness=0.5, **OPTIONS)
-    alike = position_of(ball.data).copy()
-    assert np.abs(alike - weak).max() > 0.05
-    region.orientation = (0.0, 0.0, 0.7)
-    cubify(cubeness=0.5, **OPTIONS)
-    assert np.abs(position_of(ball.data) - alike).max() > 0.05
-
-
 @pytest.mark.parametrize("form", ["CUBE", "TETRAHEDRON"])
 def test_halves_with_regions_stay_mirror_images(form):
     lump = add_lump()
@@ -142,23 +126,6 @@ def test_the_form_of_a_region_is_mirrored_by_a_modifier():
     select(one)
     cubify(form="TETRAHEDRON", orientation=(0.3, 0.1, 0.2), **OPTIONS)
     np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-6)
-
-
-def test_a_mirrored_object_with_a_region_has_the_mirrored_shape_of_its_twin():
-    one = add_triangles()
-    other = add_copy(one)
-    other.data.transform([[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
-    other.data.flip_normals()
-    other.scale.x = -1.0
-    bpy.context.view_layer.update()
-    for obj in (one, other):
-        add_group(obj, "Top", blended)
-        add_region(obj, "Top", form="TETRAHEDRON", orientation=(0.3, 0.1, 0.2))
-        cubify(**OPTIONS)
-    # a triangle between two sides may belong to either
-    np.testing.assert_allclose(
-        position_of(other.data) * [-1, 1, 1], position_of(one.data), atol=0.01
-    )
 
 
 def test_objects_that_are_solved_together_may_have_different_regions():
@@ -187,21 +154,6 @@ def test_shares_never_add_up_to_more_than_all(extension):
     shares = importlib.import_module(f"{addon}.regions.shares").region_shares(obj, settings.regions)
     assert shares is not None
     np.testing.assert_allclose(shares, np.tile([0.0, 0.5, 0.3, 0.2], (len(shares), 1)), atol=1e-6)
-
-
-def test_two_regions_of_everything_are_half_of_each():
-    """With equal forms it is as one region with the mean of both cubenesses."""
-    shapes = []
-    for cubenesses in ((0.2, 0.6), (0.6, 0.2), (0.4,)):
-        obj = add_ball(3)
-        for number, cubeness in enumerate(cubenesses):
-            add_group(obj, f"All {number}", lambda V: np.ones(len(V)))
-            add_region(obj, f"All {number}", cubeness=cubeness)
-        select(obj)
-        cubify(cubeness=0.0, **OPTIONS)
-        shapes.append(position_of(obj.data))
-    for shape in shapes[1:]:
-        np.testing.assert_allclose(shape, shapes[0], atol=1e-4)
 
 
 def test_the_map_scales_regions_too():
@@ -256,20 +208,6 @@ def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
     with_regions = angles_now(ball).aligned
     ball.cubic_craft.use_regions = False
     assert with_regions > angles_now(ball).aligned + 0.1
-
-
-def test_outside_of_a_region_the_angles_are_those_without_it(part):
-    angles_now = part("angles.kept").angles_now
-    ball = add_ball(3)
-    add_group(ball, "Top", upper)
-    add_region(ball, "Top", form="OCTAHEDRON")
-    found = angles_now(ball)
-    ball.cubic_craft.use_regions = False
-    without = angles_now(ball)
-    heights = found.corners[:, :, 2]
-    is_below, is_above = (heights < 0.25).all(axis=1), (heights > 0.35).all(axis=1)
-    np.testing.assert_array_equal(found.degrees[is_below], without.degrees[is_below])
-    assert np.abs(found.degrees - without.degrees)[is_above].mean() > 5.0
 
 
 @pytest.mark.parametrize(
@@ -416,19 +354,3 @@ def test_regions_are_saved_and_copied(reopen):
     assert (regions[0].group, regions[0].form, regions[0].form_sides) == ("Top", "PRISM", 7)
     copy = add_copy(bpy.data.objects["Kept"])
     assert copy.cubic_craft.regions[0].form == "PRISM"
-
-
-def test_a_failure_leaves_the_regions_as_they_were(part):
-    rollback = part("settings.rollback")
-    monkey = add_monkey()
-    add_group(monkey, "Top", upper)
-    region = add_region(monkey, "Top", form="PRISM")
-
-    def change():
-        with rollback.settings_kept([monkey.data]):
-            region.form = "CONE"
-            raise ValueError
-
-    with pytest.raises(ValueError):
-        change()
-    assert monkey.cubic_craft.regions[0].form == "PRISM"

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from live_steps import bits, confirm
 from mathutils import Euler, Matrix
-from posing import pin
 from rich_mesh import position_of
 from scene import add_monkey, cubify, select
 
@@ -40,15 +39,6 @@ def test_of_several_objects_those_keep_it_that_stand():
     assert heights(standing).min() == pytest.approx(before, abs=2e-6)
     assert heights(standing).min() != pytest.approx(free[0].min(), abs=1e-3)
     assert heights(hovering) == pytest.approx(free[1], abs=2e-6)
-
-
-def test_what_is_pinned_is_not_moved():
-    obj = add_monkey()
-    before = position_of(obj.data)
-    obj.vertex_groups.new(name="Held").add([0, 1, 2, 3], 1.0, "REPLACE")
-    pin(obj, "Held")
-    cubify(floor="ON")
-    assert (position_of(obj.data)[:4] == before[:4]).all()
 
 
 def test_live_follows_when_the_object_is_turned(begin, live):

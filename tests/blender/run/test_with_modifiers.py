@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from recorder import Recorder
 from rich_mesh import position_of
-from scene import add_monkey, cubify, reports_of, select
+from scene import add_monkey, cubify, select
 
 SEEN = {"result": "NEW_OBJECT", "with_modifiers": True}
 
@@ -140,14 +140,6 @@ def test_what_shows_no_faces_is_refused_by_name():
     assert not bpy.data.meshes and len(bpy.data.objects) == 1
 
 
-def test_a_mesh_and_a_text_in_one_click():
-    text, cube = add_text(), add_modifiers(add_monkey(location=(5, 0, 0)))
-    select(cube, text)
-    assert "Cubified 2 meshes" in reports_of(lambda: cubify(**SEEN))
-    names = {obj.name for obj in bpy.context.selected_objects}
-    assert names == {"Text Cubic", "Suzanne Cubic"}
-
-
 def test_of_an_earlier_result_nothing_is_brought_along():
     obj = add_modifiers(add_monkey())
     cubify()
@@ -225,26 +217,6 @@ def test_a_source_without_its_new_object_is_rendered_again(options):
     select(obj)
     assert obj.hide_render and bpy.ops.cubic_craft.show_source() == {"FINISHED"}
     assert not obj.hide_render
-
-
-def test_a_source_is_hidden_in_each_scene_that_has_the_new_object():
-    obj = add_monkey()
-    second, third = bpy.data.scenes.new("Second"), bpy.data.scenes.new("Third")
-    second.collection.children.link(obj.users_collection[0])
-    cubify(result="NEW_OBJECT")
-    third.collection.objects.link(obj)
-    layers = [scene.view_layers[0] for scene in (bpy.context.scene, second, third)]
-    assert [obj.hide_get(view_layer=layer) for layer in layers] == [True, True, False]
-    bpy.ops.cubic_craft.show_source()
-    assert not any(obj.hide_get(view_layer=layer) for layer in layers)
-
-
-def test_what_is_painted_is_not_hidden():
-    obj = add_monkey()
-    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
-    cubify(result="NEW_OBJECT")
-    assert obj.visible_get() and not obj.hide_render and obj.mode == "WEIGHT_PAINT"
-    assert not bpy.ops.cubic_craft.show_source.poll()
 
 
 def test_what_will_be_rounded_again_is_named_and_helped_first(extension):

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 import pytest
 from flat_balls import add_ball
-from glb import Glb
 from mathutils.bvhtree import BVHTree
 from scene import add_monkey, cubify, edit_mode, reports_of, select
 from snapshot import differences, snapshot_mesh, snapshot_object
@@ -211,22 +210,6 @@ def test_a_modifier_and_an_armature():
     assert all(vertex.groups for vertex in low.data.vertices)
 
 
-def test_a_shape_key(tmp_path):
-    add_detailed()
-    obj = bpy.context.object
-    bpy.ops.cubic_craft.restore()
-    cubify(result="SHAPE_KEY")
-    bake()
-    low = bpy.context.object
-    assert low.data.shape_keys is None and obj.data.shape_keys is not None
-    assert len(bpy.data.shape_keys) == 1
-    keyed = np.array([point.co for point in obj.data.shape_keys.key_blocks["Cubic"].points])
-    points = corner_values(low.data.vertices, "co", 3)
-    size = np.ptp(keyed, axis=0)
-    np.testing.assert_allclose(points.min(0), keyed.min(0), atol=0.05 * size.max())
-    np.testing.assert_allclose(points.max(0), keyed.max(0), atol=0.05 * size.max())
-
-
 def key_points(key):
     return corner_values(key.data, "co", 3)
 
@@ -296,35 +279,6 @@ def test_the_file_lies_beside_the_blend_file(tmp_path, reopen):
     image = reopen("Suzanne Low").cubic_craft_normal_image
     assert image.name == "Suzanne Normal" and image.colorspace_settings.name == "Non-Color"
     np.testing.assert_allclose(pixels(image), values, atol=1e-3)
-
-
-def test_without_a_file_it_is_packed(reopen):
-    add_detailed()
-    bake()
-    image = bpy.data.images["Suzanne Normal"]
-    assert image.packed_file is not None
-    values = pixels(image)
-    image = reopen("Suzanne Low").cubic_craft_normal_image
-    np.testing.assert_allclose(pixels(image), values, atol=1e-3)
-
-
-def test_the_low_poly_mesh_can_be_sent(tmp_path):
-    add_detailed()
-    bake()
-    bpy.ops.cubic_craft.send_to(target="GLTF", filepath=str(tmp_path / "low.glb"))
-    glb = Glb(tmp_path / "low.glb")
-    (primitive,) = glb.mesh("Suzanne Low")
-    assert "TANGENT" in primitive
-    (material,) = glb.json["materials"]
-    assert material["normalTexture"]["index"] == 0
-    assert glb.json["images"][0]["mimeType"] == "image/png"
-
-
-def test_a_coarse_mesh_is_not_decimated():
-    obj = add_ball()
-    cubify()
-    bake(triangles=100_000)
-    assert len(bpy.context.object.data.polygons) == 2 * len(obj.data.polygons)
 
 
 def test_refusals():

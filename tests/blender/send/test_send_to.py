@@ -146,19 +146,6 @@ def test_gltf_has_shape_keys(tmp_path):
     np.testing.assert_allclose(smile, points_of(obj.data, "Smile")[vertices], atol=1e-5)
 
 
-def test_gltf_of_a_normal_map_has_tangents(tmp_path):
-    obj = add_monkey()
-    material = bpy.data.materials.new("Skin")
-    if bpy.app.version < (5, 0):
-        material.use_nodes = True
-    obj.data.materials.append(material)
-    send("GLTF", tmp_path / "plain.glb")
-    assert "TANGENT" not in Glb(tmp_path / "plain.glb").mesh(obj.name)[0]
-    material.node_tree.nodes.new("ShaderNodeNormalMap")
-    send("GLTF", tmp_path / "mapped.glb")
-    assert "TANGENT" in Glb(tmp_path / "mapped.glb").mesh(obj.name)[0]
-
-
 def test_fbx_keeps_the_order_of_vertices_and_the_groups(tmp_path):
     obj = add_rich_monkey(keys=False)
     cubify(cubeness=0.5)
@@ -207,14 +194,6 @@ def test_stl_is_closed_and_in_millimeters(tmp_path, options, factor):
     assert np.ptp(corners.reshape(-1, 3), axis=0).max() == pytest.approx(side * factor, rel=1e-5)
     a, b, c = np.moveaxis(corners.astype(float), 1, 0)
     assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0, "inside out"
-
-
-def test_stl_uses_the_scene_unit(tmp_path):
-    obj = add_ball()
-    bpy.context.scene.unit_settings.scale_length = 0.01
-    send("STL", tmp_path / "ball.stl")
-    size = np.ptp(read_stl(tmp_path / "ball.stl").reshape(-1, 3), axis=0)
-    np.testing.assert_allclose(size, 10 * np.array(obj.dimensions), rtol=1e-5)
 
 
 def test_stl_names_what_is_inside_out(tmp_path):

@@ -13,7 +13,7 @@ import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from mathutils import Matrix
 from rich_mesh import position_of
-from scene import bmesh_of, cubify, reports_of, select
+from scene import bmesh_of, cubify, reports_of
 
 
 @pytest.fixture
@@ -53,40 +53,6 @@ def test_it_follows_what_happens_to_the_mesh(edited):
     bpy.ops.cubic_craft.restore()
     update()
     assert not edited.is_edited(obj.data)
-
-
-def test_undo_is_followed(edited):
-    obj = add_monkey()
-    cubify()
-    bpy.ops.ed.undo_push(message="Cubify")
-    select(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.mesh.select_random(ratio=0.1)
-    bpy.ops.transform.translate(value=(0, 0, 1))
-    bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.ops.ed.undo_push(message="Edit")
-    update()
-    assert edited.is_edited(bpy.data.objects["Suzanne"].data)
-    bpy.ops.ed.undo()
-    assert not edited.is_edited(bpy.data.objects["Suzanne"].data)
-    bpy.ops.ed.redo()
-    assert edited.is_edited(bpy.data.objects["Suzanne"].data)
-
-
-def test_it_is_found_out_once(edited, extension, monkeypatch):
-    """The panel is drawn often, and reading the positions takes time."""
-    calls = []
-    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
-    real = bridge.is_edited
-    monkeypatch.setattr(bridge, "is_edited", lambda mesh: calls.append(mesh) or real(mesh))
-    obj = add_monkey()
-    cubify()
-    update()
-    calls.clear()
-    for _ in range(5):
-        assert not edited.is_edited(obj.data)
-    assert len(calls) == 1
 
 
 @pytest.mark.thorough(3)
@@ -148,29 +114,6 @@ def test_an_edited_mesh_may_start_from_the_original(by):
     np.testing.assert_allclose(position_of(obj.data), edited, atol=1e-6)
 
 
-def test_each_of_several_edited_meshes_starts_from_what_it_says():
-    one, other = add_monkey("One"), add_monkey("Other", location=(3, 0, 0))
-    select(one, other)
-    cubify(together="PARTS")
-    edit(one)
-    edited = edit(other)
-    one.cubic_craft.start, other.cubic_craft.start = "ORIGINAL", "HERE"
-    cubify(together="PARTS")
-    bpy.ops.cubic_craft.restore()
-    assert position_of(one.data)[3, 0] != edited[3, 0]
-    assert position_of(other.data).tobytes() == edited.tobytes()
-
-
-def test_restore_takes_back_an_edit_as_well():
-    obj = add_monkey()
-    before = position_of(obj.data)
-    cubify()
-    edit(obj)
-    said = reports_of(bpy.ops.cubic_craft.restore)
-    assert position_of(obj.data).tobytes() == before.tobytes()
-    assert "Restored Suzanne; edits made by hand are lost (Ctrl-Z brings them back)" in said
-
-
 def test_strokes_stay_while_the_cubeness_changes(edited):
     obj = add_monkey()
     original = position_of(obj.data)
@@ -189,57 +132,6 @@ def test_strokes_stay_while_the_cubeness_changes(edited):
     assert "edits made by hand are lost (Ctrl-Z brings them back)" in said
     cubify(cubeness=0.4)
     assert position_of(obj.data).tobytes() == cubic.tobytes()
-
-
-def test_live_shows_and_keeps_strokes(live, begin):
-    obj = add_monkey()
-    cubify(max_iterations=1000, cubeness=0.4)
-    sculpted = edit(obj)
-    session = tick_to_rest(begin(obj, cubeness=0.1, max_iterations=1000))
-    shown = position_of(obj.data)
-    assert np.abs(shown - sculpted).max() > 0.01
-    live.live_properties().cubeness = 0.4
-    session.wake()
-    tick_to_rest(session)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
-    live.live_properties().cubeness = 0.1
-    confirm(live, session)
-    np.testing.assert_allclose(position_of(obj.data), shown, atol=1e-6)
-    cubify(max_iterations=1000, cubeness=0.4)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
-
-
-def test_strokes_are_saved_and_undone(tmp_path):
-    obj = add_monkey()
-    bpy.ops.ed.undo_push(message="Add")
-    cubify(cubeness=0.4)
-    sculpted = edit(obj)
-    bpy.ops.ed.undo_push(message="Sculpt")
-    cubify(cubeness=0.1)
-    bpy.ops.ed.undo_push(message="Cubify")
-    softer = position_of(obj.data)
-    bpy.ops.ed.undo()
-    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == sculpted.tobytes()
-    bpy.ops.ed.redo()
-    assert position_of(bpy.data.objects["Suzanne"].data).tobytes() == softer.tobytes()
-    path = str(tmp_path / "sculpted.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    obj = bpy.data.objects["Suzanne"]
-    select(obj)
-    cubify(cubeness=0.4)
-    np.testing.assert_allclose(position_of(obj.data), sculpted, atol=1e-6)
-
-
-def test_strokes_are_part_of_what_is_seen():
-    """Modifiers compare what is seen; a result that differs by its strokes only is no news."""
-    obj = add_monkey()
-    obj.modifiers.new("Smooth", "SMOOTH").factor = 0.1
-    cubify(max_iterations=1000)
-    edit(obj)
-    for _ in range(2):
-        said = reports_of(lambda: cubify(max_iterations=1000))
-        assert "still shows the old shape" not in said
 
 
 def test_the_first_original_comes_back():
@@ -261,15 +153,6 @@ def test_the_first_original_comes_back():
     assert "Restored the first original of Suzanne" in said
     assert position_of(obj.data).tobytes() == original.tobytes()
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
-
-
-def test_apply_leaves_no_first_original():
-    obj = add_monkey()
-    cubify()
-    edit(obj)
-    cubify(start="HERE")
-    bpy.ops.cubic_craft.apply()
-    assert not bpy.ops.cubic_craft.restore_first.poll()
 
 
 class Recorder:

@@ -1,18 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the extension offers, called as its buttons do."""
 
+import importlib
+import pathlib
+import sys
+
 import bpy
 import guidrive as gui
 import live_scene as scene
 from mathutils import Matrix
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "hostile"))
+import worth_trying
+
 from . import meshes
 from .actions import action, active_mesh, call, is_cubifying, is_live, is_on, turns
 
-FORMS = (
-    *("CUBE", "CUBE", "CUBE", "BOX", "ROUNDED", "OCTAHEDRON", "TETRAHEDRON", "ICOSAHEDRON"),
-    *("PRISM", "PYRAMID", "CYLINDER", "OBJECT", "DIRECTIONS", "FACES"),
-)
+method = importlib.import_module(f"{scene.EXTENSION}.solver.method")
+OPTIONS = {name: worth_trying.values(each) for name, each in method.SETTINGS.items()} | {
+    "map_group": ["", "", "Handle", "Group", "missing"],
+    "result": ["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"],
+    "start": ["HERE", "ORIGINAL", "EDITS"],
+    "with_modifiers": [False, False, True],
+    "preset": ["Soft", "Cubic", "As_in_the_Paper"],
+    "device": ["AUTO", "NUMPY"],
+    "max_iterations": [1, 5, 40],
+    "capture_strength": [0.0, 0.0, 0.4],
+    **dict.fromkeys(("frame", "form_object", "capture_object")),  # any object
+}
+"""values of the settings"""
+OF_REGION = ("form", "cubeness", "form_sides", "form_weights", "orientation", "form_object")
 invariants = None  # set by the walk
 
 
@@ -125,16 +142,9 @@ def regions(rng):
     if obj is None or not obj.cubic_craft.regions:
         return None
     region = rng.choice(list(obj.cubic_craft.regions))
-    what, value = rng.choice(
-        [
-            ("form", rng.choice(FORMS)),
-            ("cubeness", rng.choice([0.0, 0.2, 1.0, 5.0])),
-            ("form_sides", rng.randrange(3, 10)),
-            ("orientation", tuple(rng.uniform(-1, 1) for _ in range(3))),
-            ("form_object", rng.choice(list(bpy.data.objects))),
-            ("group", rng.choice(["Group", "Handle", "missing"])),
-        ]
-    )
+    what = rng.choice([*OF_REGION, "group"])
+    values = ["Group", "Handle", "missing"] if what == "group" else OPTIONS[what]
+    value = rng.choice(values or list(bpy.data.objects))
     setattr(region, what, value)
     bpy.ops.ed.undo_push(message="Change a region")
     return f"{what} = {value!r}"
@@ -154,44 +164,8 @@ def change_setting(rng):
     if not is_on() or obj is None:
         return None
     target = scene.live().shared_properties(obj)
-    name, value = rng.choice(
-        [
-            ("cubeness", rng.choice([0.0, 0.1, 0.5, 1.0, 5.0])),
-            ("cubeness", rng.random()),
-            ("orientation", tuple(rng.uniform(-1, 1) for _ in range(3))),
-            ("space", rng.choice(["OBJECT", "OBJECT", "WORLD", "WORLD", "FRAME"])),
-            ("map_group", rng.choice(["", "", "Handle", "Group", "missing"])),
-            ("map_invert", rng.random() < 0.5),
-            ("use_handles", rng.random() < 0.5),
-            ("use_regions", rng.random() < 0.7),
-            ("form", rng.choice(FORMS)),
-            ("form", rng.choice(FORMS)),
-            ("form_sides", rng.randrange(3, 10)),
-            ("form_weights", tuple(rng.choice([0.0, 1.0, 2.0]) for _ in range(3))),
-            ("form_object", rng.choice(list(bpy.data.objects))),
-            ("capture_object", rng.choice(list(bpy.data.objects))),
-            ("capture_strength", rng.choice([0.0, 0.0, 0.4])),
-            ("result", rng.choice(["MESH", "MESH", "SHAPE_KEY", "NEW_OBJECT"])),
-            ("solidity", rng.choice([0.0, 0.1, 1.0, 10.0])),
-            ("keep_pose", rng.random() < 0.5),
-            ("detail", rng.choice([0.0, 0.05, 0.3, 1.0])),
-            ("keep_apart", rng.random() < 0.5),
-            ("together", rng.choice(["OFF", "PARTS", "SELECTION"])),
-            ("refine", rng.choice(["AUTO", "OFF"])),
-            ("rotation", rng.choice(["KEEP", "FREE"])),
-            ("keep_symmetric", rng.random() < 0.5),
-            ("symmetry", tuple(rng.random() < 0.4 for _ in range(3))),
-            ("floor", rng.choice(["AUTO", "ON", "OFF"])),
-            ("hold_rest", rng.random() < 0.5),
-            ("start", rng.choice(["HERE", "ORIGINAL", "EDITS"])),
-            ("with_modifiers", rng.random() < 0.3),
-            ("preset", rng.choice(["Soft", "Cubic", "As_in_the_Paper"])),
-            ("device", rng.choice(["AUTO", "NUMPY"])),
-            ("max_iterations", rng.choice([1, 5, 40])),
-            ("tolerance", rng.choice([1e-5, 1e-3, 1.0])),
-            ("frame", rng.choice(list(bpy.data.objects))),
-        ]
-    )
+    name = rng.choice([*OPTIONS, "cubeness", "form"])
+    value = rng.choice(OPTIONS.get(name) or list(bpy.data.objects))
     if not hasattr(target, name):  # Live has not all
         return None
     if name in ("frame", "form_object", "capture_object") and is_live():

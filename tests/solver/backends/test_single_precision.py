@@ -26,21 +26,6 @@ def test_runs_converge_to_the_shape_of_64_bit(name, cubeness):
     assert result.energy.total == pytest.approx(exact.energy.total, rel=1e-3, abs=1e-5)
 
 
-@pytest.mark.parametrize(
-    "V",
-    [
-        np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]),
-        np.ones((3, 3)),
-        np.array([[0.0, 0, 0], [1, 0, 0], [1, 0, 0]]),
-    ],
-)
-def test_a_mesh_without_area_stays(V):
-    result = single(V, np.array([[0, 1, 2]]), 0.4)
-    assert result.converged
-    assert np.isfinite(result.energy.total)
-    np.testing.assert_allclose(result.positions, V, atol=1e-5)
-
-
 def test_a_bad_precision_is_refused():
     with pytest.raises(ValueError, match="f64 or f32"):
         stylize(*shapes.blob(1), 0.2, device="cpu", precision="f16", proxy=PAPER)

@@ -6,7 +6,6 @@ import pytest
 import shapes
 from devices import by_device
 from optional_marks import needs
-from procrustes import best_rotation
 
 from solver import PAPER, Run, Setup, SolverOptions, Style, Stylization, rest_mesh, stylize
 from solver.coarse_to_fine.start import _smoothed
@@ -133,28 +132,6 @@ def test_a_run_can_be_cancelled_on_coarser_meshes(large, device):
     assert 0.0 < moved.max() < 0.5 and result.energy.total > 0.0
 
 
-def test_no_part_turns_on_coarser_meshes(large, device):
-    V, F = shapes.blob(4)
-    V = V @ shapes.rotation(0, 25, 15).T
-    large()
-    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), 0.6, options=SolverOptions(device=device)))
-    coarse = run._coarse
-    assert coarse.stylization.is_coarse
-    coarse.complete()
-    rest, U = coarse.stylization.rest, coarse.stylization.positions
-    assert np.linalg.norm(best_rotation(U, rest.V, rest.areas) - np.eye(3)) < 1e-6
-    assert np.abs(U - rest.V).max() > 0.05
-
-
-def test_a_part_keeps_its_orientation_on_all_levels(large, device):
-    V, F = shapes.blob(4)
-    V = V @ shapes.rotation(0, 25, 15).T
-    large()
-    result = stylize(V, F, 0.6, device=device, keep_rotation=True, proxy=PAPER)
-    turn = best_rotation(result.positions, V, rest_mesh(V, F, PAPER).areas)
-    assert np.linalg.norm(turn - np.eye(3)) < 1e-6
-
-
 def test_where_nothing_is_left_free_it_starts_from_rest(large, device):
     V, F = shapes.blob()
     large()
@@ -204,18 +181,6 @@ def test_what_it_has_come_to_on_coarser_meshes_can_be_seen(large, device):
     assert (np.diff(counts) >= 0).all() and counts[-1] > 10
     assert run.stylization.iterations == 0
     assert min(seen) < 0.8 * np.linalg.norm(V - end, axis=1).max()
-
-
-def test_where_neighbours_differ_too_much_to_be_averaged_they_keep_their_rotations():
-    V, F = shapes.blob(4)
-    rest = rest_mesh(V, F, PAPER)
-    R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0]), np.diag([-1.0, 1.0, -1.0])])
-    R = R[np.arange(len(rest.coarse.rest.V)) % 3]
-    smoothed = _smoothed(rest, R)
-    assert (np.linalg.det(smoothed) > 0.9).all()  # the iteration does the rest
-    np.testing.assert_allclose(
-        smoothed @ smoothed.swapaxes(1, 2), np.eye(3) + 0 * smoothed, atol=0.2
-    )
 
 
 def test_rotations_are_averaged_over_the_neighbours():

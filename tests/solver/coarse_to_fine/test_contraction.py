@@ -59,13 +59,6 @@ def test_a_closed_surface_stays_one_with_round_triangles():
     assert len(rest.F) / 20 < len(coarse_F) < len(rest.F) / 6
 
 
-def test_triangles_keep_their_sides():
-    """The normals of the coarse mesh point where those of its vertices have."""
-    (coarse_V, coarse_F, cluster), rest = contracted(*shapes.blob(4))
-    normals = rest_mesh(coarse_V, coarse_F, PAPER).normals[cluster]
-    assert ((normals * rest.normals).sum(axis=1) > 0.5).all()
-
-
 def test_what_cannot_get_coarser_has_no_coarser_mesh():
     """Each level would have as many vertices as the one before."""
     corners, faces = TETRAHEDRON
@@ -109,14 +102,6 @@ def test_the_tip_of_a_spike_goes_to_its_root():
     assert np.isin(cluster, coarse_F).all()
     root = coarse_V[cluster[rest.place[1][spike]]]
     assert (np.linalg.norm(root - rest.V[rest.place[1][a]], axis=1) < 0.75).all()
-
-
-def test_a_part_that_collapses_does_no_harm():
-    V, F = shapes.blob()
-    speck = V[F[0]] * 1e-4 + [3.0, 0.0, 0.0]
-    V, F = np.concatenate([V, speck]), np.concatenate([F, [[len(V), len(V) + 1, len(V) + 1]]])
-    (_, coarse_F, cluster), _ = contracted(V[:-1], F)
-    assert np.isin(cluster, coarse_F).all()
 
 
 def test_without_the_package_there_is_no_coarser_mesh(monkeypatch):

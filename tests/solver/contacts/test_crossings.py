@@ -48,22 +48,6 @@ def test_a_soup_has_the_crossings_that_its_edges_have(count, size, spread):
     np.testing.assert_array_equal(crossings(V, F), by_all_edges(V, F))
 
 
-def test_a_folded_surface_has_the_crossings_that_its_edges_have():
-    V, F = shapes.blob(3)
-    assert len(crossings(V, F)) == 0
-    V = V @ shapes.rotation(10, 20, 30).T  # by symmetry, edges would meet exactly
-    V = V * [1, 1, 0] + np.cos(3 * V[:, :1]) * V[:, 2:] * [0, 0, 1]
-    found = crossings(V, F)
-    assert len(found)
-    np.testing.assert_array_equal(found, by_all_edges(V, F))
-
-
-@pytest.mark.parametrize("factor", [1e-9, 1.0, 1e9])
-def test_neither_place_nor_size_matter(factor):
-    V, F = soup(200, 0.1)
-    np.testing.assert_array_equal(crossings(factor * (V + 3.0), F), crossings(V, F))
-
-
 def test_what_is_watched_has_the_crossings_that_a_new_search_finds():
     V, F = soup(800, 0.05)
     rng = np.random.default_rng(1)
@@ -97,25 +81,6 @@ def test_which_triangles_cross_is_found_where_it_is_asked_for():
     for triangles in np.random.default_rng(3).integers(len(F), size=(5, 40, 2)):
         np.testing.assert_array_equal(crosses(triangles), is_crossing[triangles])
     assert 0 < is_crossing.sum() < len(F)
-
-
-def test_twice_it_has_the_same_bits_in_any_order_of_the_triangles():
-    V, F = soup(2000, 0.03)
-    found = crossings(V, F)
-    np.testing.assert_array_equal(crossings(V, F), found)
-    order = np.random.default_rng(1).permutation(len(F))
-    shuffled = np.sort(order[crossings(V, F[order])], axis=1)
-    np.testing.assert_array_equal(shuffled[np.lexsort(shuffled.T[::-1])], found)
-
-
-def test_few_boxes_in_a_cell_and_many_lead_to_the_same(monkeypatch):
-    V, F = soup(1000, 0.05, spread=1.5)
-    found = crossings(V, F)
-    for many in (2, 7, 400):
-        monkeypatch.setattr(overlaps, "MANY", many)
-        np.testing.assert_array_equal(crossings(V, F), found)
-    monkeypatch.setattr(overlaps, "_BLOCK", 100)
-    np.testing.assert_array_equal(crossings(V, F), found)
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What may cross: hair gives way to a head, and parts where they would stay round."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from contact_shapes import joined
 from proxy_shapes import uv_sphere
 
 from solver import ProxyOptions, stylize
+from solver.contacts.riding import riding
 from solver.proxy.sheets import cards
 
 COUNT, ROWS = 150, 6
@@ -126,3 +129,13 @@ def test_closed_strands_are_cards_where_they_are_many_on_something():
         part = np.repeat(np.arange(len(sizes)), sizes)
         found = cards(V, F, part, np.zeros(len(V), int))
         assert found.tolist() == [False] * (len(parts) - 1) + [expected] * count
+
+
+def test_each_vertex_of_a_card_rides_on_what_is_nearest_to_it():
+    V, F = uv_sphere(24, 12)
+    heights = np.linspace(0.1, 0.5, 20)
+    above = (1.0 + heights)[:, None] * V[40:60]
+    rest = SimpleNamespace(V=np.concatenate([V, above]), F=F, is_card=np.zeros(len(V), bool))
+    ridden = riding(rest, np.arange(len(rest.V)) >= len(V))
+    assert ridden.vertices.tolist() == list(range(len(V), len(rest.V)))
+    np.testing.assert_allclose(np.linalg.norm(ridden.offsets, axis=1), heights, atol=0.02)

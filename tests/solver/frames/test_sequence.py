@@ -16,7 +16,6 @@ from solver import (
     rest_mesh,
     run,
 )
-from solver.frames.sequence import STEPS
 from solver.frames.steadiness import (
     MOST_JUMPS,
     WIDTHS,
@@ -119,19 +118,6 @@ def test_a_sheet_that_falls_over_a_ball_does_not_stay_flat():
     assert heights[0] > 0.85 * heights[1]
 
 
-def test_a_frame_is_nearly_as_good_as_one_that_has_converged():
-    V, F = blob()
-    frames = bending(V, 12)
-    setup = Setup(rest_mesh(frames[0], F, PAPER))
-    results = list(solved(setup, FrameSequence(setup.rest), frames, keep_rotation=True))
-    for frame, result in zip(frames[3::3], results[3::3], strict=True):
-        assert result.iterations <= STEPS
-        alone = Stylization(setup.posed(frame), 0.4, options=SolverOptions(keep_rotation=True))
-        for _ in range(200):
-            alone.step()
-        assert result.energy.total <= 1.02 * alone.finish().total
-
-
 def test_nothing_accumulates_while_a_coat_turns_to_and_fro():
     """Else it is left with pleats where its corners were."""
     angles = 2.0 * np.pi * np.arange(432) / 432
@@ -185,21 +171,6 @@ def test_a_sequence_continues_bit_for_bit_from_its_state():
         np.testing.assert_array_equal(one.positions, other.positions)
 
 
-def test_it_jumps_less_than_frames_solved_alone():
-    V, F = blob()
-    frames = turning(V, 16)
-    together = Jumps()
-    together.add(recorded(frames, F).results(0.0))
-    setup = Setup(rest_mesh(frames[0], F, PAPER))
-    alone = []
-    for V in frames:
-        stylization = Stylization(setup.posed(V), 0.4, options=SolverOptions(keep_rotation=True))
-        alone.append(run(stylization).positions)
-    separate = Jumps()
-    separate.add(np.array(alone))
-    assert together.largest < 0.5 * separate.largest
-
-
 @pytest.mark.parametrize("move", [bending, turning])
 def test_no_vertex_jumps_more_than_three_times_as_far_as_in_the_input(move):
     V, F = blob()
@@ -245,28 +216,6 @@ def test_what_moves_evenly_is_not_smoothed_for_jumps_that_nobody_sees(speed):
     assert least_width(lambda: [jumping(inputs, max(0.1 * speed, 1e-5))])[0] == 0.0
     width, ratios = least_width(lambda: [jumping(inputs, max(speed, 1e-4))])
     assert 0.0 < width < WIDTHS[-1] and max(ratios) <= MOST_JUMPS
-
-
-def test_what_is_at_rest_may_become_cubic_at_any_speed():
-    inputs = np.tile(np.random.default_rng(5).normal(size=(1, 50, 3)), (12, 1, 1))
-    assert least_width(lambda: [jumping(inputs, 1.0)]) == (0.0, (0.0, 0.0))
-
-
-def test_where_little_moves_the_rest_may_hardly_jump():
-    inputs = np.tile(np.random.default_rng(6).uniform(size=(1, 500, 3)), (24, 1, 1))
-    inputs[:, 0] += np.linspace(0.0, 1.0, 24)[:, None]
-    assert least_width(lambda: [jumping(inputs, 1e-5)])[0] == 0.0
-    assert least_width(lambda: [jumping(inputs, 1e-3)])[0] > 0.0
-
-
-def test_smoothing_keeps_offsets_that_turn_with_the_surface():
-    """A limb that turns by a right angle within a few frames keeps its thickness."""
-    R = np.array([rotation(y=90.0 * f / 8) for f in range(8)])
-    point, offset = np.array([1.0, 0, 0]), np.array([0.2, 0.1, 0])
-    frames = [frame_of((T @ point)[None], T[None], (T @ (point + offset))[None]) for T in R]
-    frames = Frames(*(np.concatenate(values) for values in zip(*frames, strict=True)))
-    wide = frames.results(WIDTHS[-1])
-    np.testing.assert_allclose(wide[:, 0], R @ (point + offset), atol=1e-12)
 
 
 def test_what_is_at_rest_stays_the_same_bit_for_bit():

@@ -66,15 +66,6 @@ def test_pinned_vertices_keep_their_bits_and_their_component_is_not_centred():
     np.testing.assert_allclose((L @ U)[free], rotated_rhs(rest)[free], atol=1e-11)
 
 
-def test_a_component_without_a_free_vertex_is_fine():
-    V, F = shapes.two_blobs()
-    rest = rest_mesh(V, F, PAPER)
-    pins = np.flatnonzero(rest.topology.component == rest.topology.component[0])
-    U = GlobalStep(rest, pins).positions(rotated_rhs(rest), rest.V)
-    np.testing.assert_array_equal(U[pins], rest.V[pins])
-    assert np.abs(U - rest.V).max() > 1e-3
-
-
 def test_everything_pinned_is_refused():
     rest = rest_mesh(*shapes.blob(1), proxy=PAPER)
     with pytest.raises(CubicCraftError, match="all vertices are pinned"):

@@ -86,17 +86,6 @@ def test_the_energy_of_the_plain_iteration_falls(proxy, pins):
     assert (np.diff(energies[1:]) <= 1e-12).all()
 
 
-def test_a_single_group_without_pins_takes_all_along():
-    V, F = blob()
-    setup = Setup(rest_mesh(V, F, PAPER)).with_holds([(V[:, 0] > 0.3).astype(float)])
-    matrix = np.eye(4)
-    matrix[:3, 3] = (3.0, 1.0, 0.0)
-    result = run(
-        Stylization(setup, 0.0, Pose(hold_matrices=[matrix]), SolverOptions(device="numpy")), 100
-    )
-    assert result.positions == pytest.approx(V + matrix[:3, 3], abs=1e-4)
-
-
 def test_only_its_component_is_concerned():
     V, F = two_blobs()
     rest = rest_mesh(V, F, PAPER)
@@ -138,22 +127,6 @@ def test_multigrid_obeys_them_too(monkeypatch):
     assert end == pytest.approx(matrix[:3, :3] @ start + matrix[:3, 3], abs=1e-6)
     assert pytest.approx(matrix[:3, :3], abs=1e-4) == R
     assert result.energy.total == pytest.approx(exact.energy.total, rel=0.01)
-
-
-def test_the_same_bits_in_a_second_run():
-    V, F = blob()
-    both = [
-        run(
-            Stylization(
-                Setup(rest_mesh(V, F, PAPER)).with_holds([np.ones(len(V))]),
-                0.4,
-                Pose(hold_matrices=[turned_and_moved()]),
-            ),
-            30,
-        )
-        for _ in range(2)
-    ]
-    assert both[0].positions.tobytes() == both[1].positions.tobytes()
 
 
 def test_distances_along_edges():

@@ -4,13 +4,13 @@
 import numpy as np
 import pytest
 import shapes
-from devices import by_device
 from engine_marks import needs_engine
 from optional_marks import needs
 
 from solver import PAPER, Setup, rest_mesh, stylize
 from solver.backends.arrays import HostArrays
-from solver.backends.taichi_cycle import TaichiCycle
+from solver.backends.taichi_cycle import _LEAST as LEAST
+from solver.backends.taichi_cycle import TaichiCycle, chebyshev_weights
 from solver.backends.taichi_runtime import start
 from solver.global_step import step as module
 from solver.global_step.multigrid import Multigrid
@@ -95,21 +95,6 @@ def test_it_ends_where_the_factorisation_does(pins, monkeypatch, device):
     np.testing.assert_array_equal(near.positions, again.positions)
 
 
-def test_the_plain_iteration_still_descends(monkeypatch, device):
-    monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
-    energies = []
-    stylize(
-        *shapes.skewed_blob(),
-        0.6,
-        device=device,
-        is_accelerated=False,
-        max_iterations=40,
-        on_iteration=lambda s: energies.append(s.energy.total),
-        proxy=PAPER,
-    )
-    assert np.diff(energies).max() <= by_device(device, 1e-9, 1e-6)
-
-
 def test_without_the_package_all_is_factorised(monkeypatch):
     monkeypatch.setattr(module, "FACTORIZED_VERTICES", 0)
     monkeypatch.setattr("solver.global_step.multigrid.optional_package", lambda name: None)
@@ -132,3 +117,11 @@ def test_many_small_parts_have_nothing_coarser_than_one_row(monkeypatch, device)
     assert levels[-1].P.shape[1] == 1 and not levels[-1].P.nnz
     assert near.converged
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
+
+
+@pytest.mark.parametrize("cycles", [2, 4])
+def test_no_part_of_the_error_is_corrected_by_more_than_it_is_but_nearly(cycles):
+    weights, factor = chebyshev_weights(cycles)
+    part = np.linspace(LEAST, 1.0, 1000)  # to which a cycle times the matrix takes it
+    corrected = factor * (1.0 - np.prod(1.0 - weights * part[:, None], axis=1))
+    assert corrected.max() == pytest.approx(1.0, abs=1e-5)

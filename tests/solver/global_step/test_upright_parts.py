@@ -108,35 +108,6 @@ def test_nothing_turns_where_a_factorisation_would_be_too_large(device, monkeypa
     assert turned[0] < by_device(device, 1e-9, 1e-5) and turned[1] > 1e-3
 
 
-def row_of_balls(count):
-    """Return balls of a size on a long plate of little relief, each of which touches it."""
-    V, F = shapes.sheet(12)
-    plate = np.column_stack([V[:, 0] * count, V[:, 1], 0.2 * np.sin(3 * V[:, 1])])
-    ball, faces = shapes.sphere(1)
-    balls = [(0.6 * ball + [k + 0.5, 0.5, 0.75], faces) for k in range(count)]
-    return proxy_shapes.joined((plate, F), *balls)
-
-
-@pytest.mark.parametrize("count, kept", [(6, 7), (9, 1)])
-def test_no_few_of_many_alike_are_kept_before_the_others(count, kept, monkeypatch):
-    monkeypatch.setattr("solver.global_step.upright_parts.MOST_PARTS", 8)
-    rest = rest_mesh(*row_of_balls(count), ProxyOptions(keep_apart=False))
-    parts = Setup(rest).global_step.upright_parts
-    assert [len(rows) for rows in parts._inverses.values()] == [3 * (kept + 1)]
-
-
-def test_several_positions_are_moved_as_each_alone():
-    rest = rest_mesh(*lamp(), ProxyOptions(keep_apart=False))
-    parts = Setup(rest).global_step.upright_parts
-    rng = np.random.default_rng(2)
-    both = [rest.V + 0.1 * rng.normal(size=rest.V.shape) for _ in range(2)]
-    alone = [U.copy() for U in both]
-    parts.impose(*both)
-    for U, own in zip(both, alone, strict=True):
-        parts.impose(own)
-        np.testing.assert_allclose(U, own, atol=1e-12)
-
-
 def asymmetry(rest, U):
     """Return how much the post, the roof and all have turned at most: the relative torque."""
     worst = 0.0

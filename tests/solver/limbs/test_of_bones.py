@@ -15,9 +15,7 @@ from solver import (
     Setup,
     SolverOptions,
     Stylization,
-    joined_limbs,
     limbs_of_bones,
-    placed_limbs,
     rest_mesh,
 )
 from solver.limbs import KnownLimbs, Limbs, turns
@@ -102,16 +100,6 @@ def test_arms_of_a_slim_figure_are_no_hands_of_its_spine():
         np.testing.assert_allclose(abs(limbs.carried[bone] @ limbs.directions[bone] @ direction), 1)
 
 
-def test_a_foot_keeps_the_frame_of_the_object():
-    leg = np.array([0.3, 0.0, -1.0]) / np.hypot(0.3, 1.0)
-    foot = 3 * leg - 0.7 * Y - 0.2 * Z
-    toe = foot - 0.3 * Y
-    _, limbs = shares((0 * X, 3 * leg, 0.3, -1), (3 * leg, foot, 0.15, 0), (foot, toe, 0.1, 1))
-    G = turns(limbs, np.eye(3)[None])
-    np.testing.assert_allclose(G[:144] @ leg, np.tile(-Z, (144, 1)), atol=1e-12)
-    np.testing.assert_allclose(G[144:], np.tile(np.eye(3), (288, 1, 1)), atol=1e-12)
-
-
 def test_a_limb_that_bends_past_a_diagonal_is_not_twisted():
     angles = np.radians([20, 35, 50, 65])
     directions = np.stack([np.cos(angles), 0.6 * np.sin(angles), 0.8 * np.sin(angles)], axis=1)
@@ -177,16 +165,6 @@ def test_what_is_broken_is_no_limb():
     assert np.isfinite(limbs.directions).all() and np.isfinite(limbs.shares.data).all()
     assert not limbs.known[:3].any() and limbs.known[3:].all()
     assert limbs.shares[:, 1:].nnz == 0 and limbs.shares[:, 0].max() == pytest.approx(1.0)
-
-
-def test_limbs_of_several_objects_and_in_other_places():
-    _, arm = shares(*chain([0 * X, 3 * TILTED], [0.3]))
-    together = joined_limbs([None, arm], [5, 144])
-    assert (
-        together.shares.shape == (149, 1) and together.known.tolist() == [False] * 5 + [True] * 144
-    )
-    flip = np.diag([-1.0, 1.0, 1.0])
-    np.testing.assert_allclose(placed_limbs(arm, flip).present, [flip @ TILTED], atol=1e-12)
 
 
 def test_a_frame_goes_along_with_a_bone_in_any_pose():

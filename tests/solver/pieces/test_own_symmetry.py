@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is symmetric at rest stays so where nothing speaks against it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from proxy_shapes import uv_sphere
@@ -8,6 +10,7 @@ from shapes import rotation
 
 from solver import PAPER, HandlePose, Style, flip, join_pieces, piece_of, run
 from solver.pieces.own_symmetry import with_own_symmetry
+from solver.pieces.subdivided import Subdivided
 from solver.styles.forms import tetrahedron
 
 
@@ -118,3 +121,11 @@ def test_it_is_where_these_are_symmetric_too(why):
         "half": {"mirrors": [flip(1)]},
     }[why]
     assert [1.0, 0.0, 0.0] in np.abs(axes_of(**options)).tolist()
+
+
+def test_what_lies_around_held_vertices_of_a_cage_goes_along():
+    faces, corners = np.repeat([0, 1], 4), np.array([0, 1, 2, 3, 2, 3, 4, 5])
+    cage = SimpleNamespace(faces=faces, corners=corners, sizes=np.full(2, 4))
+    held = np.array([1, -1, -1, -1, -1, -1])
+    around = Subdivided.beyond_handles(SimpleNamespace(_cage=cage), held)  # type: ignore[arg-type]
+    assert around.tolist() == [1, 1, 1, 1, -1, -1]

@@ -71,16 +71,3 @@ def test_many_parts_take_little_memory():
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 3000 * len(V)
-
-
-def test_few_triangles_are_compared_with_each_vertex(monkeypatch):
-    V, F, part, _ = leaves(3000, 0.06)
-    compared = []
-    compare = NearestTriangles._compare
-    monkeypatch.setattr(
-        NearestTriangles, "_compare", lambda *a: compared.append(len(a[1])) or compare(*a)
-    )
-    i = np.arange(len(V))
-    sizes, within = extents(V, part), np.full(len(V), 0.2)
-    NearestTriangles(V, F.astype(np.int64), part, i, sizes, lambda _: within)
-    assert sum(compared) < 60 * len(i)  # of 2,400 within reach

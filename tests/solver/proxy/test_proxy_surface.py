@@ -8,9 +8,8 @@ import proxy_shapes
 import pytest
 import shapes
 
-from solver import PAPER, CubicCraftError, ProxyOptions, rest_mesh, stylize
-from solver.mesh.components import components
-from solver.proxy.refinement import BUDGET, longest_edges, refine
+from solver import CubicCraftError, ProxyOptions, rest_mesh, stylize
+from solver.proxy.refinement import BUDGET, refine
 from solver.proxy.weld import weld
 
 RUN = {"device": "numpy", "max_iterations": 30, "tolerance": 1e-12, "keep_rotation": True}
@@ -108,20 +107,6 @@ def test_a_narrow_side_gets_a_vertex_that_knows_its_normal():
     rest = rest_mesh(V, F, ProxyOptions())
     sideways = np.abs(rest.normals[:, :2]).max(axis=1) > 0.99
     assert (rest.cubic_shares[sideways] > 0).any()
-
-
-def test_small_parts_are_split_by_their_own_size():
-    V, F = proxy_shapes.joined(proxy_shapes.box(), proxy_shapes.box((0.2, 0.2, 0.2)))
-    _, part = components(F, len(V))
-    bound = longest_edges(V, F, part)
-    assert bound[0] == pytest.approx(1 / 40) and bound[1] == pytest.approx(0.2 / 40)
-
-
-def test_with_all_of_it_off_the_proxy_is_the_input():
-    V, F = shapes.two_blobs()
-    rest = rest_mesh(V, F, PAPER)
-    assert rest.input_map.is_plain and not len(rest.links)
-    assert (rest.cubic_shares == 1.0).all() and rest.box_frames is None
 
 
 def test_values_go_to_midpoints_and_back():

@@ -10,7 +10,6 @@ from tight_admm import TIGHT
 from solver import PAPER
 from solver.backends import local_step_class
 from solver.preparation import rest_mesh
-from solver.rotation_fit import svd_rotations
 from solver.styles import admm
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
@@ -67,14 +66,6 @@ def test_the_subgradient_certifies_the_minimiser():
     pull = np.einsum("nji,nj->ni", problem.Q, s) * problem.lam[:, None]
     G = R @ (problem.S - problem.normals[:, :, None] * pull[:, None, :])
     np.testing.assert_allclose(G, G.swapaxes(1, 2), atol=1e-8)  # stationary
-
-
-def test_a_far_start_without_cubeness_ends_at_the_best_rotation():
-    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
-    problem = problem_of(rest.V @ shapes.rotation(150, 20, 30).T, rest, 0.0)
-    R, _, is_done = active_set_rotations(problem, *start(problem))
-    assert is_done.all()
-    np.testing.assert_allclose(R, svd_rotations(problem.S), atol=1e-8)
 
 
 def test_a_maximum_is_not_taken_for_a_minimum():
