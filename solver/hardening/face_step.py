@@ -89,7 +89,7 @@ class FaceStep:
         edges = self._flat_edges()
         self._begin_turning(edges)
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
-        self._rigid = whole - self._corners.stiffness(self._flatness)
+        self._whole = whole
         self._rest_terms = 1.5 * self._sums_over_faces(
             (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
         ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
@@ -234,16 +234,15 @@ class FaceStep:
         self._held = self._held + outward[rest.topology.component][:, None] * out
 
     def _begin_flatness(self):
-        """Take sum_f b t_f t_f' L_f, of which six parts differ, and its image of the heights."""
+        """Take sum_f b (1 - t_f t_f') L_f, six of its parts, and the pull of heights."""
         target, F = self._target, self._rest.F
         t, weight = target.directions, self._flatness
         parts = {
-            (p, q): self._corners.stiffness(weight * t[:, p] * t[:, q])
+            (p, q): self._corners.stiffness(weight * ((p == q) - t[:, p] * t[:, q]))
             for p in range(3)
             for q in range(p, 3)
         }
-        self._across = [[parts[min(p, q), max(p, q)] for q in range(3)] for p in range(3)]
-        self._sided = self._corners.stiffness(weight)
+        self._along = [[parts[min(p, q), max(p, q)] for q in range(3)] for p in range(3)]
         heights = target.heights[F]
         pulls = weight[:, None] * self._corners.pulls(heights)
         self._lift = self._corners.sums(pulls[:, :, None] * t[:, None, :])
@@ -253,15 +252,14 @@ class FaceStep:
 
     def _right_hand_side(self, U, turned):
         x, target = U.T.copy(), self._target
-        off = np.stack([sum(K @ x[q] for q, K in enumerate(row)) for row in self._across], axis=1)
-        self._off = off
-        flat = self._sided @ U - off + self._lift
-        return turned / 3.0 + flat + target.hold[:, None] * self._held
+        along = [sum(K @ x[q] for q, K in enumerate(row)) for row in self._along]
+        self._flat = np.stack(along, axis=1) + self._lift
+        return turned / 3.0 + self._flat + target.hold[:, None] * self._held
 
     def _energies(self, U, gains):
         target, sum_parts = self._target, self._rest.topology.sum_parts
         moved = U - self._held
-        of_vertices = (U * (self._rigid @ U + self._off - 2.0 * self._lift)).sum(axis=1)
+        of_vertices = (U * (self._whole @ U - self._flat - self._lift)).sum(axis=1)
         of_vertices += target.hold * (moved * moved).sum(axis=1)
         of_faces = self._sums_over_faces(gains) + sum_parts((U * self._steady).sum(axis=1))
         return self._rest_terms - of_faces + 1.5 * sum_parts(of_vertices)
