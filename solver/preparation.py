@@ -128,7 +128,8 @@ def rest_mesh(
         skin,
     )
     matrices = skin.with_links(V, rest.links)
-    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
+    of_faces = {"whole": surface.whole, "is_of_faces": faces is not None}
+    return replace(rest, matrices=matrices, triangles=given, **of_faces)
 
 
 def links_within(*surface: Any) -> tuple[Links, Links]:

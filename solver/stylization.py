@@ -216,8 +216,13 @@ class Stylization(Stored):
         self._local.give_back_volume(self._motion.positions)
 
     def straighten_borders(self) -> None:
-        """Make the borders of the sides of a hardened one straight where they are now."""
+        """Make the borders of the sides of a hardened one straight where they are now.
+
+        Not those of a cage, which follow its edges: it could not follow them elsewhere.
+        """
         assert self.hardening is not None
+        if self.rest.is_of_faces:
+            return
         U = self._motion.positions
         straight = U + self.hardening.straightening(U, self.rest.F, self.setup.pinned)
         self.impose(straight)
