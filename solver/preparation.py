@@ -128,8 +128,13 @@ def rest_mesh(
         skin,
     )
     matrices = skin.with_links(V, rest.links)
-    of_faces = {"whole": surface.whole, "is_of_faces": faces is not None}
-    return replace(rest, matrices=matrices, triangles=given, **of_faces)
+    return replace(
+        rest,
+        matrices=matrices,
+        triangles=given,
+        whole=surface.whole,
+        is_of_faces=faces is not None,
+    )
 
 
 def links_within(*surface: Any) -> tuple[Links, Links]:

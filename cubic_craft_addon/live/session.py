@@ -92,12 +92,11 @@ class Session:
         properties.adopt(objects[0])
         self._own = self._values = properties.live_values()
         self._history = History(self._values)
-        self.meshes: list[LiveMesh] = []
         self._runs = LiveRuns()
         self._following = Following(self._runs)
         self._plan = Plan()
         self._plan.renew(objects)
-        self.meshes = meshes.meshes_for(self._plan.tasks.values())
+        self.meshes: list[LiveMesh] = meshes.meshes_for(self._plan.tasks.values())
         self._restart_changed()
         if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))

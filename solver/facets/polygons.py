@@ -34,7 +34,7 @@ def filled(P, loops, normal, flatness):
     return _merged(P, _triangles(at, loops, vertices[is_off]), flatness, normal)
 
 
-def _normal(P, loop):
+def normal_of(P, loop):
     """Return the normal of a loop, of the length of twice its area."""
     X = P[loop] - P[loop[0]]
     return np.cross(X, np.roll(X, -1, axis=0)).sum(axis=0)
@@ -44,7 +44,7 @@ def is_polygon(P, loop, flatness, normal):
     """Return whether a loop has each vertex once, few of them, in a plane that faces the normal."""
     if not 3 <= len(loop) <= MOST_CORNERS or len(set(loop)) < len(loop):
         return False
-    own = _normal(P, loop)
+    own = normal_of(P, loop)
     size = np.linalg.norm(own)
     if not size > 0.0 or own @ normal <= 0.0:
         return False

@@ -8,7 +8,7 @@ turn that nothing in the shape asks for: corners between them go.
 
 import numpy as np
 
-from .polygons import is_polygon
+from .polygons import is_polygon, normal_of
 
 
 def straightened(P, polygons, chart_of, flatness):
@@ -67,8 +67,7 @@ def _without(P, loops, owner, v, pair, flatness):
         return None
     for (a, b), loop, k in zip((one, other), found, pair, strict=True):
         if len(loop) >= 3:
-            X = P[loops[k]] - P[v]
-            normal = np.cross(X, np.roll(X, -1, axis=0)).sum(axis=0)
+            normal = normal_of(P, loops[k])
             if not is_polygon(P, loop, flatness, normal) or _crosses_itself(P[loop], normal):
                 return None
             if owner.get((a, b), k) not in pair:
