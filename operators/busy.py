@@ -7,7 +7,7 @@ from ._shared.selection import poll_idle
 
 
 class CUBIC_CRAFT_OT_busy(bpy.types.Operator):
-    """A button that is always grey."""
+    """A button that is always gray."""
 
     bl_idname = "cubic_craft.busy"
     bl_label = "Busy"

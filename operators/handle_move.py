@@ -36,7 +36,7 @@ class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        """Change places with the neighbour, if there is one."""
+        """Change places with the neighbor, if there is one."""
         properties = object_properties(panel_object(context))
         place = properties.active_handle + (-1 if self.direction == "UP" else 1)
         if not 0 <= place < len(properties.handles):

@@ -24,7 +24,7 @@ from .proxy import Links, ProxyOptions, no_links, surface_of
 from .proxy.cavities import cavity_links
 from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
-from .proxy.neighbours import neighbour_links
+from .proxy.neighbors import neighbor_links
 from .proxy.sheets import planar_sheets
 from .proxy.thickness import thickness_links
 from .rest import LIGHT, RestMesh
@@ -89,11 +89,11 @@ def rest_mesh(
     C = cotangents(V, F)
     parts = topology(F, len(V))
     with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
-        to_neighbours, search = no_links(), None
+        to_neighbors, search = no_links(), None
         if proxy.needs_thickness:
             search = beside.submit(links_within, triangles, normals, areas, parts.part)
         if proxy.together:
-            to_neighbours = neighbour_links(V, F, normals, areas, parts.part, parts.component_count)
+            to_neighbors = neighbor_links(V, F, normals, areas, parts.part, parts.component_count)
         smooth, shares = np.ones(len(V)), np.ones(len(V))
         is_flat = np.zeros(len(V), dtype=bool)
         if proxy.refine:
@@ -103,8 +103,8 @@ def rest_mesh(
             is_flat[F[factors < 1.0]] = True
             is_sheet = planar_sheets(V, F, parts.part)[parts.part]
             factors = np.where(is_sheet[F[:, 0]], LIGHT * factors, factors)
-            ends = is_sheet[to_neighbours.vertices] & (to_neighbours.coefficients != 0.0)
-            to_neighbours = to_neighbours.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
+            ends = is_sheet[to_neighbors.vertices] & (to_neighbors.coefficients != 0.0)
+            to_neighbors = to_neighbors.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side, across_cavities = search.result() if search else (None, None)
@@ -113,13 +113,13 @@ def rest_mesh(
         surface.input_map,
         surface.box,
         V,
-        parts.linked(to_neighbours.pairs()),
+        parts.linked(to_neighbors.pairs()),
         areas,
         normals,
         is_flat,
         smooth,
         shares,
-        to_neighbours,
+        to_neighbors,
         to_other_side,
         across_cavities,
         proxy,

@@ -72,7 +72,7 @@ class RestMesh(Value):
     """(n,) how meaningful the normals are, from 0 in creases to 1"""
     normal_shares: FloatArray
     """(n,) area that each normal stands for, relative to its own: 0 in creases, more beside them"""
-    to_neighbours: Links
+    to_neighbors: Links
     to_other_side: Links | None
     """for a solidity of 1; None if they have not been computed"""
     across_cavities: Links | None
@@ -177,9 +177,9 @@ class RestMesh(Value):
     def links(self) -> Links:
         """All links, with their weights."""
         if self.to_other_side is None or self.across_cavities is None:
-            return self.to_neighbours
+            return self.to_neighbors
         of_walls = self.to_other_side.joined(self.across_cavities)
-        return self.to_neighbours.joined(of_walls.scaled(self.options.solidity))
+        return self.to_neighbors.joined(of_walls.scaled(self.options.solidity))
 
     def with_options(self, options: ProxyOptions) -> RestMesh | None:
         """Return the RestMesh with other options, or None if its surface would be another one."""
@@ -273,15 +273,15 @@ class RestMesh(Value):
             cavities = cavities.part(~has_none[cavities.vertices[:, 0]])
             walls = self.V, self.skin, links, cavities, self.topology.part, self.areas
             found = with_hollows(found, *walls)
-        neighbours = self.to_neighbours
-        if not len(neighbours):
+        neighbors = self.to_neighbors
+        if not len(neighbors):
             return found
-        return with_coverings(found, self.V, self.topology.part, neighbours, self.linked_share)
+        return with_coverings(found, self.V, self.topology.part, neighbors, self.linked_share)
 
     @cached_property
     def linked_share(self) -> FloatArray:
         """(p,) share of the area of each part that is linked to other parts."""
-        links, part = self.to_neighbours, self.topology.part
+        links, part = self.to_neighbors, self.topology.part
         # those of a coarser mesh include links within parts
         is_between = part[links.vertices[:, 0]] != part[links.vertices[:, 1]]
         is_end = is_between[:, None] & (links.coefficients != 0.0)
@@ -311,11 +311,11 @@ class RestMesh(Value):
 
     def linked(self, links: Links) -> RestMesh:
         """Return the mesh with further links, which change nothing in what covers what."""
-        to_neighbours = self.to_neighbours.joined(links)
+        to_neighbors = self.to_neighbors.joined(links)
         linked = replace(
             self,
-            topology=self.topology.linked(to_neighbours.pairs()),
-            to_neighbours=to_neighbours,
+            topology=self.topology.linked(to_neighbors.pairs()),
+            to_neighbors=to_neighbors,
             matrices=self.matrices.with_links(self.V, links),
         )
         linked.__dict__["linked_share"] = self.linked_share
@@ -373,8 +373,8 @@ class RestMesh(Value):
     @cached_property
     def coarse(self) -> Coarsening | None:
         """The Coarsening, or None if it is not available."""
-        neighbours = self.skin.matrix(self.skin.laplacian)
-        contracted = contract(self.V, self.F, neighbours, self.topology.part)
+        neighbors = self.skin.matrix(self.skin.laplacian)
+        contracted = contract(self.V, self.F, neighbors, self.topology.part)
         if contracted is None:
             return None
         V, F, cluster = contracted
@@ -391,7 +391,7 @@ class RestMesh(Value):
         return replace(
             self,
             topology=self.topology.linked(links.pairs()),
-            to_neighbours=links,
+            to_neighbors=links,
             matrices=self.matrices.with_links(self.V, links),
         )
 

@@ -49,7 +49,7 @@ def fit_rotations(M, guess):
     Returns
     -------
     R : (n,3,3) numpy array
-        In SO(3), each maximising tr(R M).
+        In SO(3), each maximizing tr(R M).
 
     See Also
     --------
@@ -157,6 +157,6 @@ def _newton_step(M):
 
 
 def _cayley(step):
-    """Return the rotations (n,3,3) of the quaternions (1, step/2), normalised."""
+    """Return the rotations (n,3,3) of the quaternions (1, step/2), normalized."""
     x, y, z = 0.5 * step.T
     return from_columns(turn(2.0 / (1.0 + x * x + y * y + z * z), 1.0, x, y, z))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The legend of the angles to the form: what their colours mean, in a corner of the viewport."""
+"""The legend of the angles to the form: what their colors mean, in a corner of the viewport."""
 
 from __future__ import annotations
 

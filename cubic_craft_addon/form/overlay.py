@@ -46,19 +46,19 @@ def lines_of(obj: bpy.types.Object):
         The form or its orientation is not defined, because an object is not set.
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    center = (corners.min(axis=0) + corners.max(axis=0)) / 2
     settings = live.settings_now(obj)
     axes = world_axes(obj, settings)  # columns
-    along = (corners - centre) @ axes
+    along = (corners - center) @ axes
     form = form_of(settings) or cube()
     # as large as its sides must be to have all corners inside
     size = max((along @ form.normals.T / form.offsets).max() * _MARGIN, 1e-6)
     reach = size * form.offsets.min() * axes
     points, colors = [], []
     for axis, color in zip(reach.T, _AXIS_COLORS, strict=True):
-        points += [centre, centre + axis]
+        points += [center, center + axis]
         colors += [color, color]
-    ends = centre + size * form.vertices[form.edges.ravel()] @ axes.T
+    ends = center + size * form.vertices[form.edges.ravel()] @ axes.T
     return np.concatenate([points, ends]), colors + [_EDGE_COLOR] * len(ends)
 
 

@@ -27,7 +27,7 @@ from ..settings.rollback import settings_kept, settings_untouched
 
 _log = logging.getLogger(__name__)
 
-_LONG_SETUP = 15_000  # vertices; larger meshes take noticeable time to factorise
+_LONG_SETUP = 15_000  # vertices; larger meshes take noticeable time to factorize
 
 
 @dataclass(frozen=True)

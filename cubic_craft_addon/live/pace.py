@@ -17,7 +17,7 @@ class Work(Enum):
 
     NOTHING = auto()
     FOLLOW = auto()
-    """go on from the present solution, with the factorisation that is there"""
+    """go on from the present solution, with the factorization that is there"""
     RENEW = auto()
     """prepare and solve the original anew, as Cubify does"""
 

@@ -122,7 +122,7 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     The world matrix of the object, W = T S, is split (polar decomposition) into a rotation or
     mirroring T and a symmetric stretch S. The mesh is solved as it is seen, that is with positions
     S v, and the cube's frame is given in the same coordinates. So an object scaled flat becomes as
-    cubic as the same mesh modelled flat.
+    cubic as the same mesh modeled flat.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reflections of a half-modelled mesh: what its Mirror modifier adds is solved with it."""
+"""The reflections of a half-modeled mesh: what its Mirror modifier adds is solved with it."""
 
 from typing import Any
 

@@ -102,7 +102,7 @@ class StepwiseRun:
     def follow(self, originals: Mapping[int, np.ndarray]) -> bool:
         """Go on from here, with other positions (n,3) of the same vertices, by ``session_uid``.
 
-        Nothing is factorised anew, so the end is only near that of Cubify; see `renew`. False if
+        Nothing is factorized anew, so the end is only near that of Cubify; see `renew`. False if
         this is not possible: the run has hardly begun, or the weights have changed too much.
         """
         if self.problem is None or self._run is None or self._run.is_on_coarser_mesh:

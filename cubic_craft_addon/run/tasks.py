@@ -165,7 +165,7 @@ def prepare_all(
     *,
     weights_changed: bool = False,
 ) -> tuple[pipeline.MemberProblem | None, list[str]]:
-    """Read and factorise an assembly, without the objects that cannot be used.
+    """Read and factorize an assembly, without the objects that cannot be used.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ def operator(layout: Any, identifier: str, **look: Any) -> Any:
     """Draw the button of an operator that cannot be used while something runs.
 
     Meanwhile another operator stands in its place: the button under the mouse, such as the one that
-    was clicked, would keep the grey of the run until the mouse leaves it (Blender 4.3), because
-    Blender takes it for the same button, and only ever adds to that what greys it.
+    was clicked, would keep the gray of the run until the mouse leaves it (Blender 4.3), because
+    Blender takes it for the same button, and only ever adds to that what grays it.
     """
     return layout.operator(identifier if current() is None else "cubic_craft.busy", **look)

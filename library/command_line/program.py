@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from solver.console.crossing_words import crossing_words
+from solver.console.crossing_words import end_words
 from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
 from solver.console.process_memory import peak_gb
@@ -176,9 +176,7 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
         except InputError as error:
             raise InputError(f"{output}: {error}") from None
     seconds = time.perf_counter() - begin
-    end = "converged" if result.converged else "NOT converged"
-    crossing, _ = crossing_words(result.crossings, result.pressed)
-    end += f", {crossing}" if crossing else ""
+    end = end_words("converged" if result.converged else "NOT converged", result)
     summary = (
         f"{output}: {len(file.surface.points)} vertices, {file.surface.face_count} faces, "
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.5g}, "

@@ -189,7 +189,7 @@ def moved(points: np.ndarray, matrix: Matrix) -> np.ndarray:
 
 
 def colored_by(kind: str, roughness: float, **settings: Any) -> bpy.types.Material:
-    """Return a material whose colour is that of a new node of a kind with these settings."""
+    """Return a material whose color is that of a new node of a kind with these settings."""
     material = surface("Colored", (1.0, 1.0, 1.0), roughness)
     nodes, links = material.node_tree.nodes, material.node_tree.links
     node = nodes.new(kind)

@@ -29,7 +29,7 @@ MOVED = (0.85, 0.19, 0.02)
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
-    """Return each mesh at rest, and posed and cubic, with its handles coloured."""
+    """Return each mesh at rest, and posed and cubic, with its handles colored."""
     groups = []
     for model in meshes.there(["bunny", "armadillo"], instead=["monkey", "bear"]):
         file, cubeness = POSES[model.name]
@@ -40,12 +40,12 @@ def compose(meshes: FigureMeshes) -> list[Group]:
             meshes.group(model, model.original, "original, its handles", "grey"),
             meshes.group(model, posed, label, "green"),
         ):
-            _colour(group.copies[0].data, group.finish, handles)
+            _color(group.copies[0].data, group.finish, handles)
             groups.append(group)
     return groups
 
 
-def _colour(mesh: bpy.types.Mesh, finish: str, handles: tuple[Any, ...]) -> None:
+def _color(mesh: bpy.types.Mesh, finish: str, handles: tuple[Any, ...]) -> None:
     """Paint the vertices of the handles onto a finish."""
     color, roughness = FINISHES[finish]
     colors = np.ones((len(mesh.vertices), 4), np.float32)

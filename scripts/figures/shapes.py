@@ -31,7 +31,7 @@ DUCK = (
     ((0.0, -1.10, 1.60), (0.26, 0.36, 0.12)),
     ((0.64, 0.16, 0.80), (0.18, 0.56, 0.34)),
 )
-"""centre and radii of balls that are melted into one; those with x > 0 are on both sides"""
+"""center and radii of balls that are melted into one; those with x > 0 are on both sides"""
 FOX = (
     ((0.0, 0.02, 0.0), (0.0, -0.02, 0.62), 0.36, 0.30),
     ((0.0, -0.02, 0.72), (0.0, -0.04, 0.95), 0.17, 0.16),
@@ -49,7 +49,7 @@ FOX = (
 )
 """ends and radii of rows of balls: body, neck, head, snout, ear, arm, hand, leg, foot and tail"""
 FOX_FACE = (((0.17, -0.44, 1.36), (0.085, 0.06, 0.1)), ((0.0, -0.83, 1.1), (0.075, 0.06, 0.06)))
-"""centre and radii of the eyes and the nose, balls of their own"""
+"""center and radii of the eyes and the nose, balls of their own"""
 VOXEL = 0.035
 SMOOTHING = 6
 """steps; they take the corners of the voxels away"""
@@ -104,9 +104,9 @@ def _row(begin: tuple, end: tuple, radius: float, last: float) -> list[tuple]:
 
 
 def _add_balls(edited: bmesh.types.BMesh, balls: tuple, subdivisions: int) -> None:
-    for centre, radii in balls:
-        for side in (1.0, -1.0) if centre[0] else (1.0,):
-            place = Matrix.Translation((side * centre[0], *centre[1:]))
+    for center, radii in balls:
+        for side in (1.0, -1.0) if center[0] else (1.0,):
+            place = Matrix.Translation((side * center[0], *center[1:]))
             matrix = place @ Matrix.Diagonal((*radii, 1.0))
             bmesh.ops.create_icosphere(edited, subdivisions=subdivisions, radius=1.0, matrix=matrix)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figure 1: several meshes in grey, and before them in green what becomes of them."""
+"""Figure 1: several meshes in gray, and before them in green what becomes of them."""
 
 import math
 
@@ -23,7 +23,7 @@ CAST = {"owl": 0.4, "bunny": 0.4, "armadillo": 0.4, "spot": 0.4, "horse": 0.4}
 OWN_CAST = {"bear": 0.4, "duck": 0.4, "monkey": 0.4, "letter": 0.4}
 """name: cubeness"""
 GAP = 0.35
-"""between neighbours, in the units of the gallery"""
+"""between neighbors, in the units of the gallery"""
 ROWS_APART = 0.25
 """in the picture, between the top of the front row and the bottom of the back row"""
 
@@ -52,6 +52,6 @@ def in_two_rows(
             turntables.append(stand(group, Vector((x - left, y, 0.0)), scene))
         x += right - left + GAP
     bottom, top = min(front[2] for front in fronts), lift + max(back[3] for back in backs)
-    centre = Vector(((x - GAP) / 2, 0.0, 0.0)) + UP * ((bottom + top) / 2)
+    center = Vector(((x - GAP) / 2, 0.0, 0.0)) + UP * ((bottom + top) / 2)
     finishes = [group.finish for group in groups]
-    return Gallery(scene, turntables, centre, x, top - bottom + GAP, finishes)
+    return Gallery(scene, turntables, center, x, top - bottom + GAP, finishes)

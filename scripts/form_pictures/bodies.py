@@ -16,7 +16,7 @@ from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 __all__ = ("FROM_OBJECTS", "body_of")
 
 FROM_OBJECTS = ("OBJECT", "DIRECTIONS", "FACES")
-"""forms that are what the artist makes of them; their pictures have another colour"""
+"""forms that are what the artist makes of them; their pictures have another color"""
 SETTINGS = {
     "BOX": {"form_weights": (0.8, 1.0, 0.4)},
     "PYRAMID": {"form_sides": 4},

@@ -21,7 +21,7 @@ def bill_of_materials(manifest, wheels, credits):
     manifest
         The manifest of the extension, a dictionary.
     wheels, credits
-        The paths of what is bundled, and the licence of each.
+        The paths of what is bundled, and the license of each.
     """
     root = Component(
         name=manifest["id"],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the zips: the extension as it is, the wheels, their licences and a bill of materials."""
+"""Build the zips: the extension as it is, the wheels, their licenses and a bill of materials."""
 
 import shutil
 import tempfile

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Credit what is bundled: licences, copyrights and the texts, mostly from the wheels themselves."""
+"""Credit what is bundled: licenses, copyrights and the texts, mostly from the wheels themselves."""
 
 import re
 import tomllib
@@ -47,12 +47,12 @@ class Credit:
 
 
 def credit(path):
-    """Collect what is known of the licence of a wheel (Path).
+    """Collect what is known of the license of a wheel (Path).
 
     Raises
     ------
     ValueError
-        Its licence, its text or its copyright is not known; see ``licences/additions.toml``.
+        Its license, its text or its copyright is not known; see ``licenses/additions.toml``.
     """
     name, version, *_ = parse_wheel_filename(path.name)
     additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())
@@ -111,7 +111,7 @@ def write_third_party(folder, wheels):
 
 
 def _licence(metadata: Message, text):
-    """Return the licence as an SPDX expression."""
+    """Return the license as an SPDX expression."""
     classifiers = metadata.get_all("Classifier", [])
     named = [c.rpartition(" :: ")[2] for c in classifiers if c.startswith("License ::")]
     stated = [metadata[field] for field in ("License-Expression", "License")]

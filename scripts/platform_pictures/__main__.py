@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Render the icon and the feature picture for the extensions platform, in its sizes.
 
-They show shapes of our own and Blender's monkey, so that nobody else's licence is asked for.
+They show shapes of our own and Blender's monkey, so that nobody else's license is asked for.
 """
 
 import argparse

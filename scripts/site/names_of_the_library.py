@@ -7,6 +7,7 @@ The docstrings it is made of lie in ``solver/``, which the wheel calls ``cubic_c
 import re
 
 FOLDER = "api/"
+"""of the site, with the pages that `pages_of_names` makes"""
 _NAME = re.compile(
     r'(<span class="kn">from</span>\s*(?:<span class="w"> </span>)?<span class="nn">)solver\b'
 )

@@ -11,10 +11,10 @@ from functools import cache
 from pathlib import Path
 
 from mkdocs.structure.files import File  # pyright: ignore[reportMissingImports]
+from names_of_the_library import FOLDER
 
 ROOT = Path(__file__).resolve().parents[2]
 LIST = "api.md"
-FOLDER = "api/"
 _NAME = re.compile(r"^::: ([\w.]+)\.(\w+)\n(?! )", re.MULTILINE)  # constants have options below
 
 

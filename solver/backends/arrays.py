@@ -48,7 +48,7 @@ class HostArrays:
 def arrays_for(device):
     """Return the arrays for a device such as "taichi-cpu".
 
-    A factorisation needs the right-hand side in NumPy in each iteration; so without multigrid
+    A factorization needs the right-hand side in NumPy in each iteration; so without multigrid
     nothing stays on a device.
     """
     if is_on_its_own_memory(device) and has_multigrid():

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a local step reads of a vertex's neighbours, in Taichi: its covariance.
+"""What a local step reads of a vertex's neighbors, in Taichi: its covariance.
 
 To import this imports the engine. These functions are compiled into the kernels
-that call them. The loop over neighbours could end early, for an index that never comes: else LLVM
-makes a vector loop of it, which gains nothing with six neighbours and takes as long to load as all
+that call them. The loop over neighbors could end early, for an index that never comes: else LLVM
+makes a vector loop of it, which gains nothing with six neighbors and takes as long to load as all
 the rest.
 """
 

@@ -134,7 +134,7 @@ def costliest(
 ):
     """Return the cost at x, and the vertex of the face's body that has it.
 
-    Of many vertices not all are looked at: from one to a neighbour that costs more leads there.
+    Of many vertices not all are looked at: from one to a neighbor that costs more leads there.
     """
     best, last = numbers[NUMBERS * face], numbers[NUMBERS * face + 1]
     is_climb = last - best > MANY

@@ -10,7 +10,7 @@ that results are the same bit for bit.
 Python runs through each kernel once per process, even when it is compiled already, and spends about
 as long on a product of two matrices in Taichi's own words as on a hundred products of scalars. So
 small algebra is that of `algebra.py`, on entries; what is left are vectors and control flow. The
-loop over neighbours could end early, as that of `taichi_covariances.py`.
+loop over neighbors could end early, as that of `taichi_covariances.py`.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false

@@ -43,7 +43,7 @@ class TaichiMotion:
         (bounds, of_chunk), (groups, self._component) = topology.chunks, topology.groups
         self._bounds, self._of_chunk, self._groups = keep(bounds), keep(of_chunk), keep(groups)
         share = topology.shares(rest.weighing)
-        self._centre = topology.sum_parts(share[:, None] * rest.V)
+        self._center = topology.sum_parts(share[:, None] * rest.V)
         self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
         # only asked for where a component has to be kept from turning
         self._P, self._pull = (keep(np.zeros_like(rest.V, real)) for _ in range(2))
@@ -55,7 +55,7 @@ class TaichiMotion:
             for k in (6, 3)
         )
         self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
-        still = np.zeros((len(self._centre), 8))
+        still = np.zeros((len(self._center), 8))
         self.compile_seconds = warm_up(
             [
                 (
@@ -85,7 +85,7 @@ class TaichiMotion:
     def relax(self, times):
         """Come nearer to what the rotations ask for, without momentum or turning."""
         for _ in range(times):
-            self.step(np.zeros(len(self._centre)), np.zeros(len(self._centre)), False)
+            self.step(np.zeros(len(self._center)), np.zeros(len(self._center)), False)
 
     @alone
     def step(self, momentum, overshoot, keep_rotation):
@@ -158,7 +158,7 @@ class TaichiMotion:
 
     def _whole(self, keep_rotation):
         """Return twists (c,3) and shifts (c,3) of the components, see the kernel `move`."""
-        count = len(self._centre)
+        count = len(self._center)
         twist = np.zeros((count, 3))
         if self._is_anchored.all():
             return twist, twist
@@ -172,7 +172,7 @@ class TaichiMotion:
         means, torques = np.stack(sums[:3], axis=1), np.stack(sums[3:], axis=1)
         if no_turning:
             twist = no_turning.twist(torques)
-        return twist, np.where(self._is_anchored[:, None], 0.0, self._centre - means)
+        return twist, np.where(self._is_anchored[:, None], 0.0, self._center - means)
 
 
 @cache

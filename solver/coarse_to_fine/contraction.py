@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A coarser mesh of the same shape: vertices contracted with their neighbours."""
+"""A coarser mesh of the same shape: vertices contracted with their neighbors."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ FEWEST = 20
 """triangles of a part; one that would be left with fewer stays as it is"""
 
 
-def contract(V, F, neighbours, part):
+def contract(V, F, neighbors, part):
     """Contract the vertices of a mesh in groups, each of a vertex and what is around it.
 
     They are the aggregates of algebraic multigrid, about eight vertices each. A triangle stays
@@ -26,7 +26,7 @@ def contract(V, F, neighbours, part):
     V : (n,3) float array
     F : (m,3) int array
         Triangles that use all vertices.
-    neighbours : (n,n) csr_matrix
+    neighbors : (n,n) csr_matrix
         With entries between vertices that share a triangle.
     part : (n,) int array
         Connected part of each vertex.
@@ -43,7 +43,7 @@ def contract(V, F, neighbours, part):
     """
     if optional_package("pyamg") is None:
         return None
-    group = aggregates(neighbours)
+    group = aggregates(neighbors)
     group = _with_small_parts_apart(group, F, part)
     triangles = distinct(group[F])
     is_used = np.zeros(group.max() + 1, dtype=bool)

@@ -65,14 +65,14 @@ def _prolongate(rest, positions, R):
 
 
 def _smoothed(rest, R):
-    """Return rotations (n,3,3): those of the coarser mesh (k,3,3), averaged over neighbours twice.
+    """Return rotations (n,3,3): those of the coarser mesh (k,3,3), averaged over neighbors twice.
 
     Clusters would leave a step at each of their borders.
     """
     cluster, counts = rest.coarse.cluster, np.diff(rest.matrices.indptr)
-    neighbours = rest.matrices.matrix(np.repeat(1.0 / counts, counts))
-    of_clusters = (neighbours.data, cluster[neighbours.indices], neighbours.indptr)
-    average = neighbours @ (sp.csr_matrix(of_clusters, shape=(len(counts), len(R))) @ columns(R).T)
+    neighbors = rest.matrices.matrix(np.repeat(1.0 / counts, counts))
+    of_clusters = (neighbors.data, cluster[neighbors.indices], neighbors.indptr)
+    average = neighbors @ (sp.csr_matrix(of_clusters, shape=(len(counts), len(R))) @ columns(R).T)
     average = orthonormalize(average.reshape(-1, 3, 3), _ORTHONORMALIZATIONS)
     entries = columns(average)
     determinant = dot(*entries[:3], *cross(*entries[3:6], *entries[6:]))

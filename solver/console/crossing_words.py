@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is said of faces that cross: in the panel and on the command line alike."""
 
-__all__ = ("crossing_words",)
+from typing import Any
+
+__all__ = ("crossing_words", "end_words")
 
 
 def crossing_words(crossings: int | None, pressed: int | None) -> tuple[str, bool]:
     """Return what a run says of faces that cross, and whether it has failed to keep some apart.
 
-    Parameters
-    ----------
-    crossings, pressed
-        As of a `Result`; None counts as 0.
-
-    Returns
-    -------
-    str
-        Empty if none cross.
-    bool
+    The numbers are those of a `Result`; None counts as 0. The text is empty if none cross.
 
     Examples
     --------
@@ -31,3 +24,9 @@ def crossing_words(crossings: int | None, pressed: int | None) -> tuple[str, boo
     if failed > 0:
         return f"{failed:,} faces still cross", True
     return (f"{crossings:,} faces cross: parts press into each other" if crossings else ""), False
+
+
+def end_words(end: str, run: Any) -> str:
+    """Return how a run has ended, and behind it what is said of its `crossings` and `pressed`."""
+    crossing, _ = crossing_words(run.crossings, run.pressed)
+    return f"{end}, {crossing}" if crossing else end

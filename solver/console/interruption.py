@@ -2,7 +2,7 @@
 """Ctrl-C, or being told to end: one line, the exit code that shells expect, and nothing half-done.
 
 Python runs signal handlers in the main thread, which cannot be told anything while it is in other
-code: a factorisation, or Blender that renders or exports. So our thread waits for the signal,
+code: a factorization, or Blender that renders or exports. So our thread waits for the signal,
 tidies up and ends the process at once. Nothing is lost by that: every file is written under a
 temporary name (see `temporary`).
 """

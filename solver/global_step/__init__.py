@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The global step: what is factorised or solved in cycles, and the constraints that hold parts."""
+"""The global step: what is factorized or solved in cycles, and the constraints that hold parts."""

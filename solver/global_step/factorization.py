@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Factorise a sparse positive definite matrix once, then solve for three columns at a time."""
+"""Factorize a sparse positive definite matrix once, then solve for three columns at a time."""
 
 import weakref
 from contextlib import nullcontext, suppress
@@ -34,7 +34,7 @@ def factorize(A):
 
 
 def _one_blas_thread():
-    """Keep BLAS from sharing out products as small as those of a factorisation.
+    """Keep BLAS from sharing out products as small as those of a factorization.
 
     It gains nothing, and where other programs use the cores, its threads wait for each other a
     hundred times as long as they compute.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An approximate solution of the global step for meshes too large for a factorisation.
+"""An approximate solution of the global step for meshes too large for a factorization.
 
 The local-global iteration needs no exact solve: any positive definite matrix above the Laplacian
 makes it descend, and has the same fixed points. One V-cycle of algebraic multigrid by smoothed
@@ -117,11 +117,11 @@ class Level:
         # Gershgorin's bound of the spectrum, from the matrix scaled on one side
         greatest = float((scale * (abs(A) @ (1.0 / scale))).max())
         least = greatest / _SMOOTHED_PART
-        centre, radius = (greatest + least) / 2, (greatest - least) / 2
-        second = 1 / (2 * centre / radius - radius / centre)
+        center, radius = (greatest + least) / 2, (greatest - least) / 2
+        second = 1 / (2 * center / radius - radius / center)
         of_rest = 2 * second / radius
-        self.of_b = np.float32((1 + second * radius / centre) / centre + of_rest)
-        self.of_ab = np.float32(-of_rest / centre)
+        self.of_b = np.float32((1 + second * radius / center) / center + of_rest)
+        self.of_ab = np.float32(-of_rest / center)
 
     def smooth(self, B):
         """Return the smoothed B (3,n)."""

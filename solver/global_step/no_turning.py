@@ -6,7 +6,7 @@ symmetric, that is where
 
     t(U) = sum_i w_i x_i x u_i = 0,    x_i = v_i - c
 
-(the torque of the positions about the centre). Among the positions that obey it, those of least
+(the torque of the positions about the center). Among the positions that obey it, those of least
 energy are U + mu x P with P = L^-1 (w x) and, with M = sum_i w_i P_i x_i', the mu that solves
 
     (tr(M) 1 - M) mu = -t(U)
@@ -45,8 +45,8 @@ class NoTurning:
     def __init__(self, rest, is_free, solve):
         self._topology = topology = rest.topology
         share = topology.shares(rest.standing)
-        centre = topology.sum_parts(share[:, None] * rest.V)
-        x = (rest.V - centre[topology.component]) * is_free[topology.component][:, None]
+        center = topology.sum_parts(share[:, None] * rest.V)
+        x = (rest.V - center[topology.component]) * is_free[topology.component][:, None]
         self.pull = share[:, None] * x
         self._is_idle = not is_free.any()
         P = np.zeros_like(x) if self._is_idle else solve(self.pull)

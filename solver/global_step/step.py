@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The global step: positions from rotations, by one factorisation per mesh and set of pins."""
+"""The global step: positions from rotations, by one factorization per mesh and set of pins."""
 
 from copy import copy
 from functools import cached_property
@@ -46,7 +46,7 @@ class GlobalStep:
     hold
         As given.
     is_factorized : bool
-        Whether `positions` solves by the factorisation, not by multigrid.
+        Whether `positions` solves by the factorization, not by multigrid.
     is_anchored : (component_count,) bool array
         Components that do not float: with a pinned vertex, or see `anchored`.
     solve : callable
@@ -81,7 +81,7 @@ class GlobalStep:
 
     @cached_property
     def multigrid(self):
-        """The Multigrid, created on first use: if nothing is factorised, or for a GPU."""
+        """The Multigrid, created on first use: if nothing is factorized, or for a GPU."""
         L, is_held = self._laplacian, self._is_held
         return Multigrid(L, decoupled(L, is_held), np.flatnonzero(is_held))
 
@@ -118,7 +118,7 @@ class GlobalStep:
 
     @cached_property
     def centring(self):
-        """The Centring of what floats, created on first use."""
+        """The Centering of what floats, created on first use."""
         return Centring(self._rest, ~self.is_anchored)
 
     @cached_property
@@ -188,7 +188,7 @@ def _solver(L, is_held):
     """
     held = np.flatnonzero(is_held)
     coupling = L[:, held]
-    coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbour
+    coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbor
     coupling = coupling[coupled]
     solve = factorize(decoupled(L, is_held))
 

@@ -15,7 +15,7 @@ def components(F, n, pairs=None):
     Notes
     -----
     Vertices carry the number of a vertex of their component. Each round hangs every number below
-    its least neighbour, follows the chains to their ends, and forgets the edges that have become
+    its least neighbor, follows the chains to their ends, and forgets the edges that have become
     inner ones (Liu and Tarjan, "Simple Concurrent Labeling Algorithms for Connected Components",
     2019). In whole arrays that is as fast as SciPy's search, whose import takes longer than the
     whole set-up of a small mesh.

@@ -120,7 +120,7 @@ def _bent_inward(flat):
     """Return a polygon (s,2), counter-clockwise, whose straight edges are parabolas.
 
     So no corner lies on a line between others, where it would be left out, and each is joined to
-    one on the other side, not to its neighbours only.
+    one on the other side, not to its neighbors only.
     """
     before, after = flat - np.roll(flat, 1, axis=0), np.roll(flat, -1, axis=0) - flat
     lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
@@ -138,13 +138,13 @@ def _bent_inward(flat):
 
 def _in_plane(points):
     """Return the points (s,3) in the plane of Newell's normal, as (s,2), counter-clockwise."""
-    centred = points - points.mean(axis=0)
-    normal = np.cross(centred, np.roll(centred, -1, axis=0)).sum(axis=0)
+    centerd = points - points.mean(axis=0)
+    normal = np.cross(centerd, np.roll(centerd, -1, axis=0)).sum(axis=0)
     length = np.linalg.norm(normal)
     normal = normal / length if length > 0.0 else np.array([0.0, 0.0, 1.0])
     x = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
     x /= np.linalg.norm(x)
-    return np.stack([centred @ x, centred @ np.cross(normal, x)], axis=1)
+    return np.stack([centerd @ x, centerd @ np.cross(normal, x)], axis=1)
 
 
 def _is_empty(flat, left, ear):

@@ -32,7 +32,7 @@ from .edges import Edges, stable_order
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SpokesAndRims(Value):
-    """Rows are vertices, columns their neighbours and themselves; all arrays share one pattern."""
+    """Rows are vertices, columns their neighbors and themselves; all arrays share one pattern."""
 
     indptr: IntArray
     """(n+1,) int32"""
@@ -144,7 +144,7 @@ class Pattern:
         self._find_places(n)
 
     def _find_places(self, n):
-        """Order the entries by rows: lower neighbours, the diagonal, upper neighbours."""
+        """Order the entries by rows: lower neighbors, the diagonal, upper neighbors."""
         lower, upper = self._lower, self._upper
         count = np.arange(len(lower))
         left, right = np.bincount(upper, minlength=n), np.bincount(lower, minlength=n)

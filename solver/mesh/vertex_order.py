@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reorder the vertices of a large mesh so that neighbours are close to each other in memory.
+"""Reorder the vertices of a large mesh so that neighbors are close to each other in memory.
 
-The speed of an iteration depends on memory access to neighbours. Programs that subdivide
+The speed of an iteration depends on memory access to neighbors. Programs that subdivide
 append the new vertices, far from the old ones. In the order of Cuthill and McKee (1969) the set-up,
 the local step and the products with sparse matrices take half the time (400,000 vertices), and an
 iteration a third less (25,000).

@@ -76,8 +76,8 @@ class Placement:
 
     def read_back(self, placed: FloatArray) -> FloatArray:
         """Return points from `place`, possibly moved, in object coordinates."""
-        centred = placed - self.offset if self.offset.any() else placed
-        return centred @ np.linalg.inv(self.linear).T
+        centerd = placed - self.offset if self.offset.any() else placed
+        return centerd @ np.linalg.inv(self.linear).T
 
     def mirror(self, mirror: Mirror) -> Mirror:
         """Return a Mirror of object coordinates in those in which the object is solved."""

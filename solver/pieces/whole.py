@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The whole of a half-modelled mesh: the part that the Mirror modifier adds is solved with it.
+"""The whole of a half-modeled mesh: the part that the Mirror modifier adds is solved with it.
 
 The other half then exists when links are searched, and the seam lies in the middle of a surface,
 not at its border.

@@ -3,8 +3,8 @@
 
 The energy of the paper assumes one closed surface with a fine, even triangulation. Artists' meshes
 have seams, loose parts, clothes and cages of twenty vertices. The solver therefore works on a
-*proxy*: the same surface welded (`weld`), fine enough (`refinement`), linked to its neighbours
-(`neighbours`) and to its opposite side (`thickness`). `InputMap` maps from the vertices of the
+*proxy*: the same surface welded (`weld`), fine enough (`refinement`), linked to its neighbors
+(`neighbors`) and to its opposite side (`thickness`). `InputMap` maps from the vertices of the
 input to those of the proxy and back. With everything off, the proxy is the input itself.
 """
 

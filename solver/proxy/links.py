@@ -7,7 +7,7 @@ of its vertices, as an edge of a triangle is tied:
     E = sum_k w_k/2 |R_k d - d~|^2,    d~ = sum_k c_k u_k
 
 Between two vertices c is (-1, 1); from a vertex to a point of a triangle it is (-1, b_1, b_2, b_3)
-with the barycentric coordinates of the point. In the normalisation of `spokes_and_rims.py`
+with the barycentric coordinates of the point. In the normalization of `spokes_and_rims.py`
 
     L += W/3 c c',    H[k,l] += w_k d c_l,    W = sum_k w_k
 

@@ -47,7 +47,7 @@ def refine(V, F, bound, parts=1):
     Rounds split the longest first, so that a budget that is too small is spent evenly. As a round
     splits all edges beyond a length, it splits the longest one of each triangle of which it splits
     any (Rivara, "Algorithms for refining triangular grids", 1984), which keeps triangles from
-    becoming needles; neighbours share midpoints, so the surface stays closed.
+    becoming needles; neighbors share midpoints, so the surface stays closed.
 
     Parameters
     ----------

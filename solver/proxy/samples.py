@@ -23,7 +23,7 @@ def surface_samples(V, normals, areas, part, is_candidate, count):
     Returns
     -------
     spacing : (n,) array
-        Distance of neighbours, at each vertex.
+        Distance of neighbors, at each vertex.
     chosen : (k,) int array
         Vertices.
     area : (k,) array

@@ -3,7 +3,7 @@
 
 For a vertex, the largest ball inside the surface that touches it also touches the opposite side.
 It is found by shrinking (Ma, Bae and Choi, "3D medial axis point approximation using nearest
-neighbors and the normal field", 2012): the vertex nearest to the centre of a ball gives the radius
+neighbors and the normal field", 2012): the vertex nearest to the center of a ball gives the radius
 of the next one.
 
 A link is accepted between a vertex and the vertex that its ball ends at, if
@@ -12,8 +12,8 @@ A link is accepted between a vertex and the vertex that its ball ends at, if
   edges of more than two triangles are few. Open sheets have no other side;
 - the ball lies inside: normals that point inward (a part of negative volume) are turned around
   first, so nothing is linked across the gap between the fingers of an inverted hand;
-- both contacts are seen from the centre of the ball under more than `LEAST_ANGLE`: else the ball
-  has ended at its own neighbourhood, as in every convex corner;
+- both contacts are seen from the center of the ball under more than `LEAST_ANGLE`: else the ball
+  has ended at its own neighborhood, as in every convex corner;
 - the surfaces face away from each other.
 
 As next to no vertex of the part lies inside the ball, a link does not cross another wall of it.
@@ -120,13 +120,13 @@ def _shrink(place, normals, chosen, points, end, radius):
     p, n = place[chosen], normals[chosen]
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
-        centre = p[todo] - radius[todo, None] * n[todo]
-        q = points[nearest_of(centre, eps=_INEXACTNESS)]
+        center = p[todo] - radius[todo, None] * n[todo]
+        q = points[nearest_of(center, eps=_INEXACTNESS)]
         d = place[q] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
         is_other = (q != chosen[todo]) & (depth > 0.0)
         shrunk = squared / np.where(is_other, 2.0 * depth, 1.0)
-        # half the angle between both contacts, from the centre: |d| / 2r
+        # half the angle between both contacts, from the center: |d| / 2r
         sine = np.sqrt(squared) / np.maximum(2.0 * shrunk, 1e-300)
         is_seen = is_other & (sine > np.sin(LEAST_ANGLE / 2))
         # in a round tube all around are equally near: the opposite one stays the end

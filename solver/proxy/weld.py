@@ -36,7 +36,7 @@ def weld(V, F, part=None):
         would hang on it as on a hinge.
     F : (k,3) int array
         Triangles between welded vertices. Collapsed ones are removed, and of those with
-        the same corners, only one is kept: otherwise the normals of a leaf modelled as two
+        the same corners, only one is kept: otherwise the normals of a leaf modeled as two
         coincident sheets would cancel out.
     """
     tolerance = _tolerance(V, F, components(F, len(V))[1] if part is None else part)

@@ -5,7 +5,7 @@ Per vertex, with S divided by the area so that nothing depends on scale or tesse
 
     min over R in SO(3):  -tr(R S) + lam h(x),   x = Q R n,
 
-where h is the support function of a body W, such as |x|_1 for the cube. At a minimiser there is a
+where h is the support function of a body W, such as |x|_1 for the cube. At a minimizer there is a
 subgradient s of h, a point of W with s.x = h(x), with which R is stationary for
 
     -tr(R (S - lam n (Q's)')),
@@ -17,13 +17,13 @@ edition, chapter 18, equality-constrained Newton steps with least-squares multip
 
 - on a facet: the normal is that of the facet, and the best turn about it has a closed form;
 - else Newton's step of `rotation_fit`, on an edge with direction c on the tangent of x.c = 0. With
-  p the gradient of x.c, K = H + kappa pp' has the same constrained minimiser as H, and where K is
+  p the gradient of x.c, K = H + kappa pp' has the same constrained minimizer as H, and where K is
   positive definite it is a minimum. Elsewhere it is shifted until it is, as by Levenberg and
   Marquardt.
 
 Then s goes to the vertex or the edge at which it leaves its edge or facet, and to the edge or facet
 whose normals x has passed. Where neither happens and the step was small, R is a certified local
-minimiser, up to the square of the step. What is not certified (starts that are far off, degenerate
+minimizer, up to the square of the step. What is not certified (starts that are far off, degenerate
 or mirrored S) is left to the ADMM of `admm.py`.
 
 For the cube the faces are found from s itself: s_k is the sign of x_k, but anything in [-1, 1] on
@@ -87,7 +87,7 @@ SINGLE = Tolerances(angle=1e-3, slack=1e-5, aligned=1e-6)
 
 
 def active_set_rotations(problem, R, states):
-    """Return the minimisers near R, in 64 bit; the Taichi kernels do the same step by step.
+    """Return the minimizers near R, in 64 bit; the Taichi kernels do the same step by step.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ class AdmmOptions:
 
 
 def admm_rotations(problem, R, states, options):
-    """Return rotations and states that minimise the local energy near R.
+    """Return rotations and states that minimize the local energy near R.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class LocalProblem:
     """min over R in SO(3) of lam h(Q R n) - tr(R S), of n vertices at once.
 
     Normals that are drawn to captured ones t add mu (1 - t.R n). That is linear in R, so it is part
-    of S, as mu n t', and costs nothing more to minimise.
+    of S, as mu n t', and costs nothing more to minimize.
     """
 
     S: FloatArray

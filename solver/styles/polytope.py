@@ -2,7 +2,7 @@
 """Convex bodies with flat sides: what a ball becomes.
 
 A body W around the origin has the support function ``h(x) = max over s in W of s.x``. As the cost
-of a unit normal x it is lowest, with a kink, where x is normal to a side of W, so that minimising
+of a unit normal x it is lowest, with a kink, where x is normal to a side of W, so that minimizing
 it makes surfaces flat that face these ways (Wulff, Zeitschrift fuer Krystallographie 34, 1901).
 The cube with half size 1 has the cost |x|_1 of Liu and Jacobson's cubic stylization.
 """

@@ -38,7 +38,7 @@ def seen(points, pose):
 def test_the_world_sees_what_the_mouse_does(linear, pose):
     d = begin(linear, pose, TURNED)
     before = seen(CORNERS, d.pose) @ linear.T
-    centre = d.centre @ linear.T
+    centre = d.center @ linear.T
 
     moved = seen(CORNERS, d.moved([0.5, -1.0, 2.0])) @ linear.T
     np.testing.assert_allclose(moved, before + [0.5, -1.0, 2.0], atol=1e-5)

@@ -35,7 +35,7 @@ __all__ = (
 SIZE = 2.0
 """largest extent of the original in the gallery; everything else is measured by it"""
 GAP = 0.3
-"""between two neighbours"""
+"""between two neighbors"""
 LABEL_SIZE = 0.19
 LABEL_LIFT = 0.03
 """of a label above the floor, which would cut it"""
@@ -56,7 +56,7 @@ class Gallery:
     scene: bpy.types.Scene
     turntables: list[bpy.types.Object]
     """one empty per group; turn them about Z"""
-    centre: Vector
+    center: Vector
     """what the camera looks at"""
     width: float
     height: float
@@ -114,9 +114,9 @@ def arrange(
     top = outlines[:, 3].max()
     pitch_x, pitch_z = float(width) + GAP, float(top - bottom) + GAP
     columns, rows = _grid(len(groups), pitch_x, pitch_z, *resolution)
-    centre = UP * ((bottom + top) / 2)
+    center = UP * ((bottom + top) / 2)
     finishes = [group.finish for group in groups]
-    gallery = Gallery(scene, [], centre, columns * pitch_x, rows * pitch_z, finishes)
+    gallery = Gallery(scene, [], center, columns * pitch_x, rows * pitch_z, finishes)
     for number, (group, extents, label) in enumerate(zip(groups, outlines, labels, strict=True)):
         row, column = divmod(number, columns)
         in_row = min(columns, len(groups) - row * columns)

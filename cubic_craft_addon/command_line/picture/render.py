@@ -78,7 +78,7 @@ def _set_up_cycles(scene: bpy.types.Scene, samples: int) -> None:
     import _cycles  # pyright: ignore[reportMissingImports]  # only there inside Blender
 
     scene.view_settings.view_transform = "AgX"
-    with contextlib.suppress(TypeError):  # other colour configurations have other looks
+    with contextlib.suppress(TypeError):  # other color configurations have other looks
         scene.view_settings.look = "AgX - Medium High Contrast"
     cycles = scene.cycles
     cycles.device = "CPU"

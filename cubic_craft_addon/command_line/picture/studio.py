@@ -17,7 +17,7 @@ FINISHES = {
     "grey": ((0.25, 0.25, 0.245), 0.55),
     "green": ((0.075, 0.23, 0.05), 0.42),
 }
-"""name: linear RGB, roughness; headless pictures show clay and teal, the paper's grey and green"""
+"""name: linear RGB, roughness; headless pictures show clay and teal, the paper's gray and green"""
 INK = (0.05, 0.045, 0.04)
 FLOOR_NEAR = (0.80, 0.75, 0.68)
 FLOOR_FAR = (0.36, 0.34, 0.32)
@@ -108,7 +108,7 @@ def _camera(gallery: Gallery, aspect: float) -> None:
     camera = bpy.data.objects.new("Camera", data)
     camera.rotation_euler.x = math.pi / 2 - ELEVATION
     backward = Vector((0.0, -math.cos(ELEVATION), math.sin(ELEVATION)))
-    camera.location = gallery.centre + backward * distance
+    camera.location = gallery.center + backward * distance
     gallery.scene.collection.objects.link(camera)
     gallery.scene.camera = camera
 
@@ -141,7 +141,7 @@ def _shade(mesh: bpy.types.Mesh) -> None:
 
 
 def surface(name: str, color: tuple[float, float, float], roughness: float) -> Any:
-    """Return a new material of one colour (linear RGB), without gloss at roughness 1."""
+    """Return a new material of one color (linear RGB), without gloss at roughness 1."""
     material = bpy.data.materials.new(name)
     material.diffuse_color = (*color, 1.0)  # what Workbench shows
     material.roughness = roughness

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ....solver import Progress
-from ....solver.console.crossing_words import crossing_words
+from ....solver.console.crossing_words import end_words
 from ....solver.console.errors import InputError
 from ....solver.console.method_options import settings_from
 from ....solver.method import Method
@@ -151,9 +151,7 @@ def check_groups(objects: list[bpy.types.Object], options: Namespace) -> None:
 
 def _summary(solution: Solution) -> str:
     result = solution.result
-    end = "converged" if result.converged else "not converged"
-    crossing, _ = crossing_words(result.crossings, result.pressed)
-    end += f", {crossing}" if crossing else ""
+    end = end_words("converged" if result.converged else "not converged", result)
     return (
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.4g}, "
         f"{solution.seconds:.1f} s on {result.device}"

@@ -29,7 +29,7 @@ class Drag:
     """P at the start"""
     linear: np.ndarray
     """(3,3) of W, invertible"""
-    centre: np.ndarray
+    center: np.ndarray
     """(3,) of the handle at the start, in object space"""
     axes: np.ndarray
     """(3,3) orthonormal axes in the world for rotation and scale, as columns"""
@@ -44,21 +44,21 @@ class Drag:
         """Turn it about a unit vector (3,) of the world, in radians, counterclockwise."""
         x, y, z = axis
         cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        return self._about_centre(
+        return self._about_center(
             np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
         )
 
     def scaled(self, factors: Sequence[float]) -> tuple[float, ...]:
         """Scale it along its axes."""
         sizes = np.maximum(factors, SMALLEST_FACTOR)
-        return self._about_centre(self.axes @ np.diag(sizes) @ self.axes.T)
+        return self._about_center(self.axes @ np.diag(sizes) @ self.axes.T)
 
-    def _about_centre(self, linear):
+    def _about_center(self, linear):
         if np.array_equal(linear, np.eye(3)):
             return self.pose
         map_of_object = np.eye(4)
         map_of_object[:3, :3] = np.linalg.solve(self.linear, linear @ self.linear)
-        map_of_object[:3, 3] = self.centre - map_of_object[:3, :3] @ self.centre
+        map_of_object[:3, 3] = self.center - map_of_object[:3, :3] @ self.center
         return self._after(map_of_object)
 
     def _after(self, map_of_object):

@@ -109,8 +109,8 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
             return
         if is_dot:
             _make_active(obj, number)
-        drag = Drag(place.pose, place.world[:3, :3], place.centre, _axes(context, place))
-        start = place.centre_in_world.astype(np.float32)
+        drag = Drag(place.pose, place.world[:3, :3], place.center, _axes(context, place))
+        start = place.center_in_world.astype(np.float32)
         size = float(np.linalg.norm(np.array(gizmo.matrix_world)[:3, 2]))
         self.grab, self.value = _Grab(gizmo, number, drag, start, size), 0.0
         session.begin_drag(self._is_dragging)
@@ -123,7 +123,7 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
     def _place_of_dot(self, number):
         obj = live_object(bpy.context)
         place = place_of(obj, number, self.middles) if obj is not None else None
-        return tuple(place.centre_in_world) if place is not None else (0.0, 0.0, 0.0)
+        return tuple(place.center_in_world) if place is not None else (0.0, 0.0, 0.0)
 
     def _move_dot(self, place):
         self._pose(lambda grab: grab.drag.moved(np.float32(place) - grab.start))
@@ -207,17 +207,17 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
             for gizmo in (*self.arrows, *self.rings, *self.boxes):
                 gizmo.hide = True
             return
-        centre, axes = place.centre_in_world, _axes(context, place)
-        right, up, view = _view_axes(context, centre)
+        center, axes = place.center_in_world, _axes(context, place)
+        right, up, view = _view_axes(context, center)
         for number, axis in enumerate(axes.T):
-            basis = _matrix(axes[:, (number + 1) % 3], axes[:, (number + 2) % 3], axis, centre)
+            basis = _matrix(axes[:, (number + 1) % 3], axes[:, (number + 2) % 3], axis, center)
             cosine = abs(float(axis @ view))
             for gizmo in (self.arrows[number], self.rings[number], self.boxes[number]):
                 gizmo.matrix_basis = basis
                 gizmo.hide = cosine > _END_ON
             self.rings[number].hide = cosine < _EDGE_ON
         diagonal = (right + up) / np.sqrt(2.0)
-        self.boxes[3].matrix_basis = _matrix(view, (right - up) / np.sqrt(2.0), diagonal, centre)
+        self.boxes[3].matrix_basis = _matrix(view, (right - up) / np.sqrt(2.0), diagonal, center)
         self.boxes[3].hide = False
 
 
@@ -239,13 +239,13 @@ def _axes(context, place):
     return place.own_axes if slot.type == "LOCAL" else np.eye(3)
 
 
-def _view_axes(context, centre):
+def _view_axes(context, center):
     """Return the world directions right, up and toward the view at a position."""
     region = context.region_data
     turned = np.array(region.view_matrix.inverted(), dtype=np.float64)
     right, up, view = turned[:3, :3].T
     if region.is_perspective:
-        view = turned[:3, 3] - centre
+        view = turned[:3, 3] - center
         view = view / max(float(np.linalg.norm(view)), 1e-12)
     return right, up, view
 

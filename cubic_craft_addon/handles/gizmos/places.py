@@ -23,15 +23,15 @@ class Place:
     number: int
     """in the list of the object"""
     pose: Pose
-    centre: np.ndarray
+    center: np.ndarray
     """(3,) in object space, as it is posed"""
     world: np.ndarray
     """(4,4) of the object"""
 
     @property
-    def centre_in_world(self):
+    def center_in_world(self):
         """(3,) of the world."""
-        return self.world[:3, :3] @ self.centre + self.world[:3, 3]
+        return self.world[:3, :3] @ self.center + self.world[:3, 3]
 
     @property
     def own_axes(self):
@@ -77,8 +77,8 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
     if not is_seen or middle is None or not _is_invertible(world):
         return None
     pose = live.pose_of(obj, handle)
-    centre = np.reshape(pose, (4, 4)) @ np.append(middle, 1.0)
-    return Place(number, pose, centre[:3], world)
+    center = np.reshape(pose, (4, 4)) @ np.append(middle, 1.0)
+    return Place(number, pose, center[:3], world)
 
 
 def middle_of(points: np.ndarray) -> np.ndarray | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognise whether an artist has given a mesh anything but another shape."""
+"""Recognize whether an artist has given a mesh anything but another shape."""
 
 import hashlib
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognise a shape that we wrote."""
+"""Recognize a shape that we wrote."""
 
 import hashlib
 

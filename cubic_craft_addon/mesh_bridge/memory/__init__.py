@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The data that we keep on a mesh: its original and our result, recognised after changes."""
+"""The data that we keep on a mesh: its original and our result, recognized after changes."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..access.rotations import matrices_from_quaternions
 from ..access.shapes import Shapes, carried
-from .recognition import Recognised
+from .recognition import Recognized
 
 _ROUNDING = 2.0**-24  # of float32, relative
 _MARGIN = 32.0
@@ -26,7 +26,7 @@ class _Turned:
 
 def carry_back(
     present: Shapes,
-    recognised: Recognised,
+    recognized: Recognized,
     base: np.ndarray,
     quaternions: np.ndarray | None,
     known: Mapping[str, np.ndarray],
@@ -40,7 +40,7 @@ def carry_back(
     Parameters
     ----------
     present : the shapes, with shape keys
-    recognised : the state of the vertices
+    recognized : the state of the vertices
     base : (n,3) numpy float32 array, the original base, transformed
     quaternions : (n,4) numpy float32 array or None, the rotations that the result was written with
     known : dict from names of keys to the stored points that they get
@@ -54,8 +54,8 @@ def carry_back(
     keys = {present.reference: base}
     if not present.relative:
         return keys
-    back = ways_back(recognised, quaternions, len(base))
-    is_flattened = _is_flattened(recognised, len(base))
+    back = ways_back(recognized, quaternions, len(base))
+    is_flattened = _is_flattened(recognized, len(base))
     for name, other in present.relative.items():
         if name in known:
             keys[name] = known[name]
@@ -64,7 +64,7 @@ def carry_back(
         points = carried(key, under, keys[other], back.with_mesh)
         if name in stored:
             reach = _MARGIN * _ROUNDING * _sizes(key, back.with_mesh)
-            target = recognised.moved(stored[name], points)
+            target = recognized.moved(stored[name], points)
             is_met = is_flattened | _is_near(points, target, reach)
             if other in stored and not is_met.all():
                 shifted = carried(key, under, keys[other], back.alone)
@@ -78,7 +78,7 @@ def carry_back(
     return keys
 
 
-def ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: int) -> _Turned:
+def ways_back(recognized: Recognized, quaternions: np.ndarray | None, count: int) -> _Turned:
     """Return the maps that carry offsets back, which a result was written with (n,4) rotations."""
     alone = np.broadcast_to(np.eye(3), (count, 3, 3))
     if quaternions is not None:
@@ -87,7 +87,7 @@ def ways_back(recognised: Recognised, quaternions: np.ndarray | None, count: int
         rotations = matrices_from_quaternions(np.where(is_none[:, None], (1, 0, 0, 0), quaternions))
         alone = rotations.transpose(0, 2, 1)
     with_mesh = alone.copy()
-    for part in recognised.parts:
+    for part in recognized.parts:
         if not part.map.is_identity:
             linear = part.map.linear
             with_mesh[part.rows] = linear @ alone[part.rows] @ np.linalg.inv(linear)
@@ -103,9 +103,9 @@ def _is_near(points: np.ndarray, target: np.ndarray, reach: np.ndarray) -> np.nd
     return np.all(np.abs(points.astype(np.float64) - target) <= reach[:, None], axis=1)
 
 
-def _is_flattened(recognised: Recognised, count: int) -> np.ndarray:
+def _is_flattened(recognized: Recognized, count: int) -> np.ndarray:
     """Return whose offsets have lost an extent, so that they cannot be carried back."""
     is_flattened = np.zeros(count, bool)
-    for part in recognised.parts:
+    for part in recognized.parts:
         is_flattened[part.rows] = part.map.is_flattened
     return is_flattened

@@ -14,7 +14,7 @@ from ..access.attributes import FIRST, our_attributes, remove_attribute
 from ..access.note import read_note, write_note
 from ..access.rotations import matrices_from_quaternions, quaternions_from_matrices
 from ..access.shapes import Shapes
-from .original import RESULT, Start, is_lost, original_shapes, recognise_result, starts_here
+from .original import RESULT, Start, is_lost, original_shapes, recognize_result, starts_here
 from .stored import Stored
 
 _FIRST = Stored(FIRST, f"{FIRST}.rotation", "first")
@@ -30,8 +30,8 @@ def first_shapes(mesh: bpy.types.Mesh) -> Shapes | None:
     if not has_first(mesh) or is_lost(mesh):
         return None
     later = original_shapes(mesh, "ORIGINAL")
-    recognised = _FIRST.recognise(mesh, later.base)
-    return None if recognised is None else _FIRST.shapes_before(mesh, later, recognised)
+    recognized = _FIRST.recognize(mesh, later.base)
+    return None if recognized is None else _FIRST.shapes_before(mesh, later, recognized)
 
 
 def first_kept(mesh: bpy.types.Mesh, start: Start, original: Shapes) -> Callable[[], None]:
@@ -46,12 +46,12 @@ def first_kept(mesh: bpy.types.Mesh, start: Start, original: Shapes) -> Callable
     """
     if not starts_here(mesh, start):
         return lambda: None  # it is still that of the same original
-    recognised = recognise_result(mesh)
-    if recognised is None:
+    recognized = recognize_result(mesh)
+    if recognized is None:
         return lambda: drop_first(mesh)
     first = original_shapes(mesh, "ORIGINAL")
-    quaternions = RESULT.rotations(mesh, recognised)
-    earlier = _FIRST.recognise(mesh, first.base)
+    quaternions = RESULT.rotations(mesh, recognized)
+    earlier = _FIRST.recognize(mesh, first.base)
     if earlier is not None:
         turns = _FIRST.rotations(mesh, earlier)
         first = _FIRST.shapes_before(mesh, first, earlier)

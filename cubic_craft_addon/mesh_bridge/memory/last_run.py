@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from ....solver.console.crossing_words import crossing_words
+from ....solver.console.crossing_words import end_words
 from ..access.note import read_note, write_note
 
 
@@ -46,11 +46,9 @@ class LastRun:
         if self.matching is not None:
             of_what += f", {self.matching:,} of {self.own_vertices:,} match"
         end = "converged" if self.converged else "not converged, raise Max Iterations"
-        crossing, _ = crossing_words(self.crossings, self.pressed)
-        end += f", {crossing}" if crossing else ""
         return (
             f"{self.vertices:,} vertices{of_what}, {self.iterations} iterations, energy"
-            f" {self.energy:.5f}, {end}, {self.seconds:.2f} s on {self.device}"
+            f" {self.energy:.5f}, {end_words(end, self)}, {self.seconds:.2f} s on {self.device}"
         )
 
 

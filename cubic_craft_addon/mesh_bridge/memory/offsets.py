@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognise a shape key that Blender has moved along with its Basis.
+"""Recognize a shape key that Blender has moved along with its Basis.
 
 Editing Basis in Edit or Sculpt Mode shifts the other keys by the same, rounded to float32: their
 offsets from Basis stay, but not to the bit, so a hash cannot tell. A few sums of all offsets,

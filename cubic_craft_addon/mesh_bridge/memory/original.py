@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The original of a mesh that we have written to: stored, recognised, or discarded.
+"""The original of a mesh that we have written to: stored, recognized, or discarded.
 
 The original is stored in point attributes of the mesh, together with our result, so it is saved,
 copied, joined and undone with the mesh. If the base is our result, possibly transformed as a whole
@@ -25,7 +25,7 @@ from ..access.attributes import (
 from ..access.note import read_note, write_note
 from ..access.shapes import Shapes, read_shapes
 from .cubic_key import find_cubic_key
-from .recognition import Recognised
+from .recognition import Recognized
 from .stored import Stored
 
 Start = Literal["HERE", "ORIGINAL", "EDITS"]
@@ -66,12 +66,12 @@ def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarra
         Edit Mode, or coordinates that are not finite.
     """
     present = _base(mesh)
-    recognised = _start_of(mesh, start)
-    if recognised is None or start == "EDITS":  # then edits go onto the result
+    recognized = _start_of(mesh, start)
+    if recognized is None or start == "EDITS":  # then edits go onto the result
         _finite(present, mesh)
-    if recognised is None:
+    if recognized is None:
         return present
-    return _finite(recognised.moved(RESULT.base(mesh), present), mesh)
+    return _finite(recognized.moved(RESULT.base(mesh), present), mesh)
 
 
 def has_original(mesh: bpy.types.Mesh | None) -> bool:
@@ -83,7 +83,7 @@ def has_original(mesh: bpy.types.Mesh | None) -> bool:
     if not isinstance(mesh, bpy.types.Mesh) or mesh.is_editmode:
         return False
     try:
-        return recognise_result(mesh) is not None or find_cubic_key(mesh) is not None
+        return recognize_result(mesh) is not None or find_cubic_key(mesh) is not None
     except CubicCraftError:
         return False
 
@@ -106,8 +106,8 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
     CubicCraftError
         The mesh is in Edit Mode, or has shape keys that do not fit.
     """
-    recognised = recognise_result(mesh)
-    return recognised is not None and recognised.is_edited
+    recognized = recognize_result(mesh)
+    return recognized is not None and recognized.is_edited
 
 
 def is_lost(mesh: bpy.types.Mesh) -> bool:
@@ -120,12 +120,12 @@ def is_lost(mesh: bpy.types.Mesh) -> bool:
     CubicCraftError
         As `is_edited`.
     """
-    return has_stored(mesh) and recognise_result(mesh) is None
+    return has_stored(mesh) and recognize_result(mesh) is None
 
 
-def recognise_result(mesh: bpy.types.Mesh) -> Recognised | None:
-    """Recognise the result on the mesh; None if it has no original."""
-    return RESULT.recognise(mesh, _base(mesh)) if has_stored(mesh) else None
+def recognize_result(mesh: bpy.types.Mesh) -> Recognized | None:
+    """Recognize the result on the mesh; None if it has no original."""
+    return RESULT.recognize(mesh, _base(mesh)) if has_stored(mesh) else None
 
 
 def has_stored(mesh: bpy.types.Mesh) -> bool:
@@ -144,8 +144,8 @@ def original_shapes(mesh: bpy.types.Mesh, start: Start = "HERE") -> Shapes:
     See `Stored.shapes_before`.
     """
     present = read_shapes(mesh, skip=find_cubic_key(mesh))
-    recognised = _start_of(mesh, start)
-    return present if recognised is None else RESULT.shapes_before(mesh, present, recognised)
+    recognized = _start_of(mesh, start)
+    return present if recognized is None else RESULT.shapes_before(mesh, present, recognized)
 
 
 def store_original(
@@ -177,12 +177,12 @@ def drop_stored(mesh: bpy.types.Mesh) -> None:
     write_note(mesh, note)
 
 
-def _start_of(mesh: bpy.types.Mesh, start: Start) -> Recognised | None:
-    """Return the recognised result if its original is requested."""
-    recognised = recognise_result(mesh)
-    if recognised is None or start != "HERE":
-        return recognised
-    return None if recognised.is_edited or has_strokes(mesh) else recognised
+def _start_of(mesh: bpy.types.Mesh, start: Start) -> Recognized | None:
+    """Return the recognized result if its original is requested."""
+    recognized = recognize_result(mesh)
+    if recognized is None or start != "HERE":
+        return recognized
+    return None if recognized.is_edited or has_strokes(mesh) else recognized
 
 
 def _base(mesh: bpy.types.Mesh) -> np.ndarray:

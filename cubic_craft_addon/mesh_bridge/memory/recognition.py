@@ -20,7 +20,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Recognised:
+class Recognized:
     """The vertices that we have written; those in no part have no original."""
 
     parts: tuple[Part, ...]
@@ -47,11 +47,11 @@ class Recognised:
         return points
 
 
-UNCHANGED = Recognised((Part(slice(None), IDENTITY),), is_edited=False)
+UNCHANGED = Recognized((Part(slice(None), IDENTITY),), is_edited=False)
 
 
-def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Recognised | None:
-    """Recognise a result.
+def recognize(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Recognized | None:
+    """Recognize a result.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Re
 
     Returns
     -------
-    Recognised, or None if the original of some vertices cannot be determined
+    Recognized, or None if the original of some vertices cannot be determined
     """
     parts: list[Part] = []
     is_edited = False
     for rows in groups(marks):
-        found = _recognise_group(marks, written, present, rows)
+        found = _recognize_group(marks, written, present, rows)
         if found is None:
             return None
         parts += found.parts
@@ -74,7 +74,7 @@ def recognise(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Re
         return None
     if len(parts) == 1 and len(_rows(parts[0])) == len(marks) == marks[0, 2]:
         parts = [Part(slice(None), parts[0].map)]
-    return Recognised(tuple(parts), is_edited)
+    return Recognized(tuple(parts), is_edited)
 
 
 def _rows(part: Part) -> np.ndarray:
@@ -82,13 +82,13 @@ def _rows(part: Part) -> np.ndarray:
     return part.rows
 
 
-def _recognise_group(
+def _recognize_group(
     marks: np.ndarray, written: np.ndarray, present: np.ndarray, rows: np.ndarray
-) -> Recognised | None:
+) -> Recognized | None:
     """Do this for the vertices of one result, or of several copies of it."""
     at_once = fit(written[rows], present[rows])
     if at_once is not None:
-        return Recognised((Part(rows, at_once),), at_once.is_flattened)
+        return Recognized((Part(rows, at_once),), at_once.is_flattened)
     found, between = runs(marks, rows)
     if len(found) > _MOST_RUNS:
         return None
@@ -111,4 +111,4 @@ def _recognise_group(
         agrees = part.map.agrees(written[between], present[between])
         parts[place] = Part(np.concatenate([_rows(part), between[agrees]]), part.map)
         between = between[~agrees]
-    return Recognised(tuple(parts), is_edited) if parts and not len(between) else None
+    return Recognized(tuple(parts), is_edited) if parts and not len(between) else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An original and what was made from it, stored on the mesh: written, recognised, and read back."""
+"""An original and what was made from it, stored on the mesh: written, recognized, and read back."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -15,7 +15,7 @@ from ..access.rotations import matrices_from_quaternions, quaternions_from_matri
 from ..access.shapes import Shapes
 from .carried_back import carry_back, ways_back
 from .marks import make_marks
-from .recognition import UNCHANGED, Recognised, recognise
+from .recognition import UNCHANGED, Recognized, recognize
 
 _UNTURNED = (1, 0, 0, 0)
 
@@ -37,8 +37,8 @@ class Stored:
         """Return whether it is on the mesh, valid or stale. Cheap: it reads no positions."""
         return self.original in our_attributes(mesh, (self.original,))
 
-    def recognise(self, mesh: bpy.types.Mesh, base: np.ndarray) -> Recognised | None:
-        """Recognise what was written in the base (n,3); None if its original is unknown."""
+    def recognize(self, mesh: bpy.types.Mesh, base: np.ndarray) -> Recognized | None:
+        """Recognize what was written in the base (n,3); None if its original is unknown."""
         if not self.is_on(mesh):
             return None
         stored = read_note(mesh).get(self.part)
@@ -50,10 +50,10 @@ class Stored:
             return None  # deleted, or by a version that had none
         if stored is not None and _has_other_reference(mesh, stored):
             return None
-        return recognise(marks, written, base)
+        return recognize(marks, written, base)
 
     def base(self, mesh: bpy.types.Mesh) -> np.ndarray:
-        """Read the original base as found by `recognise`."""
+        """Read the original base as found by `recognize`."""
         values = read_attribute(mesh, self.original, 3)
         assert values is not None
         return values
@@ -63,23 +63,23 @@ class Stored:
         return read_attribute(mesh, f"{self.original}.written", 3)
 
     def shapes_before(
-        self, mesh: bpy.types.Mesh, present: Shapes, recognised: Recognised
+        self, mesh: bpy.types.Mesh, present: Shapes, recognized: Recognized
     ) -> Shapes:
         """Return all shapes as they were before, where `present` is what the mesh has now.
 
         Shape keys that are still as we wrote them get their original bits, also under another
         name. Those that the artist has added or edited since are carried back onto the original.
         """
-        shapes = self._positions_before(mesh, present, recognised)
-        return replace(shapes, normals=self._normals_before(mesh, present, recognised))
+        shapes = self._positions_before(mesh, present, recognized)
+        return replace(shapes, normals=self._normals_before(mesh, present, recognized))
 
-    def rotations(self, mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+    def rotations(self, mesh: bpy.types.Mesh, recognized: Recognized) -> np.ndarray:
         """Return the rotations as quaternions (n,4), turned with what has been transformed."""
         quaternions = read_attribute(mesh, self.rotation, 4)
         if quaternions is None:
             return np.tile(np.array(_UNTURNED, np.float32), (len(mesh.vertices), 1))
         quaternions[np.square(quaternions).sum(axis=1) < 1e-6] = _UNTURNED
-        for part in recognised.parts:
+        for part in recognized.parts:
             if not part.map.is_identity:
                 linear = part.map.linear
                 rotations = matrices_from_quaternions(quaternions[part.rows])
@@ -87,10 +87,10 @@ class Stored:
                 quaternions[part.rows] = quaternions_from_matrices(U @ Vt)
         return quaternions
 
-    def ways_back(self, mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+    def ways_back(self, mesh: bpy.types.Mesh, recognized: Recognized) -> np.ndarray:
         """Return the maps (n,3,3) that carry offsets from what is there back to the original."""
         quaternions = read_attribute(mesh, self.rotation, 4)
-        return ways_back(recognised, quaternions, len(mesh.vertices)).with_mesh
+        return ways_back(recognized, quaternions, len(mesh.vertices)).with_mesh
 
     def write(
         self, mesh: bpy.types.Mesh, original: Shapes, written: Shapes, quaternions: np.ndarray
@@ -124,10 +124,10 @@ class Stored:
             part["normals"] = fingerprint(written.normals)
         write_note(mesh, read_note(mesh) | {self.part: part})
 
-    def _positions_before(self, mesh, present, recognised):
+    def _positions_before(self, mesh, present, recognized):
         """Return the positions and the shape keys as they were before."""
         stored_base = self.base(mesh)
-        base = recognised.moved(stored_base, present.base)
+        base = recognized.moved(stored_base, present.base)
         if present.reference is None:
             return Shapes(base, {}, None, {})
         entries = read_note(mesh).get(self.part, {}).get("keys", [])
@@ -135,19 +135,19 @@ class Stored:
         stored = {name: values for name, values in points.items() if values is not None}
         keys = carry_back(
             present,
-            recognised,
+            recognized,
             base,
             read_attribute(mesh, self.rotation, 4),
-            _known_keys(mesh, entries, present) if recognised.is_in_place else {},
+            _known_keys(mesh, entries, present) if recognized.is_in_place else {},
             stored | {present.reference: stored_base},
         )
         position = None
-        if recognised.is_whole:
+        if recognized.is_whole:
             position = read_attribute(mesh, f"{self.original}.position", 3)
-        position = base if position is None else recognised.moved(position, present.position)
+        position = base if position is None else recognized.moved(position, present.position)
         return Shapes(position, keys, present.reference, present.relative)
 
-    def _normals_before(self, mesh, present, recognised):
+    def _normals_before(self, mesh, present, recognized):
         """Return the free normals as they were before; those that are new are turned back."""
         noted = read_note(mesh).get(self.part, {}).get("normals")
         if present.normals is None or noted is None:  # a version that did not turn them wrote it
@@ -156,7 +156,7 @@ class Stored:
         stored = read_attribute(mesh, name, 3, domain_of_free_normals(mesh) or "")
         if stored is not None and noted == fingerprint(present.normals):
             return stored
-        return turned(mesh, present.normals, self.ways_back(mesh, recognised))
+        return turned(mesh, present.normals, self.ways_back(mesh, recognized))
 
 
 def _has_other_reference(mesh: bpy.types.Mesh, stored: dict[str, Any]) -> bool:

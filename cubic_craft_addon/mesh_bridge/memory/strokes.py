@@ -12,8 +12,8 @@ import numpy as np
 from ..access.attributes import read_attribute
 from ..access.rounded_for_storage import check_shape
 from .cubic_key import find_cubic_key, key_strokes
-from .original import RESULT, STROKES, Start, has_strokes, read_positions, recognise_result
-from .recognition import Recognised
+from .original import RESULT, STROKES, Start, has_strokes, read_positions, recognize_result
+from .recognition import Recognized
 
 
 def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
@@ -30,14 +30,14 @@ def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
     """
     if start != "EDITS":
         return None
-    recognised = recognise_result(mesh)
-    if recognised is None:
+    recognized = recognize_result(mesh)
+    if recognized is None:
         return key_strokes(mesh) if find_cubic_key(mesh) is not None else None
-    if not (recognised.is_edited or has_strokes(mesh)):
+    if not (recognized.is_edited or has_strokes(mesh)):
         return None
-    strokes = _earlier(mesh, recognised)
-    if recognised.is_edited:
-        strokes += _since(mesh, recognised)
+    strokes = _earlier(mesh, recognized)
+    if recognized.is_edited:
+        strokes += _since(mesh, recognized)
     if not strokes.any():
         return None
     with np.errstate(over="ignore"):  # infinities are refused when the result is written
@@ -57,16 +57,16 @@ def offsets_by_hand(mesh: bpy.types.Mesh) -> np.ndarray | None:
     CubicCraftError
         As `is_edited`, or coordinates that are not finite.
     """
-    recognised = recognise_result(mesh)
-    return _since(mesh, recognised) if recognised is not None and recognised.is_edited else None
+    recognized = recognize_result(mesh)
+    return _since(mesh, recognized) if recognized is not None and recognized.is_edited else None
 
 
 def moved_as_a_whole(mesh: bpy.types.Mesh, points: np.ndarray) -> np.ndarray | None:
     """Move points (n,3) of object space as the mesh was since the result; None if it is none."""
-    recognised = recognise_result(mesh)
-    if recognised is None or not recognised.is_whole:
+    recognized = recognize_result(mesh)
+    if recognized is None or not recognized.is_whole:
         return None
-    return recognised.parts[0].map.moved(points)
+    return recognized.parts[0].map.moved(points)
 
 
 def with_strokes(
@@ -101,25 +101,25 @@ def with_strokes(
     return result
 
 
-def _earlier(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+def _earlier(mesh: bpy.types.Mesh, recognized: Recognized) -> np.ndarray:
     """Return the strokes (n,3) float64 in the result, transformed with the mesh."""
     stored = read_attribute(mesh, STROKES, 3)
     strokes = np.zeros((len(mesh.vertices), 3))
     if stored is None:
         return strokes
-    for part in recognised.parts:
+    for part in recognized.parts:
         strokes[part.rows] = stored[part.rows].astype(np.float64) @ part.map.linear.T
     return strokes
 
 
-def _since(mesh: bpy.types.Mesh, recognised: Recognised) -> np.ndarray:
+def _since(mesh: bpy.types.Mesh, recognized: Recognized) -> np.ndarray:
     """Return the strokes (n,3) float64 made since the result."""
     present = read_positions(mesh)
     written = RESULT.written(mesh)
-    assert written is not None  # or it would not have been recognised as edited
-    offset = present.astype(np.float64) - recognised.moved(written, present)
-    for part in recognised.parts:
+    assert written is not None  # or it would not have been recognized as edited
+    offset = present.astype(np.float64) - recognized.moved(written, present)
+    for part in recognized.parts:
         if not part.map.is_identity:  # whose rounding is no stroke
             is_still = part.map.agrees(written[part.rows], present[part.rows])
             offset[part.rows] = np.where(is_still[:, None], 0.0, offset[part.rows])
-    return np.einsum("nij,nj->ni", RESULT.ways_back(mesh, recognised), offset)
+    return np.einsum("nij,nj->ni", RESULT.ways_back(mesh, recognized), offset)

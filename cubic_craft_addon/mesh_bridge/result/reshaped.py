@@ -21,10 +21,10 @@ from ..memory.original import (
     drop_stored,
     original_shapes,
     read_positions,
-    recognise_result,
+    recognize_result,
     store_original,
 )
-from ..memory.recognition import Recognised
+from ..memory.recognition import Recognized
 from ..memory.strokes import read_strokes
 from ..preview.end import end_preview
 from .results import reshape_key
@@ -53,7 +53,7 @@ def result_positions(obj: bpy.types.Object) -> np.ndarray:
     if key is not None:
         return read_key(mesh, key)
     positions = read_positions(mesh)
-    _recognised(mesh, obj.name)
+    _recognized(mesh, obj.name)
     return positions
 
 
@@ -81,9 +81,9 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
     if find_cubic_key(mesh) is not None:
         reshape_key(obj, positions, run)
         return
-    recognised = _recognised(mesh, obj.name)
+    recognized = _recognized(mesh, obj.name)
     present, original = read_shapes(mesh), original_shapes(mesh, "ORIGINAL")
-    quaternions = RESULT.rotations(mesh, recognised)
+    quaternions = RESULT.rotations(mesh, recognized)
     strokes = read_strokes(mesh, "EDITS")
     positions = rounded_for_storage(mesh, positions, present.base, loose_vertices(mesh))
     unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
@@ -95,9 +95,9 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
         write_shapes(mesh, written)
 
 
-def _recognised(mesh: bpy.types.Mesh, name: str) -> Recognised:
-    """Recognise the result on a mesh, or refuse it."""
-    found = recognise_result(mesh)
+def _recognized(mesh: bpy.types.Mesh, name: str) -> Recognized:
+    """Recognize the result on a mesh, or refuse it."""
+    found = recognize_result(mesh)
     if found is None:
         raise CubicCraftError(
             f'"{name}" has no result whose original is known: cubify it again, which starts from '

@@ -43,10 +43,10 @@ def test_each_handle_is_grabbed_in_the_middle_of_its_part(places, live, begin):
     assert (one.number, other.number) == (0, 1)
     world = np.array(obj.matrix_world)
     np.testing.assert_allclose(
-        one.centre_in_world, mapped(middle(rest[left])[None], world)[0], atol=1e-5
+        one.center_in_world, mapped(middle(rest[left])[None], world)[0], atol=1e-5
     )
     posed = mapped(middle(rest[right])[None], np.array(obj.matrix_world @ BENT))[0]
-    np.testing.assert_allclose(other.centre_in_world, posed, atol=1e-5)
+    np.testing.assert_allclose(other.center_in_world, posed, atol=1e-5)
     # The vertices are there: the middle of an affine image is the image of the middle.
     moved = mapped(rest[right], np.array(BENT))
     np.testing.assert_allclose(position_of(obj.data)[right], moved, atol=1e-6)
@@ -84,19 +84,19 @@ def test_the_list_may_change_while_live_runs(places, live, begin):
     rest = position_of(obj.data)
     session = tick_to_rest(begin(obj))
     middles = places.Middles()
-    before = [place.centre for place in places.places_of(obj, middles)]
+    before = [place.center for place in places.places_of(obj, middles)]
     obj.cubic_craft.active_handle = 1
     bpy.ops.cubic_craft.handle_move(direction="UP")
     assert places.places_of(obj, middles) == [], "Live has not seen it yet"
     tick_to_rest(session)
-    after = [place.centre for place in places.places_of(obj, middles)]
+    after = [place.center for place in places.places_of(obj, middles)]
     assert np.array_equal(after, before[::-1])
     obj.vertex_groups[RIGHT].remove(right[1:].tolist())
     obj.update_tag()
     session.on_mesh_update()
     tick_to_rest(session)
     first, _ = places.places_of(obj, middles)
-    np.testing.assert_allclose(first.centre, rest[right[0]], atol=1e-6)
+    np.testing.assert_allclose(first.center, rest[right[0]], atol=1e-6)
     live.live_properties().use_handles = False
     tick_to_rest(session)
     assert places.places_of(obj, middles) == []

@@ -12,7 +12,7 @@ from solver.mesh.components import components
 from solver.mesh.rest_measures import areas_and_normals
 from solver.proxy.closest_point import closest_points
 from solver.proxy.nearest_triangles import NearestTriangles
-from solver.proxy.neighbours import neighbour_links
+from solver.proxy.neighbors import neighbor_links
 from solver.proxy.samples import extents
 
 LEAF = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]), [[0, 1, 2], [0, 2, 3]]
@@ -67,7 +67,7 @@ def test_many_parts_take_little_memory():
     V, F, part, count = leaves(6000, 0.01, [shapes.sphere(3)])
     areas, normals = areas_and_normals(V, F)
     tracemalloc.start()
-    neighbour_links(V, F, normals, areas, part, count)
+    neighbor_links(V, F, normals, areas, part, count)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 3000 * len(V)

@@ -17,7 +17,7 @@ from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.mesh.triangles import Triangles
 from solver.proxy.closest_point import closest_points
 from solver.proxy.links import Links, links_between, links_to_triangles
-from solver.proxy.neighbours import neighbour_links
+from solver.proxy.neighbors import neighbor_links
 from solver.proxy.thickness import outward_sign, thickness_links
 from solver.proxy.through import links_through
 
@@ -80,7 +80,7 @@ def neighbours_of(V, F):
     V = (V - V.min(axis=0)) / np.ptp(V, axis=0).max()
     areas, normals = areas_and_normals(V, F)
     count, part = components(F, len(V))
-    return neighbour_links(V, F, normals, areas, part, count), part
+    return neighbor_links(V, F, normals, areas, part, count), part
 
 
 def test_a_ball_is_linked_where_it_sits():

@@ -38,8 +38,8 @@ _UPRIGHT = 0.7  # cosine between a link within LAYER and the normal of the trian
 _PARALLEL = 0.5  # cosine between the normals of layers
 
 
-def neighbour_links(V, F, normals, areas, part, count):
-    """Return links between neighbours of different parts.
+def neighbor_links(V, F, normals, areas, part, count):
+    """Return links between neighbors of different parts.
 
     Parameters
     ----------
