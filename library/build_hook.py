@@ -46,10 +46,8 @@ class WheelHook(BuildHookInterface):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Stage the files; hatchling calls it before it builds.
 
-        Raises
-        ------
-        ValueError
-            An editable install, whose files could not have other imports than the sources.
+        Raises ValueError: an editable install, whose files could not have other imports than the
+        sources.
         """
         if version == "editable":
             raise ValueError(

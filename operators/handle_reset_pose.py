@@ -4,11 +4,11 @@
 import bpy
 
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.handles.handle import IDENTITY
 from ..cubic_craft_addon.handles.own_pose import set_own_pose
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
 from ..cubic_craft_addon.object_properties import object_properties
+from ..solver.pieces.handle_pose import IDENTITY
 from ._shared.selection import poll_mesh
 
 

@@ -19,8 +19,6 @@ if SCRIPTS not in sys.path:  # Blender does not put a script's folder there
 import cubic_craft  # noqa: E402
 from cubic_craft.cubic_craft_addon.command_line.main import Program, main_of  # noqa: E402
 
-__all__ = ("leave", "main")
-
 IS_INSIDE_BLENDER = "bpy" in sys.modules
 NAME = "headless_render.py"
 

@@ -29,10 +29,7 @@ class Momentum:
 
     Each component has its own momentum, so that it moves as it would alone.
 
-    Parameters
-    ----------
-    count : int
-        Number of components.
+    `count`: int, number of components.
     """
 
     def __init__(self, count):
@@ -49,12 +46,8 @@ class Momentum:
     def next(self):
         """Return how far to extrapolate from the new positions, for each component.
 
-        Returns
-        -------
-        momentum : (count,) array
-            As a multiple of the last displacement.
-        overshoot : (count,) array
-            As a multiple of the step from the extrapolated point to the new positions.
+        Returns `momentum`: (count,), as a multiple of the last displacement; `overshoot`: (count,),
+        as a multiple of the step from the extrapolated point to the new positions.
         """
         t_next = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * self._t * self._t))
         momentum, overshoot = (self._t - 1.0) / t_next, OVERSHOOT * self._t / t_next

@@ -46,16 +46,9 @@ _LEAST_AREA = 1e-12
 def radii(size, thickness, part_sizes, is_alone):
     """Return how far the normals of each vertex are averaged, (n,).
 
-    Parameters
-    ----------
-    size : (n,) array
-        Of the details, in the unit box.
-    thickness : (n,) array
-        Of the surface, infinite where it has none.
-    part_sizes : (n,) array
-        Largest extent of the part of each vertex.
-    is_alone : (n,) bool array
-        Whether the part touches no other.
+    `size`: (n,), of the details, in the unit box. `thickness`: (n,), of the surface, infinite where
+    it has none. `part_sizes`: (n,), largest extent of the part of each vertex. `is_alone`: (n,)
+    bool, whether the part touches no other.
     """
     is_detail = ~is_alone & (part_sizes <= SMALL_PART * size)
     return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
@@ -64,18 +57,10 @@ def radii(size, thickness, part_sizes, is_alone):
 def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
-    Parameters
-    ----------
-    graph : FaceGraph
-    radius : (m,) array
-        See `radii`.
-    coupling : (k,) array
-        Of the pairs of triangles of the graph, from 0 across the sharp creases of flat sides, where
-        nothing is averaged, to 1.
-    outward : (m,) array, optional
-        -1 for triangles of parts that are inside out.
-    rounds : int
-        In which edges become sharp again.
+    `graph`: FaceGraph. `radius`: (m,), see `radii`. `coupling`: (k,), of the pairs of triangles of
+    the graph, from 0 across the sharp creases of flat sides, where nothing is averaged, to 1.
+    `outward`: (m,), optional, -1 for triangles of parts that are inside out. `rounds`: int, in
+    which edges become sharp again.
     """
     conductance = coupling * graph.length / graph.distance
     conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
@@ -96,12 +81,7 @@ def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=
 def at_vertices(normals, areas, F, n):
     """Return the means of normals (m,3) of triangles at the vertices, and how far they agree.
 
-    Returns
-    -------
-    (n,3) array
-        Unit normals, or zero.
-    (n,) array
-        l, between 0 and 1.
+    Returns (n,3), unit normals, or zero; (n,), l, between 0 and 1.
     """
     corners = F.ravel()
     sums = [np.bincount(corners, np.repeat(areas * x, 3), n) for x in normals.T]

@@ -25,11 +25,7 @@ class FromBelow:
     There are none for the plain iteration, for a Stylization that has been started from elsewhere
     than rest, and up to cubeness `FIRST`. They have at most half of the iterations.
 
-    Parameters
-    ----------
-    stylization : Stylization
-    max_iterations : int
-        Of the run.
+    `stylization`: Stylization. `max_iterations`: int, of the run.
     """
 
     def __init__(self, stylization, max_iterations):

@@ -16,15 +16,8 @@ _LINUX = Path("/proc/meminfo")
 def check_memory(vertices, triangles):
     """Check that a run fits into the free memory; if that is unknown, nothing is refused.
 
-    Parameters
-    ----------
-    vertices, triangles : int
-        Numbers of the mesh.
-
-    Raises
-    ------
-    CubicCraftError
-        It does not fit; the message has the estimate, the free memory, and what to do.
+    `vertices`, `triangles`: int, numbers of the mesh. Raises CubicCraftError: it does not fit; the
+    message has the estimate, the free memory, and what to do.
     """
     # A closed mesh has two triangles for each vertex; what has more needs more.
     needed = BYTES_PER_VERTEX * max(vertices, triangles // 2)

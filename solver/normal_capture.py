@@ -134,20 +134,10 @@ class NormalCapture:
 def targets_for(captures, numbers, strength, Q, normals):
     """Return the normals that those of a mesh are drawn to, and how strongly.
 
-    Parameters
-    ----------
-    captures : list of NormalCapture
-    numbers : (n,) int array
-        Which of them each vertex has.
-    strength : (n,) array
-    Q : (n,3,3) or (1,3,3) array
-        Orientations, from where the normals are to the frame of the captures.
-    normals : (n,3) array
-
-    Returns
-    -------
-    (n,4) array
-        Unit normals and strengths; all zero where there is nothing to face.
+    `captures`: list of NormalCapture. `numbers`: (n,) int, which of them each vertex has.
+    `strength`: (n,). `Q`: (n,3,3) or (1,3,3), orientations, from where the normals are to the frame
+    of the captures. `normals`: (n,3). Returns (n,4), unit normals and strengths; all zero where
+    there is nothing to face.
     """
     Q = np.broadcast_to(Q, (len(normals), 3, 3))
     found = np.zeros((len(normals), 4))

@@ -134,12 +134,8 @@ def curvature(*G):
 def is_definite(least, *entries):
     """Return whether a symmetric matrix is positive definite, and not by rounding alone.
 
-    Parameters
-    ----------
-    least : float
-        `MIN_CURVATURE`, in the precision of the entries.
-    *entries : scalars
-        The entries of the matrix and of its adjugate, as in `algebra.py`.
+    `least`: float, `MIN_CURVATURE`, in the precision of the entries. `*entries`: scalars, the
+    entries of the matrix and of its adjugate, as in `algebra.py`.
     """
     half_trace = trace(*entries[:9]) / 2
     is_positive = (half_trace > 0) & (entries[0] > 0) & (entries[17] > 0)

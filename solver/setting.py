@@ -5,8 +5,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import field, fields
 from typing import Any, NamedTuple
 
-__all__ = ("Setting", "declared", "setting")
-
 
 class Setting(NamedTuple):
     """What is declared of a setting."""
@@ -48,17 +46,9 @@ class Setting(NamedTuple):
 def setting(default: Any, numbers: Sequence[int] = (), **about: Any) -> Callable[..., Any]:
     """Return what makes the field of a dataclass, which is a setting, from its words.
 
-    Parameters
-    ----------
-    default
-    numbers : of the choices, if they are not their places
-    about : other fields of a `Setting`
-
-    Returns
-    -------
-    callable
-        Takes the label, the text, the help if there is an option, and ``choices``: as `Setting`
-        has them, or a dict of identifiers and "label: text".
+    `numbers`: of the choices, if they are not their places. `about`: other fields of a `Setting`.
+    Returns callable, takes the label, the text, the help if there is an option, and ``choices``: as
+    `Setting` has them, or a dict of identifiers and "label: text".
     """
 
     def declare(label: str, text: str, help: str | None = None, choices: Any = ()) -> Any:

@@ -24,11 +24,8 @@ _known: Kept[Angles] = Kept()
 def angles_now(obj: bpy.types.Object) -> Angles:
     """Return the angles of a mesh object as it is seen; the same ones until they change.
 
-    Raises
-    ------
-    CubicCraftError
-        SciPy is missing, the form or its orientation is not defined, because an object is not set,
-        or the object has no surface.
+    Raises CubicCraftError: SciPy is missing, the form or its orientation is not defined, because an
+    object is not set, or the object has no surface.
     """
     check_requirements()
     settings = live.settings_now(obj)

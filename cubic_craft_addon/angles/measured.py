@@ -42,16 +42,9 @@ class Angles:
 def remaining_angles(obj: bpy.types.Object, placement: Placement, settings: Settings) -> Angles:
     """Measure the angles on the surface of an object with its modifiers.
 
-    Parameters
-    ----------
-    obj
-    placement : of the object solved alone; its coordinates have the angles that are seen
-    settings : those of the object, for its regions
-
-    Raises
-    ------
-    CubicCraftError
-        The object has no surface.
+    `placement`: of the object solved alone; its coordinates have the angles that are seen.
+    `settings`: those of the object, for its regions. Raises CubicCraftError: the object has no
+    surface.
     """
     points, triangles = mesh_bridge.read_evaluated(obj)
     with np.errstate(invalid="ignore", over="ignore"):

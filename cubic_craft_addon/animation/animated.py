@@ -65,19 +65,9 @@ class Animated:
 class AnimatedGroup:
     """Objects that are solved together.
 
-    Parameters
-    ----------
-    objects : sequence of Animated
-    overrides : FrameSettings
-    start : FrameSettings, optional
-        Those that a share of 0 stands for, instead of the original.
-    is_process : bool
-        Whether only the settings change from frame to frame.
-
-    Raises
-    ------
-    CubicCraftError
-        They cannot be solved.
+    `start`: FrameSettings, optional, those that a share of 0 stands for, instead of the original.
+    `is_process`: whether only the settings change from frame to frame. Raises CubicCraftError: they
+    cannot be solved.
     """
 
     def __init__(
@@ -126,10 +116,7 @@ class AnimatedGroup:
     def begin_as(self, other: AnimatedGroup) -> None:
         """Continue from the shape of the same objects with other settings.
 
-        Raises
-        ------
-        CubicCraftError
-            The settings do not give the same vertices to the solver.
+        Raises CubicCraftError: the settings do not give the same vertices to the solver.
         """
         assert other.state is not None
         V = self._first.setup.rest.V
@@ -176,23 +163,10 @@ class AnimatedGroup:
     def solve(self, share: float = 1.0, *, is_again: bool = False):
         """Solve the present frame of the scene; a generator of a phase of the solver each.
 
-        Parameters
-        ----------
-        share : float
-            Of the cubeness.
-        is_again : bool
-            Take further steps, even if nothing has changed since the last frame.
-
-        Returns
-        -------
-        Frames
-            Of all vertices, in the coordinates of their objects.
-
-        Raises
-        ------
-        CubicCraftError
-            An object has another number of vertices than in the first frame, or has a setting that
-            is invalid.
+        `share`: of the cubeness. `is_again`: take further steps, even if nothing has changed since
+        the last frame. Returns Frames, of all vertices, in the coordinates of their objects. Raises
+        CubicCraftError: an object has another number of vertices than in the first frame, or has a
+        setting that is invalid.
         """
         unposed, members, moment = self._read(share)
         if self._last is None or moment != self.moment or is_again:
@@ -203,10 +177,7 @@ class AnimatedGroup:
     def read_moment(self) -> str:
         """Return what the result of the present frame of the scene depends on.
 
-        Raises
-        ------
-        CubicCraftError
-            As `solve`.
+        Raises CubicCraftError: as `solve`.
         """
         return self._read(1.0)[-1]
 

@@ -287,15 +287,8 @@ class Bake:
     def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
         """Write the files of what is solved, and make objects that play them back; not of a part.
 
-        Returns
-        -------
-        summary : str
-        problems : list of str
-
-        Raises
-        ------
-        CubicCraftError
-            No frame was solved, or not all of a part; the message lists all problems.
+        Returns `summary`: str; `problems`: list of str. Raises CubicCraftError: no frame was
+        solved, or not all of a part; the message lists all problems.
         """
         self._restore_scene()
         self._save()

@@ -11,10 +11,7 @@ import numpy as np
 def largest_steps(pieces: Iterable[np.ndarray]) -> np.ndarray:
     """Return how far the farthest vertex moves from each frame to the next, (f-1,).
 
-    Parameters
-    ----------
-    pieces : iterable of (f,k,3) arrays
-        Positions of some vertices each, in all frames.
+    `pieces`: iterable of (f,k,3), positions of some vertices each, in all frames.
     """
     steps = [np.linalg.norm(np.diff(piece, axis=0), axis=2).max(axis=1) for piece in pieces]
     return np.max(steps, axis=0)

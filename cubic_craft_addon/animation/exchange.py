@@ -30,10 +30,7 @@ def export_frames(objects: Sequence[bpy.types.Object], path: Path, start: int, e
 
     The selection, the frame and the range of the scene come back.
 
-    Raises
-    ------
-    CubicCraftError
-        Nothing was written.
+    Raises CubicCraftError: nothing was written.
     """
     scene = bpy.context.scene
     before = scene.frame_start, scene.frame_end

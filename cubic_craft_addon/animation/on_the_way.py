@@ -14,14 +14,8 @@ _STRENGTHS = [name for name, each in SETTINGS.items() if each.is_strength]
 def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
     """Return settings between two, which are those of the end at a share of 1.
 
-    Parameters
-    ----------
-    start : Settings or None
-        None is the original.
-    end : Settings
-        Whatever is not a strength or an angle is always as in these.
-    share : float
-        From 0 to 1.
+    `start`: Settings or None, none is the original. `end`: whatever is not a strength or an angle
+    is always as in these. `share`: from 0 to 1.
     """
     if share >= 1.0:
         return end

@@ -15,14 +15,8 @@ LEAD_IN = 8
 def part_of(count: int, number: int, parts: int) -> range:
     """Return the indices of the frames of a part, of so many frames in all.
 
-    Parameters
-    ----------
-    count : int
-        Of frames.
-    number : int
-        Of the part, from 1.
-    parts : int
-        How many there are; they differ by at most one frame.
+    `count`: of frames. `number`: of the part, from 1. `parts`: how many there are; they differ by
+    at most one frame.
     """
     return range((number - 1) * count // parts, number * count // parts)
 
@@ -30,10 +24,7 @@ def part_of(count: int, number: int, parts: int) -> range:
 def lead_in(moments: Sequence[str]) -> int:
     """Return the index of the first frame before a part that is solved for it.
 
-    Parameters
-    ----------
-    moments : sequence of str
-        What each of the frames before the part depends on.
+    `moments`: what each of the frames before the part depends on.
     """
     changes = [i for i in range(1, len(moments)) if moments[i] != moments[i - 1]]
     return changes[-LEAD_IN] if len(changes) >= LEAD_IN else 0

@@ -23,10 +23,7 @@ _PROCESS = ".process"
 class Places:
     """The files of a bake, in its folder, which is made.
 
-    Raises
-    ------
-    CubicCraftError
-        The folder cannot be used.
+    Raises CubicCraftError: the folder cannot be used.
     """
 
     def __init__(self, options: BakeOptions):

@@ -28,10 +28,7 @@ def stretch() -> float:
 
     What is baked counts the former, all that plays is given the latter.
 
-    Raises
-    ------
-    CubicCraftError
-        They are more than Blender can play back.
+    Raises CubicCraftError: they are more than Blender can play back.
     """
     render = bpy.context.scene.render
     factor = render.frame_map_new / render.frame_map_old
@@ -105,26 +102,10 @@ def _mesh_exchanged(baked, mesh):
 def play(baked: bpy.types.Object, cache: Path, path: Path, file_format: str, start: int) -> str:
     """Make a baked object play back the frames of a point cache from a frame on.
 
-    Parameters
-    ----------
-    baked : bpy.types.Object
-    cache : Path
-        The point cache, which is removed where another format plays.
-    path : Path
-        The file to play back, which is the cache itself in the format CACHE.
-    file_format : str
-    start : int
-        The first frame.
-
-    Returns
-    -------
-    str
-        The name of the file, or of the shape keys.
-
-    Raises
-    ------
-    CubicCraftError
-        This Blender cannot write or read the format.
+    `cache`: the point cache, which is removed where another format plays. `path`: the file to play
+    back, which is the cache itself in the format CACHE. `start`: the first frame. Returns the name
+    of the file, or of the shape keys. Raises CubicCraftError: this Blender cannot write or read the
+    format.
     """
     if file_format == "SHAPE_KEYS":
         _play_keys(baked, read_point_cache(cache), start)

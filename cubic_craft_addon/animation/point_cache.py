@@ -45,10 +45,7 @@ def new_point_cache(path: Path, frames: int, points: int) -> Iterator[np.ndarray
 def read_point_cache(path: Path) -> np.ndarray:
     """Return the positions (frames, points, 3) of a file, read when they are used.
 
-    Raises
-    ------
-    CubicCraftError
-        It is not a PC2 file, or it is incomplete.
+    Raises CubicCraftError: it is not a PC2 file, or it is incomplete.
     """
     with path.open("rb") as file:
         head = file.read(_HEADER.itemsize)

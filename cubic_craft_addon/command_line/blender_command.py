@@ -7,8 +7,6 @@ from typing import Any
 
 import bpy
 
-__all__ = ("register", "unregister")
-
 NAME = "cubic_craft"
 _handle: Any = None
 

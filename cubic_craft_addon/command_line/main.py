@@ -22,8 +22,6 @@ from .process.threads import thread_variables
 from .process.version import version
 from .process.watched_process import Limits, end_processes, finish, start
 
-__all__ = ("Program", "main_of")
-
 
 class Program(NamedTuple):
     """What somebody has started."""
@@ -86,10 +84,7 @@ def _run_one(options: Namespace, program: Program, begin: float) -> int:
 def _run_limited(options: Namespace, program: Program) -> int:
     """Run with one file in another process, and return its exit code.
 
-    Raises
-    ------
-    InputError
-        It has exceeded a limit.
+    Raises InputError: it has exceeded a limit.
     """
     before_ending(end_processes)
     process = start([*program.command(options.threads), *program.arguments, "--limited"])

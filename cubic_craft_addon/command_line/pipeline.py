@@ -22,21 +22,12 @@ from .solving.cubify_all import cubify_all
 from .writing.report import write_animation_report, write_report
 from .writing.save_meshes import check_exporter, save_meshes
 
-__all__ = ("run",)
-
 
 def run(options: Namespace, begin: float) -> None:
     """Do what the command line says.
 
-    Parameters
-    ----------
-    options : from `arguments.parse`
-    begin : `time.perf_counter` at the start of the script, for the report
-
-    Raises
-    ------
-    InputError
-        The input, an option or an output cannot be used.
+    `options`: from `arguments.parse`. `begin`: `time.perf_counter` at the start of the script, for
+    the report. Raises InputError: the input, an option or an output cannot be used.
     """
     empty_blender()
     if options.save_mesh:

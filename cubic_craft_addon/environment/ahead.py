@@ -30,10 +30,7 @@ _steps: Iterator[None] | None = None
 def load_ahead(device: str) -> None:
     """Begin to load, unless that has been done; for each redraw.
 
-    Parameters
-    ----------
-    device : str
-        Of the settings, such as "AUTO".
+    `device`: of the settings, such as "AUTO".
     """
     global _steps
     if _steps is not None or bpy.app.background:

@@ -7,8 +7,6 @@ from bpy import props
 
 from ...solver.setting import Setting
 
-__all__ = ("declared",)
-
 _KINDS = {
     (bool, False): props.BoolProperty,
     (bool, True): props.BoolVectorProperty,
@@ -22,12 +20,8 @@ _KINDS = {
 def declared(setting: Setting, **others: Any) -> Any:
     """Return the declaration of a property.
 
-    Parameters
-    ----------
-    setting : Setting
-    others : further arguments, or other ones
-        By default it can be animated, and an operator takes it from the object, not from its last
-        run (SKIP_SAVE).
+    `others`: further arguments, or other ones, by default it can be animated, and an operator takes
+    it from the object, not from its last run (SKIP_SAVE).
     """
     how: dict[str, Any] = {"options": {"SKIP_SAVE", "ANIMATABLE"}}
     how |= {"name": setting.label, "description": setting.text, "default": setting.default}

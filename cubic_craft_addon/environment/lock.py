@@ -28,10 +28,7 @@ class BusyError(CubicCraftError):
 class Lock:
     """What keeps others from a file or a folder, by a file beside it, until it is released.
 
-    Raises
-    ------
-    BusyError
-        Another process has it.
+    Raises BusyError: another process has it.
     """
 
     def __init__(self, path: Path):

@@ -16,10 +16,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
     After an exception, an earlier file is left as it was, and nothing else.
 
-    Raises
-    ------
-    BusyError
-        Another process writes it.
+    Raises BusyError: another process writes it.
     """
     partial = path.with_name(f".part-{path.name}")
     lock = Lock(path)

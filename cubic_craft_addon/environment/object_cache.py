@@ -39,13 +39,8 @@ _of_arrays: dict[tuple, Any] = {}
 def kept(obj: bpy.types.Object, what: Hashable, make: Callable[[], T]) -> T:
     """Return what is made from an object, made only if the object may have changed.
 
-    Parameters
-    ----------
-    obj
-    what : hashable
-        What is made, and all besides the evaluated geometry that it depends on.
-    make : callable
-        Makes it; what this raises is raised each time.
+    `what`: hashable, what is made, and all besides the evaluated geometry that it depends on.
+    `make`: makes it; what this raises is raised each time.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()  # evaluates, which may report changes
     if not _is_watched(obj, depsgraph):

@@ -17,10 +17,7 @@ _broken = ""
 def check_requirements() -> None:
     """Check that SciPy works, before it is used; without an engine NumPy solves.
 
-    Raises
-    ------
-    CubicCraftError
-        SciPy is missing, or it cannot be imported.
+    Raises CubicCraftError: SciPy is missing, or it cannot be imported.
     """
     check_known_requirements()
     try:  # what every run imports
@@ -35,10 +32,8 @@ def check_requirements() -> None:
 def check_known_requirements() -> None:
     """Do as `check_requirements`, but import nothing: for each redraw.
 
-    Raises
-    ------
-    CubicCraftError
-        SciPy is missing, or an earlier check has found that it cannot be imported.
+    Raises CubicCraftError: SciPy is missing, or an earlier check has found that it cannot be
+    imported.
     """
     if not _has_scipy():
         raise CubicCraftError(

@@ -15,10 +15,7 @@ from ...solver.errors import CubicCraftError
 def only_selected(objects: Sequence[bpy.types.Object]) -> Iterator[list[str]]:
     """Select these objects and no others; yields the names of those that cannot be.
 
-    Raises
-    ------
-    CubicCraftError
-        The first of them cannot be.
+    Raises CubicCraftError: the first of them cannot be.
     """
     view_layer = bpy.context.view_layer
     before, active = list(view_layer.objects.selected), view_layer.objects.active

@@ -30,11 +30,8 @@ def form_of(settings: FormSettings) -> Polytope | None:
 
     The same settings give the same object, so that forms can be compared by identity.
 
-    Raises
-    ------
-    CubicCraftError
-        The form is that of another object which is not set or cannot be used, or that of faces
-        of which none were picked.
+    Raises CubicCraftError: the form is that of another object which is not set or cannot be used,
+    or that of faces of which none were picked.
     """
     if settings.form != "CUBE":
         check_requirements()

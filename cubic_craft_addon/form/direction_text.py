@@ -21,10 +21,7 @@ def write_directions(directions: np.ndarray) -> str:
 def read_directions(text: str) -> np.ndarray:
     """Return the unit vectors (k,3) of a text that is not empty.
 
-    Raises
-    ------
-    CubicCraftError
-        These are not vectors with three numbers, or one is zero.
+    Raises CubicCraftError: these are not vectors with three numbers, or one is zero.
     """
     try:
         rows = np.array([[float(word) for word in row.split()] for row in text.split(",")])

@@ -32,10 +32,7 @@ def capture_of(obj: bpy.types.Object, settings: FormSettings) -> solver.NormalCa
 
     The same settings give the same object, so that captures can be compared by identity.
 
-    Raises
-    ------
-    CubicCraftError
-        The object that it is made from cannot be used.
+    Raises CubicCraftError: the object that it is made from cannot be used.
     """
     ball = settings.capture_object
     if ball is None or not has_capture(settings):

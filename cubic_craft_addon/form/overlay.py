@@ -34,16 +34,9 @@ _handle = None
 def lines_of(obj: bpy.types.Object):
     """Return the lines of the overlay for an object.
 
-    Returns
-    -------
-    points : (6 + 2e,3) array
-        World space; each two are a line: the three axes, then the edges of the form.
-    colors : list of as many RGBA tuples
-
-    Raises
-    ------
-    CubicCraftError
-        The form or its orientation is not defined, because an object is not set.
+    Returns `points`: (6 + 2e,3), world space; each two are a line: the three axes, then the edges
+    of the form; `colors`: list of as many RGBA tuples. Raises CubicCraftError: the form or its
+    orientation is not defined, because an object is not set.
     """
     corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
     center = (corners.min(axis=0) + corners.max(axis=0)) / 2

@@ -18,23 +18,9 @@ def picked_directions(
 ) -> tuple[np.ndarray, int]:
     """Return directions that make the selected faces sides of the form as it is turned now.
 
-    Parameters
-    ----------
-    obj
-    stretch, orientation : (3,3) array
-        Of `stretch_and_orientation`.
-
-    Returns
-    -------
-    directions : (k,3) array
-        Unit vectors in the frame of the form; they point to all sides.
-    count : int
-        Number of selected faces.
-
-    Raises
-    ------
-    CubicCraftError
-        No face is selected, or none has an area.
+    `stretch`, `orientation`: (3,3), of `stretch_and_orientation`. Returns `directions`: (k,3), unit
+    vectors in the frame of the form; they point to all sides; `count`: int, number of selected
+    faces. Raises CubicCraftError: no face is selected, or none has an area.
     """
     check_requirements()
     vectors = mesh_bridge.read_selected_faces(mesh_bridge.mesh_of(obj))

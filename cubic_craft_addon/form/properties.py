@@ -10,8 +10,6 @@ from ...solver.method import SETTINGS
 from ..environment.declared import declared
 from .pictures import items as form_items
 
-__all__ = ("form_property",)
-
 
 def form_property(name: str, **others: Any) -> Any:
     """Return the declaration of a setting, of an object or of a region; `others` as `declared`."""

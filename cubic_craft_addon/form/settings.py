@@ -30,10 +30,7 @@ def check_form_object(
 ) -> None:
     """Refuse a form that is to be made from another object if none is set.
 
-    Raises
-    ------
-    CubicCraftError
-        None is set.
+    Raises CubicCraftError: none is set.
     """
     if form in OF_OBJECT and form_object is None:
         raise CubicCraftError(f"no object is set for {whose}; pick one or choose another form")
@@ -42,10 +39,7 @@ def check_form_object(
 def check_directions(form: str, form_directions: str) -> None:
     """Refuse a form of faces if none were picked.
 
-    Raises
-    ------
-    CubicCraftError
-        None were picked.
+    Raises CubicCraftError: none were picked.
     """
     if form == "FACES" and not form_directions.strip():
         raise CubicCraftError(

@@ -5,6 +5,4 @@
 ``properties`` is saved with the objects.
 """
 
-from .handle import IDENTITY, THRESHOLD, Handle, handle_of
-
-__all__ = ("IDENTITY", "THRESHOLD", "Handle", "handle_of")
+from .handle import THRESHOLD, Handle, handle_of

@@ -29,10 +29,7 @@ def add_handle(obj, group):
 def members(obj, handle):
     """Return which vertices (n,) bool of the object are in the handle.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no such vertex group, or no vertex has enough weight.
+    Raises CubicCraftError: there is no such vertex group, or no vertex has enough weight.
     """
     found = mesh_bridge.group_weights(obj, handle.group) >= handle.threshold
     if not found.any():

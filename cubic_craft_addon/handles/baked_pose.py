@@ -21,11 +21,7 @@ from .pose import live_target, relation
 def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
     """Store the pose with which the mesh of the object has just been written.
 
-    Parameters
-    ----------
-    obj
-    is_posed : bool
-        The mesh itself has been written, with the object's own handles.
+    `is_posed`: the mesh itself has been written, with the object's own handles.
     """
     mesh = mesh_bridge.mesh_of(obj)
     users = _users(mesh) if mesh.users > 1 else [obj]

@@ -17,10 +17,7 @@ _SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
 def add_empty(context: bpy.types.Context, obj: Any, handle: Any) -> bpy.types.Object:
     """Return a new empty around the vertices of a handle, as they are seen.
 
-    Raises
-    ------
-    CubicCraftError
-        The handle has no vertices.
+    Raises CubicCraftError: the handle has no vertices.
     """
     is_member = members(obj, handle)
     shown = _shown_positions(context, obj)

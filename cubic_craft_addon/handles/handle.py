@@ -8,10 +8,8 @@ import bpy
 import numpy as np
 
 from ...solver.errors import CubicCraftError
-from ...solver.pieces.handle_pose import IDENTITY, HandlePose
+from ...solver.pieces.handle_pose import HandlePose
 from .. import mesh_bridge
-
-__all__ = ("IDENTITY", "THRESHOLD", "Handle", "handle_of")
 
 THRESHOLD = 0.5
 """default of the minimum weight that makes a vertex part of a handle"""
@@ -36,10 +34,7 @@ class Handle(HandlePose):
 def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
     """Return the number (n,) int of the handle that holds each vertex, -1 for free ones.
 
-    Raises
-    ------
-    CubicCraftError
-        A vertex group or a vertex does not exist.
+    Raises CubicCraftError: a vertex group or a vertex does not exist.
     """
     count = len(mesh_bridge.mesh_of(obj).vertices)
     result = np.full(count, -1)

@@ -16,8 +16,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
+from ...solver.pieces.handle_pose import IDENTITY
 from ..object_properties import object_properties
-from .handle import IDENTITY
 
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
@@ -36,11 +36,8 @@ def own_pose(handle: CubicCraftHandle) -> Pose:
 def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> None:
     """Refuse an invalid pose.
 
-    Raises
-    ------
-    CubicCraftError
-        It is not an affine map, or flattens the vertices; the message names the handle and the
-        remedy.
+    Raises CubicCraftError: it is not an affine map, or flattens the vertices; the message names the
+    handle and the remedy.
     """
     if pose == IDENTITY:
         return

@@ -21,9 +21,10 @@ import numpy as np
 from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
+from ...solver.pieces.handle_pose import IDENTITY
 from ..mesh_bridge import vertex_group
 from ..object_properties import has_properties, object_properties
-from .handle import IDENTITY, Handle
+from .handle import Handle
 from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
 
 if TYPE_CHECKING:
@@ -36,10 +37,7 @@ _DIGITS = 5  # of a matrix computed through world space
 def object_handles(obj: bpy.types.Object) -> tuple[Handle, ...]:
     """Return the handles of the object in their current pose; none while they are disabled.
 
-    Raises
-    ------
-    CubicCraftError
-        As `posed_handles`.
+    Raises CubicCraftError: as `posed_handles`.
     """
     return posed_handles(obj) if object_properties(obj).use_handles else ()
 
@@ -51,17 +49,9 @@ def posed_handles(
 
     It is cheap: it reads no vertices. If its target was deleted, a handle only has its own pose.
 
-    Parameters
-    ----------
-    obj
-    poses : mapping of int to Pose, optional
-        Instead of the own poses of the handles with these numbers (`identify`).
-
-    Raises
-    ------
-    CubicCraftError
-        A vertex group is missing, or a target or the object has an invalid transform;
-        the message names the object and the remedy.
+    `poses`: mapping of int to Pose, optional, instead of the own poses of the handles with these
+    numbers (`identify`). Raises CubicCraftError: a vertex group is missing, or a target or the
+    object has an invalid transform; the message names the object and the remedy.
     """
     return tuple(
         Handle(
@@ -98,10 +88,7 @@ def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
 def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
     """Return the matrix (4,4) of the handle's target in the coordinates of the object.
 
-    Raises
-    ------
-    CubicCraftError
-        The object has an invalid transform.
+    Raises CubicCraftError: the object has an invalid transform.
     """
     return _relation(obj, handle)[0]
 

@@ -8,17 +8,6 @@
 from .job import Job, Step
 from .watched import FIRST_SLICE, AnyJob, WatchedJob, current
 
-__all__ = (
-    "FIRST_SLICE",
-    "AnyJob",
-    "Job",
-    "Step",
-    "WatchedJob",
-    "current",
-    "register",
-    "unregister",
-)
-
 
 def register():
     """There is nothing to register before the first click."""

@@ -45,11 +45,7 @@ class Step:
 class Job:
     """Objects to be cubified, as they are now.
 
-    Parameters
-    ----------
-    overrides : SettingsOverrides
-    objects : list of bpy.types.Object
-        The active one first.
+    `objects`: the active one first.
     """
 
     cancel_text = "Cancel Cubify"
@@ -154,20 +150,9 @@ class Job:
     def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
         """Write what was solved.
 
-        Parameters
-        ----------
-        is_alone : bool
-            No other code has run since the job was made.
-
-        Returns
-        -------
-        summary : str
-        problems : list of str
-
-        Raises
-        ------
-        CubicCraftError
-            Nothing could be written; the message lists all problems.
+        `is_alone`: no other code has run since the job was made. Returns `summary`: str;
+        `problems`: list of str. Raises CubicCraftError: nothing could be written; the message lists
+        all problems.
         """
         objects = [task.obj for task in self._tasks]
         with settings_kept(_meshes(objects)):

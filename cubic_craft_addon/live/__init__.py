@@ -18,31 +18,13 @@ from .poses import pose_of, reset_poses, set_pose
 from .properties import live_overrides, live_properties
 from .session import Session
 
-__all__ = (
-    "Event",
-    "begin",
-    "current",
-    "live_properties",
-    "own_properties",
-    "pose_of",
-    "register",
-    "reset_poses",
-    "set_pose",
-    "settings_now",
-    "shared_properties",
-    "unregister",
-)
-
 _session: Session | None = None
 
 
 def begin(context, objects) -> Session:
     """Start the session; there is at most one.
 
-    Raises
-    ------
-    CubicCraftError
-        As `Session`.
+    Raises CubicCraftError: as `Session`.
     """
     global _session
     assert current() is None
@@ -69,10 +51,7 @@ def own_properties(obj: bpy.types.Object):
 def settings_now(obj: bpy.types.Object) -> Settings:
     """Return the settings that the panel shows for an object, without its handles.
 
-    Raises
-    ------
-    CubicCraftError
-        As `live_overrides`.
+    Raises CubicCraftError: as `live_overrides`.
     """
     if current() is None:
         return settings_of(obj, handles=())

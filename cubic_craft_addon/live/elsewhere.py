@@ -51,9 +51,7 @@ def _depends_on(obj, other):
 def leave_mode(objects: list[bpy.types.Object]) -> Any:
     """Go to Object Mode if one of the objects is in a mode in which it cannot be written.
 
-    Returns
-    -------
-    The mode that was left, or an empty text.
+    Returns the mode that was left, or an empty text.
     """
     active = bpy.context.view_layer.objects.active
     if active is None or all(obj.mode in MODES for obj in objects):

@@ -102,14 +102,8 @@ class Follower:
     def become(self, written: bpy.types.Object, undo: ExitStack | None) -> bpy.types.Object:
         """Become the result in place of a new object, which then is in no collection.
 
-        Parameters
-        ----------
-        written : as Cubify has made it
-        undo : what will take this back; None to remove the new object, as this is for good
-
-        Returns
-        -------
-        the object that is the result
+        `written`: as Cubify has made it. `undo`: what will take this back; None to remove the new
+        object, as this is for good. Returns the object that is the result.
         """
         obj = self.find()
         if obj is None:

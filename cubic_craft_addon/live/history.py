@@ -24,10 +24,7 @@ class TakeBack(Enum):
 class History:
     """The previous settings.
 
-    Parameters
-    ----------
-    values : dict
-        The settings at the start.
+    `values`: the settings at the start.
     """
 
     def __init__(self, values: dict[str, Any]):
@@ -59,9 +56,7 @@ class History:
     def record_undo(self, is_outside: bool) -> None:
         """Record that Blender has undone or redone a step.
 
-        Parameters
-        ----------
-        is_outside : whether Blender's state is one from after the start of Live
+        `is_outside`: whether Blender's state is one from after the start of Live.
         """
         self._is_outside = is_outside
 

@@ -12,8 +12,6 @@ from .followed_mesh import FollowedMesh
 from .live_mesh import LiveMesh
 from .plan import Plan
 
-__all__ = ("begin_previews", "has_preview", "mesh_of", "meshes_for", "still_there", "suit")
-
 
 def meshes_for(tasks: Iterable[Task]) -> list[LiveMesh]:
     """Return what shows the result of each task."""

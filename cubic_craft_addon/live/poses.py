@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import bpy
 
-from ..handles.handle import IDENTITY
+from ...solver.pieces.handle_pose import IDENTITY
 from ..handles.own_pose import Pose, identify, own_pose
 from ..handles.properties import CubicCraftHandle
 from ..object_properties import object_properties

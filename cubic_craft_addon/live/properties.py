@@ -87,10 +87,7 @@ def set_live_values(values: dict[str, Any]) -> None:
 def live_overrides(objects: list[bpy.types.Object]) -> SettingsOverrides:
     """Return the settings for objects, of which the active one is the first.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no object of a name that is asked for.
+    Raises CubicCraftError: there is no object of a name that is asked for.
     """
     values = live_values()
     posed = poses.by_object(values.pop(_POSES))

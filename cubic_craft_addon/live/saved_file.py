@@ -20,9 +20,7 @@ def write_for_file(
     A mesh whose shape key "Cubic" its result would replace is left as it is: Blender cannot bring
     a removed key back.
 
-    Returns
-    -------
-    What brings everything back once it is closed; if writing fails, this has been done.
+    Returns what brings everything back once it is closed; if writing fails, this has been done.
     """
     kept = [task for task in tasks if not _loses_key(task)]
     with contextlib.ExitStack() as stack:

@@ -52,20 +52,10 @@ def flat_facets(
 ) -> Facets:
     """Flatten the sides of a result.
 
-    Parameters
-    ----------
-    obj
-    angle : float
-        Largest angle between a side and the direction that it should face, in radians.
-    tolerance : float
-        Largest distance that a vertex may be moved by, relative to the largest extent.
-    with_polygons : bool
-        Also find the polygons of a low-poly shape.
-
-    Raises
-    ------
-    CubicCraftError
-        The object has no result, or none with sides that can be flattened.
+    `angle`: largest angle between a side and the direction that it should face, in radians.
+    `tolerance`: largest distance that a vertex may be moved by, relative to the largest extent.
+    `with_polygons`: also find the polygons of a low-poly shape. Raises CubicCraftError: the object
+    has no result, or none with sides that can be flattened.
     """
     check_requirements()
     mesh_bridge.check_editable(obj)

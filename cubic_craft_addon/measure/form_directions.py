@@ -23,16 +23,9 @@ def directions_at(
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Return the directions of the form and of all regions, and which count for each triangle.
 
-    Parameters
-    ----------
-    placement
-    triangles : (m,3) int array
-    shares : (n,1+r) array, from `region_shares`, or None without regions
-
-    Returns
-    -------
-    directions : (k,3) array, as of `form_directions`
-    counts : (m,k) bool array, or None if all count everywhere
+    `triangles`: (m,3) int. `shares`: (n,1+r), from `region_shares`, or None without regions.
+    Returns `directions`: (k,3), as of `form_directions`; `counts`: (m,k) bool, or None if all count
+    everywhere.
     """
     if shares is None:
         return form_directions(placement.style), None

@@ -13,8 +13,6 @@ from . import pictures
 from .files import INCLUDED_FOLDER
 from .selector import forget
 
-__all__ = ("register", "unregister")
-
 _ASSETS = str(Path(INCLUDED_FOLDER).parents[1])
 
 

@@ -81,10 +81,7 @@ def presets() -> list[Preset]:
 def find(identifier: str) -> Preset:
     """Return a preset by its identifier or its name.
 
-    Raises
-    ------
-    CubicCraftError
-        There is none.
+    Raises CubicCraftError: there is none.
     """
     for preset in presets():
         if identifier in (preset.identifier, preset.name):
@@ -95,10 +92,8 @@ def find(identifier: str) -> Preset:
 def save(name: str, properties: Any) -> Path:
     """Save settings under a name, and replace the preset of that name, if any.
 
-    Raises
-    ------
-    CubicCraftError
-        The name is invalid, or gives the file of another one, or that cannot be written.
+    Raises CubicCraftError: the name is invalid, or gives the file of another one, or that cannot be
+    written.
     """
     stem = name.strip().translate(_FORBIDDEN).strip("_")
     if not stem:
@@ -124,10 +119,7 @@ def save(name: str, properties: Any) -> Path:
 def remove(preset: Preset) -> None:
     """Delete the file of a preset, and its picture.
 
-    Raises
-    ------
-    CubicCraftError
-        It is an included preset, or cannot be deleted.
+    Raises CubicCraftError: it is an included preset, or cannot be deleted.
     """
     if preset.is_included:
         raise CubicCraftError(f'"{preset.name}" is included with CubicCraft and cannot be removed')

@@ -44,10 +44,7 @@ def preset_of(properties: Any) -> Preset | None:
 def apply(identifier: str, properties: Any) -> Preset:
     """Apply the settings of a preset, given by its identifier or its name.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no such preset.
+    Raises CubicCraftError: there is no such preset.
     """
     global _last_applied
     preset = find(identifier)

@@ -18,12 +18,8 @@ _DIGITS = 5  # of the places of bones, so that moving mesh and rig together chan
 def bone_places(obj: bpy.types.Object, rigged: bpy.types.Object | None = None) -> BonePlaces | None:
     """Return the places of the deform bones that have a vertex group on a mesh, None for none.
 
-    Parameters
-    ----------
-    obj
-        With the groups.
-    rigged : Object, optional
-        With the Armature modifier, if it is another one.
+    `obj`: with the groups. `rigged`: Object, optional, with the Armature modifier, if it is another
+    one.
     """
     rigged = rigged or obj
     rig = _rig(rigged)
@@ -50,16 +46,8 @@ def read_bones(
 ) -> Bones | None:
     """Read the bones of an object, None if none moves it.
 
-    Parameters
-    ----------
-    obj
-    original : (n,3) array
-        Object space.
-    whole : Whole
-    alone : Placement
-        Where the object is solved alone.
-    known : Bones, optional
-        Of the same shape, placement and weights; what has not changed is reused.
+    `original`: (n,3), object space. `alone`: where the object is solved alone. `known`: Bones,
+    optional, of the same shape, placement and weights; what has not changed is reused.
     """
     places = bone_places(obj)
     if places is None:
@@ -83,12 +71,8 @@ def read_posed_bones(
 ) -> Bones | None:
     """Read the bones of a mesh that has taken over the present pose of another object.
 
-    Parameters
-    ----------
-    obj, original, whole, alone
-        As for `read_bones`; the vertex groups are those of this one.
-    rigged : Object
-        Whose modifiers the mesh was made with.
+    `obj`, `original`, `whole`, `alone`: as for `read_bones`; the vertex groups are those of this
+    one. `rigged`: whose modifiers the mesh was made with.
     """
     places = bone_places(obj, rigged)
     pose = places and read_pose(rigged, places)

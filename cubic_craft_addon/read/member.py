@@ -110,16 +110,9 @@ def placed(members: Sequence[Member]) -> list[Member]:
 def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> ShapeRead:
     """Read the original shape of an object.
 
-    Parameters
-    ----------
-    obj
-    start : {"HERE", "ORIGINAL", "EDITS"}
-        Which shape is the original if the mesh was edited by hand since its last result.
-
-    Raises
-    ------
-    CubicCraftError
-        The object cannot be used; the message names it and the remedy.
+    `start`: {"HERE", "ORIGINAL", "EDITS"}, which shape is the original if the mesh was edited by
+    hand since its last result. Raises CubicCraftError: the object cannot be used; the message names
+    it and the remedy.
     """
     check_requirements()
     mesh_bridge.check_editable(obj)
@@ -139,20 +132,11 @@ def read_member(
 ) -> Member:
     """Read and check an object.
 
-    Parameters
-    ----------
-    obj, settings
-    known : Member, optional
-        Of the same object: unchanged data is reused. The shape has not changed.
-    weights_changed : bool
-        Whether the weights of vertex groups may have changed.
-    rigged : Object, optional
-        The object whose visible mesh this is, in the pose that it has now.
-
-    Raises
-    ------
-    CubicCraftError
-        The object or a setting cannot be used; the message names the object and the remedy.
+    `known`: Member, optional, of the same object: unchanged data is reused. The shape has not
+    changed. `weights_changed`: whether the weights of vertex groups may have changed. `rigged`:
+    Object, optional, the object whose visible mesh this is, in the pose that it has now. Raises
+    CubicCraftError: the object or a setting cannot be used; the message names the object and the
+    remedy.
     """
     begin = time.perf_counter()
     alone, in_world = placements(obj, settings, is_posed=rigged is not None)

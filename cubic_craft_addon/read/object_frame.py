@@ -35,10 +35,7 @@ def placements(
     The second is None for an object that is scaled flat: it is solved without its scale, and
     would be in the wrong place beside others.
 
-    Raises
-    ------
-    CubicCraftError
-        As `stretch_and_orientation`, and as `form_of`.
+    Raises CubicCraftError: as `stretch_and_orientation`, and as `form_of`.
     """
     alone = placement_alone(obj, settings, is_posed=is_posed)
     return alone, _in_world(obj, _world(obj, is_posed), settings, alone)
@@ -49,10 +46,7 @@ def placement_alone(
 ) -> Placement:
     """Return the placement of an object that is solved alone: its coordinates, stretched.
 
-    Raises
-    ------
-    CubicCraftError
-        As `stretch_and_orientation`.
+    Raises CubicCraftError: as `stretch_and_orientation`.
     """
     capture = capture_of(obj, settings)
     turn, stretch = _turn_and_stretch(_world(obj, is_posed))
@@ -64,10 +58,7 @@ def placement_alone(
 def _world(obj, is_posed=False):
     """Return the matrix of an object to the world.
 
-    Raises
-    ------
-    CubicCraftError
-        Its scale or rotation is not finite.
+    Raises CubicCraftError: its scale or rotation is not finite.
     """
     world = obj.matrix_world if is_posed else world_at_rest(obj)
     if not np.isfinite(np.array(world.to_3x3())).all():
@@ -124,18 +115,10 @@ def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
     S v, and the cube's frame is given in the same coordinates. So an object scaled flat becomes as
     cubic as the same mesh modeled flat.
 
-    Returns
-    -------
-    stretch : (3,3) array
-        S, invertible.
-    orientation : (3,3) array
-        The rotation Q that maps stretched object coordinates into the form's frame; a reflection
-        for a mirrored object.
-
-    Raises
-    ------
-    CubicCraftError
-        The space is FRAME and no frame object is set, or the object's matrix is not finite.
+    Returns `stretch`: (3,3), S, invertible; `orientation`: (3,3), the rotation Q that maps
+    stretched object coordinates into the form's frame; a reflection for a mirrored object. Raises
+    CubicCraftError: the space is FRAME and no frame object is set, or the object's matrix is not
+    finite.
     """
     turn, stretch = _turn_and_stretch(_world(obj))
     return stretch, _axes(settings).T @ _into_space(obj, settings, turn)
@@ -146,10 +129,7 @@ def world_axes(obj: bpy.types.Object, settings: Settings):
 
     Those of a mirrored object, which the angles are relative to, are left-handed.
 
-    Raises
-    ------
-    CubicCraftError
-        As `stretch_and_orientation`.
+    Raises CubicCraftError: as `stretch_and_orientation`.
     """
     turn, _ = _turn_and_stretch(_world(obj))
     return turn @ _into_space(obj, settings, turn).T @ _axes(settings)
@@ -160,10 +140,7 @@ def axes_of_angles(obj: bpy.types.Object, settings: Settings) -> np.ndarray:
 
     A reflection for a mirrored object.
 
-    Raises
-    ------
-    CubicCraftError
-        As `stretch_and_orientation`.
+    Raises CubicCraftError: as `stretch_and_orientation`.
     """
     return _into_space(obj, settings, _turn_and_stretch(_world(obj))[0])
 
@@ -181,10 +158,7 @@ def angles_of(obj: bpy.types.Object, settings: Settings, orientation):
 def check_frame(obj: bpy.types.Object, settings: Settings) -> None:
     """Refuse a space that is that of another object if none is set.
 
-    Raises
-    ------
-    CubicCraftError
-        None is set.
+    Raises CubicCraftError: none is set.
     """
     if settings.space == "FRAME" and settings.frame is None:
         raise CubicCraftError(

@@ -40,10 +40,8 @@ OWN = tuple(field.name for field in fields(Region) if field.name != "group")
 def object_regions(obj: bpy.types.Object) -> tuple[Region, ...]:
     """Return the regions of the object, even while they are disabled.
 
-    Raises
-    ------
-    CubicCraftError
-        A vertex group or the object of a form is missing; the message names the remedy.
+    Raises CubicCraftError: a vertex group or the object of a form is missing; the message names the
+    remedy.
     """
     items = object_properties(obj).regions
     return tuple(_region(obj, number, item) for number, item in enumerate(items, start=1))

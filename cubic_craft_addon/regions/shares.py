@@ -18,10 +18,7 @@ def region_shares(obj: bpy.types.Object, regions: Sequence[Region]) -> np.ndarra
     They add up to 1: what the weights of the regions leave is the object's, and where they are more
     than 1 together, they are scaled. None for an object without regions.
 
-    Raises
-    ------
-    CubicCraftError
-        A vertex group does not exist.
+    Raises CubicCraftError: a vertex group does not exist.
     """
     if not regions:
         return None

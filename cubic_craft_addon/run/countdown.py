@@ -27,11 +27,8 @@ class Countdown:
     ) -> tuple[tuple[str, ...], float]:
         """Return the words, from long to short, and the fraction that is done.
 
-        Parameters
-        ----------
-        iterated : what is done of the iterations, from 0 to 1, which never decreases
-        now : the time in seconds
-        is_keeping_apart : whether the iterations are over
+        `iterated`: what is done of the iterations, from 0 to 1, which never decreases. `now`: the
+        time in seconds. `is_keeping_apart`: whether the iterations are over.
         """
         if self._begin is None:
             self._begin = now

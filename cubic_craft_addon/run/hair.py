@@ -12,11 +12,8 @@ import bpy
 def hair_left_behind(obj: bpy.types.Object, result: str) -> list[str]:
     """Return a text for the hair that does not follow a result, as a list of one or none.
 
-    Parameters
-    ----------
-    obj : the mesh object
-    result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
-        Where the result is written to.
+    `obj`: the mesh object. `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}, where the result is
+    written to.
     """
     if result == "NEW_OBJECT":
         return []

@@ -70,17 +70,9 @@ class Solution:
 def prepare(members: Sequence[Member], earlier: Sequence[MemberProblem] = ()) -> MemberProblem:
     """Join the members of an assembly, and factorize them.
 
-    Parameters
-    ----------
-    members : sequence of Member
-        A single member is solved in its own coordinates, several in world space.
-    earlier : sequence of Problem
-        Unchanged data is reused.
-
-    Raises
-    ------
-    CubicCraftError
-        They cannot be solved; the message names the objects.
+    `members`: a single member is solved in its own coordinates, several in world space. `earlier`:
+    unchanged data is reused. Raises CubicCraftError: they cannot be solved; the message names the
+    objects.
     """
     settings, keep = members[0].settings, len(members) > 1 and members[0].settings.keep_symmetric
     return join_pieces(placed(members), settings.proxy, earlier, keep_symmetric=keep)
@@ -100,10 +92,7 @@ def with_cubeness(problem: MemberProblem, cubeness: float) -> MemberProblem:
 def start(problem: MemberProblem) -> solver.Run:
     """Start a run from the original shapes, with the settings of the members.
 
-    Raises
-    ------
-    CubicCraftError
-        A setting is invalid, or the device is not available.
+    Raises CubicCraftError: a setting is invalid, or the device is not available.
     """
     settings = settings_of_all(problem)
     try:
@@ -116,16 +105,8 @@ def start(problem: MemberProblem) -> solver.Run:
 def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     """Return a Run that goes on from the present shape of another in a pose of the same objects.
 
-    Parameters
-    ----------
-    problem : Problem
-        From `Problem.posed`, of what the other run was made for.
-    run : Run
-
-    Raises
-    ------
-    CubicCraftError
-        As `start`, without the name.
+    `problem`: from `Problem.posed`, of what the other run was made for. Raises CubicCraftError: as
+    `start`, without the name.
     """
     settings = settings_of_all(problem)
     stylization = run.soft.moved(problem.setup, problem.pose_of_handles)
@@ -135,10 +116,7 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
 def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> solver.Stylization:
     """Return a new Stylization with the settings of the members.
 
-    Raises
-    ------
-    CubicCraftError
-        As `start`, without the name.
+    Raises CubicCraftError: as `start`, without the name.
     """
     use_extension_folder()
     settings = settings_of_all(problem)
@@ -157,10 +135,7 @@ def solve(
 
     `on_iteration` is called after each iteration, a true value cancels the run.
 
-    Raises
-    ------
-    CubicCraftError
-        As `start`, and if the data of the run on a GPU is lost.
+    Raises CubicCraftError: as `start`, and if the data of the run on a GPU is lost.
     """
     run = start(problem)
     try:
@@ -220,20 +195,11 @@ def write(
 ) -> bpy.types.Object:
     """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
 
-    Parameters
-    ----------
-    result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
-    remember : callable
-        Called with the object that gets the cubic shape, before the step that cannot be undone:
-        if it or anything later raises, all meshes and objects are as they were before. The caller
-        must restore the settings of an existing object that it has changed.
-    run : dict, optional
-        The note for the mesh, a `LastRun`.
-
-    Returns
-    -------
-    bpy.types.Object
-        The object that now has the cubic shape.
+    `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}. `remember`: called with the object that gets the
+    cubic shape, before the step that cannot be undone: if it or anything later raises, all meshes
+    and objects are as they were before. The caller must restore the settings of an existing object
+    that it has changed. `run`: dict, optional, the note for the mesh, a `LastRun`. Returns the
+    object that now has the cubic shape.
     """
     if result == "NEW_OBJECT":
         return mesh_bridge.write_new_object(

@@ -167,18 +167,9 @@ def prepare_all(
 ) -> tuple[pipeline.MemberProblem | None, list[str]]:
     """Read and factorize an assembly, without the objects that cannot be used.
 
-    Parameters
-    ----------
-    tasks
-    known : mapping of int to Member, optional
-        Data from earlier runs, by the ``session_uid`` of the object.
-    earlier, weights_changed
-        As for `pipeline.prepare` and `read_member`.
-
-    Returns
-    -------
-    problem : Problem or None
-    problems : list of str
+    `known`: mapping of int to Member, optional, data from earlier runs, by the ``session_uid`` of
+    the object. `earlier`, `weights_changed`: as for `pipeline.prepare` and `read_member`. Returns
+    `problem`: Problem or None; `problems`: list of str.
     """
     members, problems = [], []
     for task in tasks:
@@ -215,13 +206,9 @@ def _readable(task):
 def write_all(overrides: SettingsOverrides, tasks: list[Task]) -> tuple[str, list[str]]:
     """Write the solutions of all tasks.
 
-    Returns
-    -------
-    summary : str
-        Empty if nothing was written.
-    problems : list of str
-        Meshes written before a failure stay and need their undo step. Hair and cages that do not
-        follow are reported, too.
+    Returns `summary`: str, empty if nothing was written; `problems`: list of str, meshes written
+    before a failure stay and need their undo step. Hair and cages that do not follow are reported,
+    too.
     """
     # All texts come before the first write, because nothing may fail after a write.
     solutions = [task.solution for task in tasks if task.solution is not None]

@@ -16,14 +16,9 @@ PAUSE = 0.2
 class FoundLater(Kept[T]):
     """Something about objects, kept until it has changed.
 
-    Parameters
-    ----------
-    find : callable
-        Finds it for an object; a timer calls it, outside of drawing.
-    key_of : callable
-        Returns what it depends on besides what `has_changed` is called for; this is cheap.
-    redraw : callable
-        Draws what shows it.
+    `find`: finds it for an object; a timer calls it, outside of drawing. `key_of`: returns what it
+    depends on besides what `has_changed` is called for; this is cheap. `redraw`: draws what shows
+    it.
     """
 
     def __init__(
@@ -59,12 +54,8 @@ class FoundLater(Kept[T]):
     def find(self, uid: int, window: int = 0) -> None:
         """Find it now, if the object is still there.
 
-        Parameters
-        ----------
-        uid : int
-            ``session_uid`` of the object.
-        window : int
-            Address of the window whose scene is meant, 0 for the present one.
+        `uid`: ``session_uid`` of the object. `window`: address of the window whose scene is meant,
+        0 for the present one.
         """
         obj = next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
         if obj is None:

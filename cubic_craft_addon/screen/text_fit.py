@@ -18,17 +18,8 @@ _NARROW = 8.0  # units for text: less than half of it holds no name of a setting
 def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
     """Return how wide a line of text in the panel may be.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Of a panel that is being drawn.
-    taken : float
-        Width of the other items in the line, in widths of an icon.
-
-    Returns
-    -------
-    float
-        In the pixels of `width_of`.
+    `context`: of a panel that is being drawn. `taken`: width of the other items in the line, in
+    widths of an icon. Returns float, in the pixels of `width_of`.
     """
     view = context.region.view2d  # the artist may have zoomed the sidebar
     width = view.region_to_view(context.region.width, 0)[0] - view.region_to_view(0, 0)[0]
@@ -39,10 +30,7 @@ def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
 def is_narrow(context: bpy.types.Context) -> bool:
     """Return whether names and values of settings side by side would be cut off.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Of a panel that is being drawn.
+    `context`: of a panel that is being drawn.
     """
     return room_for_text(context) < _NARROW * _UNIT * context.preferences.system.ui_scale
 
@@ -79,15 +67,8 @@ def wrapped(text: str, room: float) -> list[str]:
 def draw_wrapped(context: bpy.types.Context, column: Any, text: str, icon: Any) -> None:
     """Draw a text in a box, in as many lines as it needs, with an icon at the first.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Of a panel that is being drawn.
-    column : bpy.types.UILayout
-        An aligned column of the box.
-    text : str
-    icon : str
-        Name of the icon.
+    `context`: of a panel that is being drawn. `column`: an aligned column of the box. `icon`: name
+    of the icon.
     """
     for line in wrapped(text, room_for_text(context, _BOX)):
         column.label(text=line, icon=icon)

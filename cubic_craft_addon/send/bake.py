@@ -33,21 +33,9 @@ def bake_normals(
 ) -> float:
     """Bake the normals of an object to the tangent space of another.
 
-    Parameters
-    ----------
-    studio : Studio
-    high, low : objects in the studio, the second with a single UV map
-    image : the active image of all materials of `low`
-
-    Returns
-    -------
-    float
-        How far apart the surfaces are.
-
-    Raises
-    ------
-    CubicCraftError
-        Cycles has failed.
+    `high`, `low`: objects in the studio, the second with a single UV map. `image`: the active image
+    of all materials of `low`. Returns how far apart the surfaces are. Raises CubicCraftError:
+    Cycles has failed.
     """
     apart = distance(high, low)
     texels: Any = image.size

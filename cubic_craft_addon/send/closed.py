@@ -38,10 +38,7 @@ def find_faults(V: np.ndarray, F: np.ndarray) -> Faults:
     Vertices at the same place count as one, because an STL file has no vertices, only corners:
     what is cut along seams is closed there.
 
-    Parameters
-    ----------
-    V : (n,3) numpy float32 array
-    F : (m,3) numpy int array
+    `V`: (n,3) float32. `F`: (m,3) int.
     """
     places = np.unique(V, axis=0, return_inverse=True)[1].reshape(-1)
     triangles = places[F]

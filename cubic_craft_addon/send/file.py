@@ -46,18 +46,9 @@ def send(target: str, objects: list[bpy.types.Object], path: Path, options: Opti
 
     The file is complete, or as it was before. Selection, meshes and frame are kept.
 
-    Parameters
-    ----------
-    target : one of `TARGETS`
-    objects : meshes in Object Mode
-    path : pathlib.Path
-        With the suffix of the target.
-    options : Options
-
-    Raises
-    ------
-    CubicCraftError
-        There is nothing to write, or no way to write it there.
+    `target`: one of `TARGETS`. `objects`: meshes in Object Mode. `path`: pathlib.Path, with the
+    suffix of the target. Raises CubicCraftError: there is nothing to write, or no way to write it
+    there.
     """
     exporter(target)
     _check_path(path)
@@ -70,14 +61,7 @@ def send(target: str, objects: list[bpy.types.Object], path: Path, options: Opti
 def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Iterator[Ready]:
     """Have mesh objects, and the armatures that pose them, ready to be written during the block.
 
-    Parameters
-    ----------
-    target, objects, options : as of `send`
-
-    Raises
-    ------
-    CubicCraftError
-        There is nothing to write.
+    `target`, `objects`, `options`: as of `send`. Raises CubicCraftError: there is nothing to write.
     """
     run, kind = exporter(target), TARGETS[target]
     for obj in objects:

@@ -25,11 +25,7 @@ _ENDS = np.array([0, 1, 2, 0])  # corners of a triangle around its edges
 def decimated(studio: Studio, obj: bpy.types.Object, triangles: int) -> bpy.types.Mesh:
     """Return a new mesh of triangles, about as many as given or fewer.
 
-    Parameters
-    ----------
-    studio : Studio
-    obj : an object in the studio, which gets modifiers
-    triangles : int
+    `obj`: an object in the studio, which gets modifiers.
     """
     present = studio.evaluated_mesh(obj)
     count = len(present.loops) - 2 * len(present.polygons)
@@ -55,25 +51,10 @@ def choose_uv(
 ) -> str:
     """Return the UV map to bake to, which is made if need be.
 
-    Parameters
-    ----------
-    studio : Studio
-    obj : an object in the studio, whose mesh has triangles only
-    choice : one of "AUTO", "KEEP", "NEW"
-    resolution : int
-        Of the image; islands stay some of its texels apart.
-    name : str
-        What the artist calls the object.
-
-    Returns
-    -------
-    str
-        The name of the UV map, which is active. The one that is rendered stays the same.
-
-    Raises
-    ------
-    CubicCraftError
-        There is none, or no room for one more.
+    `obj`: an object in the studio, whose mesh has triangles only. `choice`: one of "AUTO", "KEEP",
+    "NEW". `resolution`: of the image; islands stay some of its texels apart. `name`: what the
+    artist calls the object. Returns the name of the UV map, which is active. The one that is
+    rendered stays the same. Raises CubicCraftError: there is none, or no room for one more.
     """
     mesh: Any = obj.data
     active = mesh.uv_layers.active
@@ -104,10 +85,7 @@ def set_hard_edges(mesh: bpy.types.Mesh, name: str) -> None:
     edges between islands of the UV map are free. Those inside may show as lines, because the map
     has no room between the two sides, so only clear edges are hard there.
 
-    Parameters
-    ----------
-    mesh : a mesh of triangles
-    name : of the UV map
+    `mesh`: a mesh of triangles. `name`: of the UV map.
     """
     m = len(mesh.polygons)
     edge_of, vertex_of = np.empty(3 * m, np.int32), np.empty(3 * m, np.int32)

@@ -34,11 +34,7 @@ class MapMaterials:
     def connect(self, uv_map: str, *, is_rendered: bool) -> list[str]:
         """Let all shaders use the map; return the materials without a shader that could.
 
-        Parameters
-        ----------
-        uv_map : str
-        is_rendered : bool
-            Whether it is the UV map that textures use when they name none.
+        `is_rendered`: whether it is the UV map that textures use when they name none.
         """
         plain = []
         for material, texture in self._nodes:

@@ -25,17 +25,8 @@ def marks_of(
 ) -> tuple[dict[str, np.ndarray], list[str]]:
     """Return the attributes to add while an object is written.
 
-    Parameters
-    ----------
-    target : Target
-    obj : an object with a mesh
-    with_groups : bool
-        Whether vertex groups that belong to no bone are written.
-
-    Returns
-    -------
-    values : (n,) numpy float32 array for each name
-    problems : list of str
+    `obj`: an object with a mesh. `with_groups`: whether vertex groups that belong to no bone are
+    written. Returns `values`: (n,) float32 for each name; `problems`: list of str.
     """
     mesh = mesh_bridge.mesh_of(obj)
     if not target.groups:

@@ -53,16 +53,8 @@ def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
 
     The result is not changed, but hidden: the new object lies at the same place.
 
-    Parameters
-    ----------
-    obj : an object with a result, in Object Mode
-    options : MapOptions
-
-    Raises
-    ------
-    CubicCraftError
-        There is no result or no Cycles, or something else is missing. After any exception, nothing
-        is left.
+    `obj`: an object with a result, in Object Mode. Raises CubicCraftError: there is no result or no
+    Cycles, or something else is missing. After any exception, nothing is left.
     """
     if mesh_bridge.last_run(obj) is None:
         raise CubicCraftError(f'"{obj.name}" has no result to bake: cubify it first')
@@ -78,10 +70,7 @@ def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
 def passing_normal_map(obj: bpy.types.Object, options: MapOptions) -> Iterator[NormalMap]:
     """Give what `make_normal_map` makes during the block, with its image packed; nothing is hidden.
 
-    Raises
-    ------
-    CubicCraftError
-        As `make_normal_map`.
+    Raises CubicCraftError: as `make_normal_map`.
     """
     with contextlib.ExitStack() as undo:
         made = _make(undo, obj, options)

@@ -18,15 +18,8 @@ def scale_of(
 ) -> float:
     """Return how many millimeters a unit of Blender becomes.
 
-    Parameters
-    ----------
-    scale : one of `SCALES`
-    size : float
-        Length of the longest side in millimeters, for SIZE.
-    scene : bpy.types.Scene
-        It has the units.
-    objects : list of bpy.types.Object
-        All that are written.
+    `scale`: one of `SCALES`. `size`: length of the longest side in millimeters, for SIZE. `scene`:
+    it has the units. `objects`: all that are written.
     """
     if scale == "SIZE":
         return size / max(extent(objects), 1e-12)

@@ -35,10 +35,7 @@ class Options:
 def exporter(target: str) -> Any:
     """Return the operator of Blender that writes the format of one of `TARGETS`.
 
-    Raises
-    ------
-    CubicCraftError
-        This Blender has none.
+    Raises CubicCraftError: this Blender has none.
     """
     import bpy
 
@@ -63,14 +60,8 @@ def settings(
 ) -> dict[str, Any]:
     """Return the settings of the exporter; those that this version does not know are left out.
 
-    Parameters
-    ----------
-    target : one of `TARGETS`
-    objects : list of bpy.types.Object
-        The meshes that are written.
-    options : Options
-    is_modified : bool
-        Whether modifiers are applied.
+    `target`: one of `TARGETS`. `objects`: the meshes that are written. `is_modified`: whether
+    modifiers are applied.
     """
     make = TARGETS[target].settings
     wanted = make(objects, options, is_modified) if make else {}

@@ -15,16 +15,8 @@ def fits_unit_square(uv: np.ndarray) -> bool:
 def overlap(uv: np.ndarray, texels: int = _TEXELS) -> float:
     """Return how much of a UV map is covered more than once.
 
-    Parameters
-    ----------
-    uv : (m,3,2) numpy array of triangles in the unit square
-    texels : int
-        Places along each side at which this is tested.
-
-    Returns
-    -------
-    float
-        What is covered again, relative to what is covered; 1 if nothing is covered.
+    `uv`: (m,3,2) of triangles in the unit square. `texels`: places along each side at which this is
+    tested. Returns what is covered again, relative to what is covered; 1 if nothing is covered.
     """
     counts = np.zeros((texels, texels), np.int32)
     places = uv.astype(np.float64) * texels - 0.5  # centers of texels are whole numbers

@@ -54,10 +54,7 @@ class SettingsOverrides:
     def settings_for(self, obj: bpy.types.Object) -> Settings:
         """Return the settings with which an object is to be cubified.
 
-        Raises
-        ------
-        CubicCraftError
-            The handles or regions of the object cannot be used.
+        Raises CubicCraftError: the handles or regions of the object cannot be used.
         """
         changes = {name: value for name, value in self.values.items() if name in _PLAIN}
         handles = self.handles
@@ -128,10 +125,7 @@ def find_pointers(
 ) -> dict[str, bpy.types.Object | None]:
     """Return the objects that are asked for by their names, None for no name.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no object of a name.
+    Raises CubicCraftError: there is no object of a name.
     """
     return {name: _find(name, names[name], active) for name in asked_for(values)}
 

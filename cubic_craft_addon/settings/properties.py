@@ -130,19 +130,9 @@ def settings_of(
 ) -> Settings:
     """Return the object's settings as plain values.
 
-    Parameters
-    ----------
-    obj
-    handles : tuple of Handle, optional
-        Instead of the object's own.
-    regions : tuple of Region, optional
-        Likewise.
-
-    Raises
-    ------
-    CubicCraftError
-        The object's own handles or regions cannot be used, see `object_handles` and
-        `object_regions`.
+    `handles`: tuple of Handle, optional, instead of the object's own. `regions`: tuple of Region,
+    optional, likewise. Raises CubicCraftError: the object's own handles or regions cannot be used,
+    see `object_handles` and `object_regions`.
     """
     p = object_properties(obj)
     if handles is None:

@@ -31,11 +31,7 @@ _drawn: dict[int, tuple[bool, ...] | None] = {}
 def is_scrolled(area: Any, scale: float) -> bool:
     """Return whether the sidebar of a viewport shows our tab, but maybe not its upper end.
 
-    Parameters
-    ----------
-    area : bpy.types.Area
-    scale : float
-        Of the interface.
+    `scale`: of the interface.
     """
     sidebar = next((region for region in area.regions if region.type == "UI"), None)
     if sidebar is None or sidebar.width <= 1 or sidebar.active_panel_category != _tab:
@@ -47,12 +43,7 @@ def is_scrolled(area: Any, scale: float) -> bool:
 def look_at(context: bpy.types.Context, tab: str) -> None:
     """Draw the header of the viewport anew, soon, if its buttons are to change.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Of a sidebar that is being drawn.
-    tab : str
-        The one that has the panel.
+    `context`: of a sidebar that is being drawn. `tab`: the one that has the panel.
     """
     global _tab
     _tab = tab

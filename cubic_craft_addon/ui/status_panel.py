@@ -32,17 +32,8 @@ def draw(
 ) -> None:
     """Draw the line and, if it is expanded, the details of the last run.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-    layout : bpy.types.UILayout
-        Of the whole panel.
-    obj : bpy.types.Object
-        The object with the mesh.
-    run : LastRun or None
-        The run that made the shape of the mesh.
-    changes : list of str
-        Labels of the settings that have changed since.
+    `layout`: of the whole panel. `obj`: the object with the mesh. `run`: LastRun or None, the run
+    that made the shape of the mesh. `changes`: labels of the settings that have changed since.
     """
     header, body = layout.panel(_SECTION, default_closed=True)
     _draw_line(context, header, obj, run, changes)

@@ -13,8 +13,6 @@ from solver.method import IN_LIBRARY
 
 from .formats import FORMATS
 
-__all__ = ("parse",)
-
 DEFAULTS = {**method_options.defaults(*IN_LIBRARY), "together": ("parts", "off")}
 """name: by default, with ``--paper``"""
 
@@ -43,16 +41,8 @@ failed, 130 interrupted.
 def parse(arguments: list[str]) -> argparse.Namespace:
     """Read the command line.
 
-    Returns
-    -------
-    argparse.Namespace
-        One attribute per option, and the ``inputs`` (str) and the ``output``; what ``--paper``
-        stands for is set.
-
-    Raises
-    ------
-    InputError
-        An option cannot be used.
+    Returns argparse.Namespace, one attribute per option, and the ``inputs`` (str) and the
+    ``output``; what ``--paper`` stands for is set. Raises InputError: an option cannot be used.
     """
     options = _parser().parse_intermixed_args(arguments)
     *options.inputs, options.output = options.paths

@@ -17,8 +17,6 @@ from meshio.vtu import _vtu
 from solver.console.errors import InputError
 from solver.memory import free_memory
 
-__all__ = ("within_memory",)
-
 SHARE = 0.25
 """of the free memory; meshio and the solver need several times what is in the file"""
 
@@ -27,10 +25,7 @@ SHARE = 0.25
 def within_memory() -> Iterator[None]:
     """Refuse, during the block, what decompresses to more than a share of the free memory.
 
-    Raises
-    ------
-    InputError
-        The message lacks the path.
+    Raises InputError: the message lacks the path.
     """
     free = free_memory()
     if free is None:

@@ -7,8 +7,6 @@ are tested here.
 
 from typing import NamedTuple
 
-__all__ = ("FORMATS", "Format")
-
 
 class Format(NamedTuple):
     """What a format can hold."""

@@ -14,8 +14,6 @@ import numpy as np
 
 from solver.console.errors import InputError
 
-__all__ = ("GltfData",)
-
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 _HEAD = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<II")
@@ -31,12 +29,7 @@ _URI = "data:application/octet-stream;base64,"
 class GltfData:
     """A file in memory.
 
-    Parameters
-    ----------
-    tree : dict
-        The JSON, whose buffer views refer to one buffer.
-    binary : bytearray
-        The buffer.
+    `tree`: the JSON, whose buffer views refer to one buffer. `binary`: the buffer.
     """
 
     def __init__(self, tree: dict[str, Any], binary: bytearray) -> None:
@@ -46,10 +39,8 @@ class GltfData:
     def read(cls, path: Path) -> "GltfData":
         """Read a .glb or .gltf file.
 
-        Raises
-        ------
-        InputError
-            It refers to another file, is compressed or cut off; the message lacks the path.
+        Raises InputError: it refers to another file, is compressed or cut off; the message lacks
+        the path.
         """
         content = path.read_bytes()
         if not content.startswith(_MAGIC):
@@ -91,10 +82,7 @@ class GltfData:
     def values(self, number: int) -> np.ndarray:
         """Return a copy (k,w) of the values of an accessor; fractions that are stored as integers.
 
-        Raises
-        ------
-        InputError
-            They are cut off, or nowhere.
+        Raises InputError: they are cut off, or nowhere.
         """
         accessor = self.tree["accessors"][number]
         if "bufferView" not in accessor:

@@ -20,8 +20,6 @@ from solver.console.errors import InputError
 
 from .gltf_data import GltfData
 
-__all__ = ("GltfFile", "write_surface")
-
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _FLOAT, _UNSIGNED = 5126, 5125
 _WRONG = (ValueError, LookupError, TypeError, AttributeError, RecursionError, struct.error)

@@ -29,8 +29,6 @@ from .obj_text import ObjText
 from .ply_header import readable_ply
 from .surface import Surface
 
-__all__ = ("MeshFile", "read", "write")
-
 _GLTF = (".glb", ".gltf")
 _LARGEST = 1e75  # the fourth power is finite
 
@@ -49,10 +47,7 @@ class MeshFile:
 def read(path: Path) -> MeshFile:
     """Read a file with a surface.
 
-    Raises
-    ------
-    InputError
-        It is missing or cannot be read, or is no surface.
+    Raises InputError: it is missing or cannot be read, or is no surface.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode) and not path.is_dir():
@@ -88,21 +83,9 @@ def read(path: Path) -> MeshFile:
 def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarray) -> list[str]:
     """Write the file with other positions, and return notes of what the format cannot hold.
 
-    Parameters
-    ----------
-    file : MeshFile
-    path : Path
-        Its suffix is the format.
-    positions : (n,3) numpy array
-    rotations : (n,3,3) numpy array
-        What normals in the file are rotated by.
-
-    Raises
-    ------
-    InputError
-        The format cannot hold the mesh.
-    OSError
-        The disk is full, or something else is wrong with it.
+    `path`: its suffix is the format. `positions`: (n,3). `rotations`: (n,3,3), what normals in the
+    file are rotated by. Raises InputError: the format cannot hold the mesh; OSError: the disk is
+    full, or something else is wrong with it.
     """
     suffix = path.suffix.lower()
     if isinstance(file.whole, ObjText) and suffix == ".obj":

@@ -15,8 +15,6 @@ import numpy as np
 from solver.console.errors import InputError
 from solver.console.obj_lines import logical_lines, vertex_of
 
-__all__ = ("ObjText",)
-
 PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
 _MOST_DECIMALS = 100  # rounding would overflow

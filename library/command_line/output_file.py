@@ -7,17 +7,13 @@ from pathlib import Path
 from solver.console.errors import InputError
 from solver.console.output import check_folder, check_place
 
-__all__ = ("check_writable",)
-
 _WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
 def check_writable(path: Path) -> None:
     """Refuse a path that cannot be written, before the long work starts.
 
-    Raises
-    ------
-    InputError
+    Raises InputError.
     """
     check_place(str(path), path)
     if path.is_symlink():

@@ -10,8 +10,6 @@ import re
 
 from solver.console.errors import InputError
 
-__all__ = ("readable_ply",)
-
 _END = re.compile(rb"^end_header\r?\n", re.MULTILINE)
 _INDEX = re.compile(rb"^property list (.*) vertex_index[ \t]*$", re.MULTILINE)
 _TYPES = {b"uchar": b"uint8", b"char": b"int8"}
@@ -20,10 +18,8 @@ _TYPES = {b"uchar": b"uint8", b"char": b"int8"}
 def readable_ply(content: bytes) -> bytes:
     """Return a file with another header, and the same content.
 
-    Raises
-    ------
-    InputError
-        It has no header, or is one that meshio would misread; the message lacks the path.
+    Raises InputError: it has no header, or is one that meshio would misread; the message lacks the
+    path.
     """
     end = _END.search(content)
     if not content.startswith(b"ply") or end is None:

@@ -22,8 +22,6 @@ from .formats import FORMATS
 from .output_file import check_writable
 from .standard_streams import STANDARD, input_file, write_to_standard_output
 
-__all__ = ("main", "run")
-
 PROGRAM = "cubic-craft"
 
 

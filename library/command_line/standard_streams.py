@@ -15,8 +15,6 @@ from pathlib import Path
 from solver.console.errors import InputError
 from solver.console.temporary import temporary_folder
 
-__all__ = ("STANDARD", "format_of", "input_file", "write_to_standard_output")
-
 STANDARD = "-"
 """in place of a path"""
 _INPUT = "standard input"
@@ -52,10 +50,8 @@ def format_of(path: Path) -> str:
 def input_file(source: str) -> Iterator[Path]:
     """Give the path of an input: of standard input, that of a temporary copy.
 
-    Raises
-    ------
-    InputError
-        Nothing comes, or what the block raises, about standard input in place of the copy.
+    Raises InputError: nothing comes, or what the block raises, about standard input in place of the
+    copy.
     """
     if source != STANDARD:
         yield Path(source)
@@ -74,10 +70,7 @@ def input_file(source: str) -> Iterator[Path]:
 def write_to_standard_output(path: Path) -> None:
     """Copy a finished file.
 
-    Raises
-    ------
-    InputError
-        Who reads it has gone, or the disk behind it is full.
+    Raises InputError: who reads it has gone, or the disk behind it is full.
     """
     try:
         with path.open("rb") as file:

@@ -15,16 +15,11 @@ from solver.styles import forms
 
 from .surface import Surface
 
-__all__ = ("orientation_of", "stylized")
-
 
 def stylized(surface: Surface, options: Namespace) -> Result:
     """Return the result for a surface.
 
-    Raises
-    ------
-    InputError
-        The solver refuses the mesh or an option; the message lacks the path.
+    Raises InputError: the solver refuses the mesh or an option; the message lacks the path.
     """
     method = Method(**settings_from(vars(options), *IN_LIBRARY))
     try:

@@ -7,8 +7,6 @@ import numpy as np
 
 from solver.mesh.polygons import triangulate
 
-__all__ = ("Surface",)
-
 
 @dataclass(frozen=True)
 class Surface:

@@ -7,11 +7,7 @@ from typing import Any
 def given_or_shared(operator: Any, shared: Any, declared: type) -> dict[str, Any]:
     """Return all declared properties by name: as given to the operator, else as the scene has them.
 
-    Parameters
-    ----------
-    operator : bpy.types.Operator
-    shared : property group of the scene
-    declared : class that declares the properties of both
+    `shared`: property group of the scene. `declared`: class that declares the properties of both.
     """
     given = operator.properties.is_property_set
     return {

@@ -14,10 +14,7 @@ def group_of_selection(obj: bpy.types.Object, name: str) -> tuple[bpy.types.Vert
     This leaves Edit Mode, because the undo steps of Edit Mode hold only the mesh: what refers to
     the group would remain without it. A single undo then reverts everything, back into Edit Mode.
 
-    Raises
-    ------
-    CubicCraftError
-        No vertex is selected, or all are.
+    Raises CubicCraftError: no vertex is selected, or all are.
     """
     obj.update_from_editmode()
     vertices = mesh_bridge.mesh_of(obj).vertices

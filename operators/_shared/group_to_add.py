@@ -24,20 +24,9 @@ def poll_groups(operator_class, context, other):
 def group_to_add(obj: bpy.types.Object, name: str, taken: Collection[str], already: str) -> str:
     """Return the name of the vertex group to add.
 
-    Parameters
-    ----------
-    obj
-    name : str
-        What was asked for; empty for the active group, or the first that is not taken.
-    taken : collection of str
-        Names of the groups in the list.
-    already : str
-        What is true of those, for the message.
-
-    Raises
-    ------
-    CubicCraftError
-        There is no such group, or it is taken, or all are.
+    `name`: what was asked for; empty for the active group, or the first that is not taken. `taken`:
+    collection of str, names of the groups in the list. `already`: what is true of those, for the
+    message. Raises CubicCraftError: there is no such group, or it is taken, or all are.
     """
     if not name:
         candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]

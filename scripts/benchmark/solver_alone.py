@@ -36,11 +36,8 @@ def ten_iterations(source, runs):
 def one_size(path, runs):
     """Run one mesh to our own stop.
 
-    Returns
-    -------
-    dict
-        ``rest`` energy; ``ours``, a list of runs as in `race`; and the figures of `peak_memory` of
-        the first run.
+    Returns dict, ``rest`` energy; ``ours``, a list of runs as in `race`; and the figures of
+    `peak_memory` of the first run.
     """
     load_kernels()
     with peak_memory() as memory:

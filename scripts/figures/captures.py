@@ -12,8 +12,6 @@ from cubic_craft.cubic_craft_addon.command_line.reading.mesh_arrays import read
 
 from .figure_meshes import FigureMeshes, moved
 
-__all__ = ("compose",)
-
 STRENGTH = 0.6
 SIDES = 14
 """planes that the hewn ball is cut along"""

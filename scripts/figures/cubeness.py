@@ -5,8 +5,6 @@ from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
-__all__ = ("compose", "compose_character")
-
 CUBENESS = (0.03, 0.1, 0.4, 1.5)
 LOOKS = {"soft": {"crispness": 0.0, "solidity": 0.1}, "cubic": {}, "crisp": {"crispness": 1.0}}
 """of the character, by the settings that are not the defaults"""

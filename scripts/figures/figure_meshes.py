@@ -33,8 +33,6 @@ from cubic_craft.solver.method import PAPER
 
 from . import shapes
 
-__all__ = ("AS_IN_THE_PAPER", "FigureMeshes", "Model", "colored_by", "moved")
-
 AS_IN_THE_PAPER = {**PAPER, "keep_symmetric": True, "hold_rest": True}
 """settings for figures that show what the energy of the paper does; what is symmetric stays so"""
 
@@ -130,15 +128,9 @@ class FigureMeshes:
     ) -> np.ndarray:
         """Return the cubic positions (n,3) float32 in object space.
 
-        Parameters
-        ----------
-        orientation : Euler angles of the cube in degrees, relative to the mesh
-        others : of `cubic_craft_addon.settings.values.Settings`
-
-        Raises
-        ------
-        InputError
-            The mesh cannot be cubified.
+        `orientation`: Euler angles of the cube in degrees, relative to the mesh. `others`: of
+        `cubic_craft_addon.settings.values.Settings`. Raises InputError: the mesh cannot be
+        cubified.
         """
         radians = tuple(math.radians(angle) for angle in orientation)
         settings = Settings(

@@ -8,8 +8,6 @@ from cubic_craft.cubic_craft_addon.command_line.reading.form_object import FormM
 
 from .figure_meshes import FigureMeshes
 
-__all__ = ("compose", "compose_targets")
-
 CUBENESS = 0.6
 HOUSE = ((-0.6, -0.5), (0.6, -0.5), (0.6, 0.3), (0.0, 0.8), (-0.6, 0.3))
 """outline of the object that a form is made from, seen along Y"""

@@ -12,8 +12,6 @@ from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES
 
 from .figure_meshes import FigureMeshes, colored_by
 
-__all__ = ("compose",)
-
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parents[1] / "examples"
 POSES = {

@@ -11,8 +11,6 @@ from cubic_craft.cubic_craft_addon.command_line.process.quiet import captured
 
 from .figure_meshes import FigureMeshes, Model
 
-__all__ = ("compose",)
-
 CUBENESS = 0.4
 TRIANGLES = 1000
 ROUGH_PIXELS = 128

@@ -13,8 +13,6 @@ from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, 
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
 
-__all__ = ("compose",)
-
 CUBENESS = 0.6
 ORIENTATIONS = {
     "not turned": (0.0, 0.0, 0.0),

@@ -32,8 +32,6 @@ from . import (
 )
 from .figure_meshes import FigureMeshes
 
-__all__ = ("NOMINAL_WIDTH", "Figure", "render_figure", "render_figures")
-
 NOMINAL_WIDTH = 1600
 
 
@@ -67,15 +65,8 @@ FIGURES = {
 def render_figures(wanted: list[str], options: Namespace) -> None:
     """Render figures to ``options.output``, each as a PNG of ``options.width`` pixels.
 
-    Parameters
-    ----------
-    wanted : keys of `FIGURES`
-    options : from the command line
-
-    Raises
-    ------
-    InputError
-        A mesh cannot be read, or a file cannot be written.
+    `wanted`: keys of `FIGURES`. `options`: from the command line. Raises InputError: a mesh cannot
+    be read, or a file cannot be written.
     """
     bar = ProgressBar()
     with registered():

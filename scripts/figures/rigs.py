@@ -12,8 +12,6 @@ from cubic_craft.solver import ProxyOptions, stylize
 
 from .figure_meshes import FigureMeshes, Model
 
-__all__ = ("compose",)
-
 CUBENESS = 0.4
 BONES = {
     # name: head, tail, parent

@@ -12,8 +12,6 @@ from mathutils import Matrix, Vector
 
 from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import load
 
-__all__ = ("bear", "duck", "fox", "letter", "monkey")
-
 BEAR = (
     ((0.0, 0.0, -0.35), (0.55, 0.48, 0.62)),
     ((0.0, -0.03, 0.55), (0.50, 0.44, 0.44)),

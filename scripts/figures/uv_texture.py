@@ -12,8 +12,6 @@ from cubic_craft.cubic_craft_addon.command_line.process.quiet import captured
 
 from .figure_meshes import FigureMeshes, Model, colored_by
 
-__all__ = ("compose",)
-
 CUBENESS = 0.7
 PIXELS, ROUGH_PIXELS = 2048, 256
 MARGIN = 1 / 64

@@ -13,8 +13,6 @@ from cubic_craft.cubic_craft_addon.form.body import form_of
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 
-__all__ = ("FROM_OBJECTS", "body_of")
-
 FROM_OBJECTS = ("OBJECT", "DIRECTIONS", "FACES")
 """forms that are what the artist makes of them; their pictures have another color"""
 SETTINGS = {

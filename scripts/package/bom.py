@@ -16,12 +16,8 @@ from packageurl import PackageURL
 def bill_of_materials(manifest, wheels, credits):
     """Return it as JSON text: the extension, and each wheel with its hash.
 
-    Parameters
-    ----------
-    manifest
-        The manifest of the extension, a dictionary.
-    wheels, credits
-        The paths of what is bundled, and the license of each.
+    `manifest`: the manifest of the extension, a dictionary. `wheels`, `credits`: the paths of what
+    is bundled, and the license of each.
     """
     root = Component(
         name=manifest["id"],

@@ -21,26 +21,10 @@ BILL = "sbom.cdx.json"
 def build_package(package, plain, output, is_upload=False):
     """Build a package, with its bill of materials beside it.
 
-    Parameters
-    ----------
-    package
-        What is wanted.
-    plain : Path
-        The zip of the extension without wheels.
-    output : Path
-        Folder of the zips.
-    is_upload : bool
-        Whether the version is that for the extensions platform.
-
-    Returns
-    -------
-    Path
-        The zip.
-
-    Raises
-    ------
-    SystemExit
-        Blender's tool refuses it, or it is too large for the extensions platform.
+    `package`: what is wanted. `plain`: Path, the zip of the extension without wheels. `output`:
+    Path, folder of the zips. `is_upload`: bool, whether the version is that for the extensions
+    platform. Returns Path, the zip. Raises SystemExit: Blender's tool refuses it, or it is too
+    large for the extensions platform.
     """
     with tempfile.TemporaryDirectory(prefix="cubic_craft_package_") as folder:
         source = Path(folder)

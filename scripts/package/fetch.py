@@ -8,10 +8,7 @@ import sys
 def fetch(package, folder):
     """Download the wheels of a Package into a folder (Path); return their paths, by name.
 
-    Raises
-    ------
-    SystemExit
-        Something could not be downloaded, or has another hash. pip has said what.
+    Raises SystemExit: something could not be downloaded, or has another hash. pip has said what.
     """
     command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check"]
     command += ["--no-deps", "--require-hashes", "--only-binary=:all:", "--implementation=cp"]

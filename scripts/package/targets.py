@@ -85,10 +85,8 @@ class Package:
         On the extensions platform, a version has one file for each platform. As two Pythons do not
         fit into one file, each range of Blender versions has a version of its own.
 
-        Raises
-        ------
-        SystemExit
-            The last number of the release is odd: that is for newer Blenders of the one before.
+        Raises SystemExit: the last number of the release is odd: that is for newer Blenders of the
+        one before.
         """
         major, minor, patch = map(int, release.split("."))
         if patch % len(PYTHONS):

@@ -49,10 +49,8 @@ class Credit:
 def credit(path):
     """Collect what is known of the license of a wheel (Path).
 
-    Raises
-    ------
-    ValueError
-        Its license, its text or its copyright is not known; see ``licenses/additions.toml``.
+    Raises ValueError: its license, its text or its copyright is not known; see
+    ``licenses/additions.toml``.
     """
     name, version, *_ = parse_wheel_filename(path.name)
     additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())

@@ -9,8 +9,6 @@ import bpy
 import numpy as np
 from mathutils import Euler, Vector
 
-__all__ = ("Picture", "render", "set_up")
-
 LIGHTS = (
     # turn about the camera's up and right axes in degrees, strength, angular size in degrees
     ((-38.0, -36.0), 2.7, 8.0),
@@ -79,10 +77,7 @@ def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
 def render(scene: bpy.types.Scene, path: Path, picture: Picture) -> None:
     """Write a picture of what is in the scene.
 
-    Raises
-    ------
-    SystemExit
-        The file is too large to be part of the extension.
+    Raises SystemExit: the file is too large to be part of the extension.
     """
     bpy.ops.render.render(scene=scene.name)
     bpy.data.images["Render Result"].save_render(str(path), scene=scene)

@@ -23,12 +23,8 @@ class HostArrays:
     def keep(self, values, of_numbers=False):
         """Return an array with these values, to be given to kernels.
 
-        Parameters
-        ----------
-        values : array
-            Numbers, vectors (n,k) or matrices (n,k,l) of a type that the kernel takes.
-        of_numbers : bool
-            Of two dimensions without being vectors.
+        `values`: array, numbers, vectors (n,k) or matrices (n,k,l) of a type that the kernel takes.
+        `of_numbers`: bool, of two dimensions without being vectors.
         """
         return values
 

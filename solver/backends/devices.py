@@ -25,19 +25,11 @@ _TRIES = 3
 def local_step_class(device: Device = "auto", precision: Precision | None = None) -> Any:
     """Return a function that makes the local step, with the arguments of `NumpyLocalStep`.
 
-    Parameters
-    ----------
-    device : {"auto", "cpu", "gpu", "numpy"}
-        "cpu" and "gpu" are those of Taichi or Quadrants; "auto" is "cpu" where that works, else
-        "numpy": see `problem_with_engine`.
-    precision : "f64" or "f32", optional
-        Of their kernels; by default the best that the device has. NumPy is always f64.
-
-    Raises
-    ------
-    CubicCraftError
-        An unknown device or precision. The function raises it if the engine is asked for and does
-        not work.
+    `device`: {"auto", "cpu", "gpu", "numpy"}, "cpu" and "gpu" are those of Taichi or Quadrants;
+    "auto" is "cpu" where that works, else "numpy": see `problem_with_engine`. `precision`: "f64" or
+    "f32", optional, of their kernels; by default the best that the device has. NumPy is always f64.
+    Raises CubicCraftError: an unknown device or precision. The function raises it if the engine is
+    asked for and does not work.
     """
     if device not in DEVICES:
         raise CubicCraftError(f'the device "{device}" is none of {", ".join(DEVICES)}')

@@ -43,10 +43,7 @@ def is_forked():
 def check_not_forked():
     """Check that the engine's threads are there.
 
-    Raises
-    ------
-    ForkedError
-        They stayed in the process that this one was forked from.
+    Raises ForkedError: they stayed in the process that this one was forked from.
     """
     if _is_forked:
         raise ForkedError(

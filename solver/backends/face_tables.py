@@ -31,11 +31,8 @@ class FaceTables(NamedTuple):
 def face_tables(faces, keep, keep_integers):
     """Return the FaceTables of Faces, or of none, which a kernel for cubes never reads.
 
-    Parameters
-    ----------
-    faces : Faces or None
-    keep, keep_integers : callable
-        Bring an array of real numbers, or of integers, to where the kernels take it.
+    `faces`: Faces or None. `keep`, `keep_integers`: callable, bring an array of real numbers, or of
+    integers, to where the kernels take it.
     """
     if faces is None:
         nothing = keep_integers(np.zeros(1, np.int32))

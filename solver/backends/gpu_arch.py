@@ -16,10 +16,7 @@ _PROBE_SECONDS = 60
 def gpu_arch(ti):
     """Return the engine's arch of the best GPU: CUDA, Metal or Vulkan.
 
-    Raises
-    ------
-    CubicCraftError
-        There is none.
+    Raises CubicCraftError: there is none.
     """
     core = ti._lib.core
     for arch, is_there in ((ti.cuda, core.with_cuda), (ti.metal, core.with_metal)):

@@ -7,13 +7,7 @@ from .engine import ti
 def kernel_types(real):
     """Return the types of vectors and matrices, and of arrays of one dimension.
 
-    Parameters
-    ----------
-    real : ti.f64 or ti.f32
-
-    Returns
-    -------
-    vec3, mat3, scalars, integers, vectors, matrices
+    `real`: ti.f64 or ti.f32. Returns vec3, mat3, scalars, integers, vectors, matrices.
     """
     vec3, mat3 = ti.types.vector(3, real), ti.types.matrix(3, 3, real)
     return vec3, mat3, *(ti.types.ndarray(dtype=t, ndim=1) for t in (real, ti.i32, vec3, mat3))

@@ -81,10 +81,7 @@ class NumpyLocalStep:
     def update(self, U):
         """Fit all rotations to the positions U (n,3).
 
-        Returns
-        -------
-        arap, cubic : (component_count,) arrays
-            Energies of the positions with these rotations.
+        Returns `arap`, `cubic`: (component_count,), energies of the positions with these rotations.
         """
         U = self._near_origin(U)
         S = np.empty((9, len(U)))

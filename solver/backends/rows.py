@@ -7,12 +7,8 @@ import numpy as np
 class HostRows:
     """Rows of arrays in NumPy; `taichi_rows.py` has the same for those on a device.
 
-    Parameters
-    ----------
-    matrices : SpokesAndRims
-    area_scale : (n,) float64 array
-    R, s, energies : (n,3,3), (n,w) and (n,3) arrays
-        Rotations, states, and the energies of `local_step` in `taichi_kernels.py`.
+    `matrices`: SpokesAndRims. `area_scale`: (n,). `R`, `s`, `energies`: (n,3,3), (n,w) and (n,3),
+    rotations, states, and the energies of `local_step` in `taichi_kernels.py`.
     """
 
     def __init__(self, matrices, area_scale, R, s, energies):
@@ -22,11 +18,7 @@ class HostRows:
     def take(self, U, rows):
         """Return divided covariances (k,3,3), rotations (k,3,3) and states (k,w) of rows.
 
-        Parameters
-        ----------
-        U : (n,3) array
-            Positions.
-        rows : (k,) int array
+        `U`: (n,3), positions. `rows`: (k,) int.
         """
         S = self._matrices.covariances(U.astype(np.float64, copy=False), rows)
         S = S / self._area_scale[rows, None, None]

@@ -112,13 +112,8 @@ class TaichiCycle:
 def _stacked(matrices, columns, before=()):
     """Return indptr, indices and data of csr_matrices below each other, from the columns given.
 
-    Parameters
-    ----------
-    matrices : list of csr_matrix
-    columns : sequence of int
-        Where the first column of each is.
-    before : sequence of int
-        Numbers of entries of further rows above them, which are to be zero.
+    `matrices`: list of csr_matrix. `columns`: sequence of int, where the first column of each is.
+    `before`: sequence of int, numbers of entries of further rows above them, which are to be zero.
     """
     counts = [np.asarray(before), *(np.diff(matrix.indptr) for matrix in matrices)]
     indices = [matrix.indices + at for matrix, at in zip(matrices, columns, strict=True)]

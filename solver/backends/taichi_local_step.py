@@ -249,10 +249,7 @@ class TaichiLocalStep:
     def start_device(self):
         """Make sure that kernels can run: another add-on may have reset the engine.
 
-        Raises
-        ------
-        CubicCraftError
-            It has, and the arrays were on the device.
+        Raises CubicCraftError: it has, and the arrays were on the device.
         """
         self.arrays.check()
         taichi_runtime.start(self._wanted)

@@ -21,13 +21,9 @@ from .taichi_covariances import covariance
 class DeviceRows:
     """As `HostRows`.
 
-    Parameters
-    ----------
-    precision : {"f64", "f32"}
-    width : {3, 4}
-        Of the states s.
-    indptr, indices, gather, weights, area_scale, R, s, energies : arrays of Taichi
-        As in `local_step` of `taichi_kernels.py`.
+    `precision`: {"f64", "f32"}. `width`: {3, 4}, of the states s. `indptr`, `indices`, `gather`,
+    `weights`, `area_scale`, `R`, `s`, `energies`: arrays of Taichi, as in `local_step` of
+    `taichi_kernels.py`.
     """
 
     def __init__(

@@ -40,10 +40,7 @@ def start(device):
     A program that another add-on has started is used as it is: a second ``ti.init`` would destroy
     that add-on's fields.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no GPU, or the process was forked after the engine had started.
+    Raises CubicCraftError: there is no GPU, or the process was forked after the engine had started.
     """
     global _our_program, _our_device
     check_not_forked()

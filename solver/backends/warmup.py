@@ -12,10 +12,8 @@ _warm = set()
 def warm_up(calls):
     """Run kernels on next to nothing, those that have been before excepted; return the seconds.
 
-    Parameters
-    ----------
-    calls : iterable of (kernel, arguments)
-        The arrays among the arguments are replaced by `a_few_zeros`.
+    `calls`: iterable of (kernel, arguments), the arrays among the arguments are replaced by
+    `a_few_zeros`.
     """
     cold = [(kernel, arguments) for kernel, arguments in calls if kernel not in _warm]
     if not cold:

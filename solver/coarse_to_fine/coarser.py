@@ -45,14 +45,8 @@ def coarser_style(style: SolvedStyle, setup: Setup) -> SolvedStyle:
 def coarser_pose(setup: Setup, U: FloatArray, hold_matrices: Sequence[FloatArray]) -> Pose:
     """Return the pose of the coarser setup, whose units are those of the unit box.
 
-    Parameters
-    ----------
-    setup : Setup
-        Of the finer mesh.
-    U : (n,3) array
-        Positions in the unit box, where pins have reached their targets.
-    hold_matrices : sequence of (4,4) arrays
-        As of the `Pose` of the finer mesh.
+    `setup`: of the finer mesh. `U`: (n,3), positions in the unit box, where pins have reached their
+    targets. `hold_matrices`: sequence of (4,4), as of the `Pose` of the finer mesh.
     """
     rest, coarse = setup.rest, setup.coarse
     assert rest.coarse is not None and coarse is not None

@@ -21,25 +21,11 @@ def contract(V, F, neighbors, part):
     collapsing one edge after the other by its error (Garland and Heckbert, 1997), and the triangles
     are rounder; the details that it loses would be new to the cube on the finer mesh anyway.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
-        Triangles that use all vertices.
-    neighbors : (n,n) csr_matrix
-        With entries between vertices that share a triangle.
-    part : (n,) int array
-        Connected part of each vertex.
-
-    Returns
-    -------
-    V : (k,3) float64 array
-    F : (l,3) int array
-        Triangles that use all of them.
-    cluster : (n,) int array
-        The vertex of the result that each vertex has been contracted into.
-
-    None where the package pyamg is missing, nothing is left of the mesh, or almost all of it is.
+    `V`: (n,3). `F`: (m,3) int, triangles that use all vertices. `neighbors`: (n,n) csr_matrix, with
+    entries between vertices that share a triangle. `part`: (n,) int, connected part of each vertex.
+    Returns `V`: (k,3); `F`: (l,3) int, triangles that use all of them; `cluster`: (n,) int, the
+    vertex of the result that each vertex has been contracted into; None where the package pyamg is
+    missing, nothing is left of the mesh, or almost all of it is.
     """
     if optional_package("pyamg") is None:
         return None

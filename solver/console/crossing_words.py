@@ -3,8 +3,6 @@
 
 from typing import Any
 
-__all__ = ("crossing_words", "end_words")
-
 
 def crossing_words(crossings: int | None, pressed: int | None) -> tuple[str, bool]:
     """Return what a run says of faces that cross, and whether it has failed to keep some apart.

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The one error that ends a run with exit code 2."""
 
-__all__ = ("InputError",)
-
 
 class InputError(ValueError):
     """Something the user gave cannot be used.

@@ -15,8 +15,6 @@ from collections.abc import Callable
 
 from .temporary import remove_temporaries
 
-__all__ = ("before_ending", "end_on_signals", "end_with_input")
-
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
 _CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
 """for terminals: erase the progress bar, and show the cursor that it hides"""
@@ -35,10 +33,8 @@ def before_ending(duty: Callable[[], None]) -> None:
 def end_on_signals(program: str, terminal: Callable[[], int] = _standard_error) -> None:
     """From now on end with the exit code 128 + number on SIGINT (so 130 on Ctrl-C) and SIGTERM.
 
-    Parameters
-    ----------
-    program : its name in the line that says so
-    terminal : gives the file descriptor for that line
+    `program`: its name in the line that says so. `terminal`: gives the file descriptor for that
+    line.
     """
     arrivals, departures = os.pipe()
     if sys.platform != "win32":  # there it is not asked for, and Python 3.11 cannot do it

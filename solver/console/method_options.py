@@ -11,8 +11,6 @@ from typing import Any
 from ..setting import Setting, declared
 from .options import number
 
-__all__ = ("Adder", "add_settings", "as_in_paper", "defaults", "names_of_options", "settings_from")
-
 Adder = Callable[..., None]
 """takes the name of an option, and what `ArgumentParser.add_argument` does"""
 
@@ -20,11 +18,8 @@ Adder = Callable[..., None]
 def add_settings(add: Adder, *groups: type, **others: Mapping[str, Any]) -> None:
     """Add an option for each setting that has one.
 
-    Parameters
-    ----------
-    add : callable
-    groups : classes of `solver.method`
-    others : by the name of a setting, what is otherwise in its option
+    `groups`: classes of `solver.method`. `others`: by the name of a setting, what is otherwise in
+    its option.
     """
     settings = declared(*groups)
     for name, option in names_of_options(*groups).items():

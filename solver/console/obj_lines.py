@@ -7,17 +7,13 @@ backslash, and comments may hold paths. Neither is continued on the next line, a
 
 from collections.abc import Iterable, Iterator
 
-__all__ = ("WITH_NAMES", "logical_lines", "vertex_of")
-
 WITH_NAMES = (b"o", b"g", b"usemtl", b"mtllib", b"usemap", b"maplib", b"shadow_obj", b"trace_obj")
 
 
 def logical_lines(lines: Iterable[bytes]) -> Iterator[bytes]:
     """Join those that are continued with the next, which numbers may be.
 
-    Parameters
-    ----------
-    lines : without their ends
+    `lines`: without their ends.
     """
     pending = b""
     for end in lines:
@@ -36,10 +32,7 @@ def vertex_of(corner: bytes, count: int) -> int:
     Negative numbers count from the last of these. What is no vertex, such as 0, gives a negative
     number, or one that is too large.
 
-    Raises
-    ------
-    ValueError
-        It begins with no number.
+    Raises ValueError: it begins with no number.
     """
     number = int(corner.partition(b"/")[0])
     return number - 1 if number >= 0 else count + number

@@ -10,8 +10,6 @@ from ..styles.form_names import FORMS as EVERY_FORM
 from ..styles.form_names import OF_OBJECT
 from .errors import InputError
 
-__all__ = ("FORMS", "OneLineParser", "number")
-
 FORMS = tuple(name.lower() for name, *_ in EVERY_FORM if name not in (*OF_OBJECT, "FACES"))
 """those that need no more than a number of sides or weights: the names of `styles.forms.named`"""
 
@@ -27,10 +25,7 @@ class OneLineParser(argparse.ArgumentParser):
 def number(low: float, high: float, kind: type = float) -> Callable[[str], float]:
     """Return the type of an option with a number.
 
-    Parameters
-    ----------
-    low, high : the least and the largest
-    kind : float or int
+    `low`, `high`: the least and the largest. `kind`: float or int.
     """
 
     def checked(text: str) -> float:

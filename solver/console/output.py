@@ -8,15 +8,11 @@ from pathlib import Path
 
 from .errors import InputError
 
-__all__ = ("check_folder", "check_place", "errors_of", "move_into_place")
-
 
 def check_place(name: str, path: Path) -> None:
     """Refuse what is a folder, or lies in none; `name` is what messages call it.
 
-    Raises
-    ------
-    InputError
+    Raises InputError.
     """
     if path.is_dir():
         raise InputError(f"{name}: this is a folder; give the name of a file")
@@ -27,9 +23,7 @@ def check_place(name: str, path: Path) -> None:
 def check_folder(name: str, folder: Path) -> None:
     """Refuse a folder that cannot be written to; `name` is what messages call the file.
 
-    Raises
-    ------
-    InputError
+    Raises InputError.
     """
     try:
         # Trying is the only check that holds on network drives and read-only mounts alike.
@@ -54,10 +48,7 @@ def errors_of(path: Path) -> Iterator[None]:
 def move_into_place(temporary: Path, path: Path) -> None:
     """Move what has been written to where it belongs.
 
-    Raises
-    ------
-    InputError
-        Nothing has been written.
+    Raises InputError: nothing has been written.
     """
     if not temporary.is_file() or not temporary.stat().st_size:
         raise InputError(f"{path}: nothing was written; is the disk full?")

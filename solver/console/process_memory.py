@@ -9,8 +9,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-__all__ = ("GIGABYTE", "memory_of", "peak_gb")
-
 GIGABYTE = 1e9
 
 
@@ -30,9 +28,7 @@ def memory_of(number: int) -> int:
 def peak_gb(number: int | None = None) -> float | None:
     """Return the most gigabytes that a process that runs has had in memory; None if unknown.
 
-    Parameters
-    ----------
-    number : of the process; None is this one
+    `number`: of the process; None is this one.
     """
     with contextlib.suppress(OSError, ValueError, IndexError):
         if sys.platform == "linux":  # where the figure of `resource` is that of the parent, too

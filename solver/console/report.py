@@ -9,8 +9,6 @@ from typing import Any
 
 from .temporary import replacing
 
-__all__ = ("DONE", "FAILED", "KEPT", "LINES", "BatchReport", "counts_of", "in_words", "write_json")
-
 DONE, KEPT, FAILED = "done", "kept", "failed"
 """what became of a file; kept is what an earlier run has done"""
 LINES = ".jsonl"
@@ -20,11 +18,8 @@ LINES = ".jsonl"
 class BatchReport:
     """A report in a file.
 
-    Parameters
-    ----------
-    path : ends in .json, or in ``LINES``
-    head : what is known before the first file
-    total : number of files
+    `path`: ends in .json, or in ``LINES``. `head`: what is known before the first file. `total`:
+    number of files.
     """
 
     def __init__(self, path: Path, head: dict[str, Any], total: int) -> None:
@@ -36,15 +31,8 @@ class BatchReport:
     def write(self, files: list[dict[str, Any]], newest: dict[str, Any]) -> None:
         """Write what is known now.
 
-        Parameters
-        ----------
-        files : all that have ended, each with its ``status``
-        newest : the one of them that has ended last
-
-        Raises
-        ------
-        InputError, OSError
-            The file cannot be written.
+        `files`: all that have ended, each with its ``status``. `newest`: the one of them that has
+        ended last. Raises InputError, OSError: the file cannot be written.
         """
         if self._path.suffix.lower() == LINES:
             rows, mode = (files, "w") if self._is_behind else ([newest], "a")

@@ -14,8 +14,6 @@ from pathlib import Path
 
 from .output import errors_of, move_into_place
 
-__all__ = ("remove_left_behind", "remove_temporaries", "replacing", "temporary_folder")
-
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
 _begins: list[Path] = []  # of the temporary files of this process, without suffix
 _removing = threading.Lock()
@@ -30,15 +28,8 @@ def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
     have left of the same file is removed as well, and what lies where it shall be written, which
     might be a link.
 
-    Parameters
-    ----------
-    has_own_name : it gets the name of ``path``, in a folder of its own, because the format writes
-        its name into the file
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
+    `has_own_name`: it gets the name of ``path``, in a folder of its own, because the format writes
+    its name into the file. Raises InputError: the file cannot be written.
     """
     remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")

@@ -22,17 +22,9 @@ _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is l
 def crossings(V, F, is_asked=None):
     """Find the pairs of triangles that cross.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
-    is_asked : (m,) bool array, optional
-        Pairs of two others are left out, which takes little time if few are asked for.
-
-    Returns
-    -------
-    (k,2) int array
-        Triangles, the lower number first, in ascending order.
+    `V`: (n,3). `F`: (m,3) int. `is_asked`: (m,) bool, optional, pairs of two others are left out,
+    which takes little time if few are asked for. Returns (k,2) int, triangles, the lower number
+    first, in ascending order.
     """
     V = np.asarray(V, dtype=np.float64)
     F = np.asarray(F)
@@ -64,10 +56,7 @@ def crossings(V, F, is_asked=None):
 class CrossingTriangles:
     """Which triangles cross others; found out where it is asked for.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
+    `V`: (n,3). `F`: (m,3) int.
     """
 
     def __init__(self, V, F):

@@ -15,10 +15,7 @@ EDGES = ((0, 1), (1, 2), (2, 0))
 def features(V, A, B):
     """Return the 15 ways between triangles with corners A and B (k,3), at positions V (n,3).
 
-    Returns
-    -------
-    vertices : (k,15,4) int array
-    coefficients : (k,15,4) array
+    Returns `vertices`: (k,15,4) int; `coefficients`: (k,15,4).
     """
     vertices, coefficients = [], []
     for one, other in ((A, B), (B, A)):
@@ -39,8 +36,6 @@ def features(V, A, B):
 def closest_on_edges(A, B, C, D):
     """Return where (k,) from A to B and from C to D (k,3) two edges are nearest, from 0 to 1.
 
-    Notes
-    -----
     As in Ericson, "Real-Time Collision Detection", 2005, 5.1.9.
     """
     u, v, w = B - A, D - C, A - C

@@ -29,11 +29,7 @@ _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 class Gaps:
     """The gaps of a surface at rest, measured where they are asked for.
 
-    Parameters
-    ----------
-    V, normals : (n,3) float arrays
-        In the unit box; unit normals, or zero.
-    F : (m,3) int array
+    `V`, `normals`: (n,3), in the unit box; unit normals, or zero. `F`: (m,3) int.
     """
 
     def __init__(self, V, normals, F):

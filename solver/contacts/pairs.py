@@ -31,21 +31,9 @@ _LEAST_SHARE = 0.1  # of the length of edges: gaps of less are as strong as thes
 def links_against(rest, gaps, shown, pairs, U, R, is_wide):
     """Return links across the gaps that are closed around pairs of triangles that cross.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    gaps : Gaps
-        Of its surface.
-    shown : (m,3) int array
-        The triangles that `pairs` counts.
-    pairs : (k,2) int array
-        Triangles that newly cross.
-    U : (n,3) float array
-        Positions.
-    R : (n,3,3) array
-        Rotations.
-    is_wide : bool
-        Whether also to link narrow gaps beside those that are closed.
+    `rest`: RestMesh. `gaps`: Gaps, of its surface. `shown`: (m,3) int, the triangles that `pairs`
+    counts. `pairs`: (k,2) int, triangles that newly cross. `U`: (n,3), positions. `R`: (n,3,3),
+    rotations. `is_wide`: bool, whether also to link narrow gaps beside those that are closed.
     """
     i, j = _closed_gaps(rest, gaps, _inside(rest, shown[pairs.ravel()]), U, R, is_wide)
     across = links_between(i, j, _weights(rest.areas[i], rest.V[j] - rest.V[i]))

@@ -28,19 +28,10 @@ _RINGS = 2  # of triangles around those that cross, as others may come to cross
 def pushed(V, U, triangles, pairs, counts, is_free, impose):
     """Return positions (n,3) in which no more triangles cross than in U.
 
-    Parameters
-    ----------
-    V, U : (n,3) float arrays
-        Positions at rest and now.
-    triangles : (m,3) int array
-    pairs : (k,2) int array
-        Those of them that newly cross.
-    counts : callable
-        Maps pairs of triangles (k,2) to a mask (k,) of those that count as crossing.
-    is_free : (n,) bool array
-        Vertices that may move.
-    impose : callable
-        Moves positions (n,3) in place so that they satisfy all constraints.
+    `V`, `U`: (n,3), positions at rest and now. `triangles`: (m,3) int. `pairs`: (k,2) int, those of
+    them that newly cross. `counts`: callable, maps pairs of triangles (k,2) to a mask (k,) of those
+    that count as crossing. `is_free`: (n,) bool, vertices that may move. `impose`: callable, moves
+    positions (n,3) in place so that they satisfy all constraints.
     """
     start, best, fewest, before = U, U, len(pairs), []
     watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH, counts)
@@ -93,12 +84,8 @@ def _corrections(V, U, triangles, pairs, is_free):
 def _lifts(V, U, A, B):
     """Return how far the corners of triangles A must go along the normals of B.
 
-    Returns
-    -------
-    normal : (k,3) array
-    lift : (k,3) array
-    depth : (k,) array
-        The largest of them; infinite where the normal has no direction.
+    Returns `normal`: (k,3); `lift`: (k,3); `depth`: (k,), the largest of them; infinite where the
+    normal has no direction.
     """
     at_rest = _heights(V, A, B)[1]
     normal, height = _heights(U, A, B)

@@ -22,11 +22,7 @@ _OFF = 1e-6  # of the extent: what blocks is farther away
 def shown(V, F, pairs):
     """Return which pairs of crossing triangles (k,2) can be seen from outside, (k,) bool.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Finite.
-    F : (m,3) int array
+    `V`: (n,3), finite. `F`: (m,3) int.
     """
     is_shown = np.zeros(len(pairs), dtype=bool)
     if not len(pairs):

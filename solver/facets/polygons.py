@@ -14,16 +14,9 @@ _TRIED = 200  # bridges to a hole
 def filled(P, loops, normal, flatness):
     """Return polygons, lists of vertices, that fill a part of a surface.
 
-    Parameters
-    ----------
-    P : (n,3) array
-        Positions.
-    loops : list of lists of int
-        The vertices around the part, and around its holes.
-    normal : (3,) array
-        That the part faces.
-    flatness : float
-        How far the corners of a polygon may be from a plane.
+    `P`: (n,3), positions. `loops`: list of lists of int, the vertices around the part, and around
+    its holes. `normal`: (3,), that the part faces. `flatness`: float, how far the corners of a
+    polygon may be from a plane.
     """
     if len(loops) == 1 and is_polygon(P, loops[0], flatness, normal):
         return loops

@@ -53,13 +53,8 @@ def nearest_labels(graph, directions, counts=None):
     Directions that are closer to each other than sides can be tell fine differences apart: the
     labels are the less smooth.
 
-    Parameters
-    ----------
-    graph : FaceGraph
-    directions : (k,3) array
-        Unit vectors.
-    counts : (m,k) bool array, optional
-        Which of them each triangle may face.
+    `graph`: FaceGraph. `directions`: (k,3), unit vectors. `counts`: (m,k) bool, optional, which of
+    them each triangle may face.
     """
     cosines = directions @ directions.T
     np.fill_diagonal(cosines, -1.0)

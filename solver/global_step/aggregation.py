@@ -37,17 +37,9 @@ def _members(A):
 def aggregated(A):
     """Return a prolongation from a coarser level, and the matrix of that level.
 
-    Parameters
-    ----------
-    A : (n,n) csr_matrix
-        Symmetric, with a positive diagonal.
-
-    Returns
-    -------
-    P : (n,k) csr_matrix
-        Rows of vertices that are not coupled to any other are zero.
-    coarse : (k,k) csr_matrix
-        P'AP. With no aggregate at all, a single row that P leaves alone.
+    `A`: (n,n) csr_matrix, symmetric, with a positive diagonal. Returns `P`: (n,k) csr_matrix, rows
+    of vertices that are not coupled to any other are zero; `coarse`: (k,k) csr_matrix, P'AP. With
+    no aggregate at all, a single row that P leaves alone.
     """
     members = _members(A)
     if not members.nnz:

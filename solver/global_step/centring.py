@@ -9,11 +9,8 @@ from .tall_products import weighted_sum
 class Centring:
     """The centroids of the components, weighted by area.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    is_floating : (component_count,) bool array
-        The components that move, at least one; the others stay as they are, bit for bit.
+    `rest`: RestMesh. `is_floating`: (component_count,) bool, the components that move, at least
+    one; the others stay as they are, bit for bit.
     """
 
     def __init__(self, rest, is_floating):

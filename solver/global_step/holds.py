@@ -68,11 +68,7 @@ class HoldFields:
 class Holds:
     """Constraints of the global step: `impose` moves positions so that they are satisfied.
 
-    Parameters
-    ----------
-    fields : HoldFields
-    matrices : sequence of (4,4) arrays
-        The map of each group, in the user's unit.
+    `fields`: HoldFields. `matrices`: sequence of (4,4), the map of each group, in the user's unit.
     """
 
     def __init__(self, fields, matrices):

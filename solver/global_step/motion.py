@@ -47,17 +47,10 @@ class Motion:
     def step(self, momentum, overshoot, keep_rotation):
         """Do one global step.
 
-        Parameters
-        ----------
-        momentum, overshoot : (component_count,) arrays
-            Extrapolation from the new positions, see `Momentum.next`.
-        keep_rotation : bool
-            Keep the rotation of each component without pins.
-
-        Returns
-        -------
-        displacement, distance : float
-            The largest of any coordinate, in this step and from rest.
+        `momentum`, `overshoot`: (component_count,), extrapolation from the new positions, see
+        `Momentum.next`. `keep_rotation`: bool, keep the rotation of each component without pins.
+        Returns `displacement`, `distance`: float, the largest of any coordinate, in this step and
+        from rest.
         """
         rest = self._setup.rest
         U = self._setup.global_step.positions(

@@ -152,14 +152,9 @@ class GlobalStep:
     def positions(self, rhs, near, keep_rotation=False):
         """Return new positions (n,3).
 
-        Parameters
-        ----------
-        rhs : (n,3) array
-            Right-hand side.
-        near : (n,3) array
-            Positions to start from, where the solution is iterative. Pinned vertices stay there.
-        keep_rotation : bool
-            Keep each component without pins from turning as a whole, and its large parts, too.
+        `rhs`: (n,3), right-hand side. `near`: (n,3), positions to start from, where the solution is
+        iterative. Pinned vertices stay there. `keep_rotation`: bool, keep each component without
+        pins from turning as a whole, and its large parts, too.
         """
         result = self.solve(rhs, near)
         if self.is_anchored.all():

@@ -20,17 +20,9 @@ SLENDER = 0.5
 def with_hollows(limbs, V, skin, walls, cavities, part, areas):
     """Return Limbs in which hollow parts have those of their cavities.
 
-    Parameters
-    ----------
-    limbs : Limbs
-        As found between the sides of walls.
-    V : (n,3) float array
-        Rest positions in the unit box.
-    skin : SpokesAndRims
-    walls, cavities : Links
-        To the other side, and across cavities, see `proxy/cavities.py`.
-    part : (n,) int array
-    areas : (n,) array
+    `limbs`: Limbs, as found between the sides of walls. `V`: (n,3), rest positions in the unit box.
+    `skin`: SpokesAndRims. `walls`, `cavities`: Links, to the other side, and across cavities, see
+    `proxy/cavities.py`. `part`: (n,) int. `areas`: (n,).
     """
     total = np.bincount(part, areas)
     i, j = cavities.vertices[:, 0], cavities.vertices[:, 1]

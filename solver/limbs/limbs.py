@@ -47,10 +47,7 @@ class Limbs(Value):
     def posed(self, V: FloatArray, posed: FloatArray) -> Self:
         """Return the Limbs of another pose: the pieces turn as their vertices do.
 
-        Parameters
-        ----------
-        V, posed : (n,3) arrays
-            Positions in this pose and in the other.
+        `V`, `posed`: (n,3), positions in this pose and in the other.
         """
         weight = np.asarray(self.shares.sum(axis=0))[0][:, None]
         means, others = ((self.shares.T @ x) / np.maximum(weight, 1e-300) for x in (V, posed))

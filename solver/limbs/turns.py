@@ -21,15 +21,8 @@ def turns(limbs, Q, forms=(), form_of=None):
     no limb, it is blended; of all turns that are equivalent for the form, those nearest to each
     other are.
 
-    Parameters
-    ----------
-    limbs : Limbs
-    Q : (n,3,3) or (1,3,3) array
-        The orientation of the form.
-    forms : sequence of Polytope
-        Empty for the cube.
-    form_of : (n,) int array
-        Which of the forms each vertex has.
+    `limbs`: Limbs. `Q`: (n,3,3) or (1,3,3), the orientation of the form. `forms`: sequence of
+    Polytope, empty for the cube. `form_of`: (n,) int, which of the forms each vertex has.
     """
     n = limbs.shares.shape[0]
     G = np.tile(np.eye(3), (n, 1, 1))

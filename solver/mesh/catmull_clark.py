@@ -66,22 +66,11 @@ def catmull_clark(cage: Cage) -> tuple[Any, Any, Cage]:
 
     The n' new vertices are the n of the cage, then those of its edges, then those of its faces.
 
-    Parameters
-    ----------
-    cage : Cage
-        Of n vertices. Those in no face stay where they are.
+    `cage`: of n vertices. Those in no face stay where they are. Returns `smooth`: (n',n) scipy
+    csr_matrix, from positions of the cage to those of the surface; `flat`: (n',n) scipy csr_matrix,
+    the same without smoothing: to the middles of edges and faces; `cage`: Cage, of the new
+    vertices, with a quad for each corner, which begins there and faces the same way.
 
-    Returns
-    -------
-    smooth : (n',n) scipy csr_matrix
-        From positions of the cage to those of the surface.
-    flat : (n',n) scipy csr_matrix
-        The same without smoothing: to the middles of edges and faces.
-    cage : Cage
-        Of the new vertices, with a quad for each corner, which begins there and faces the same way.
-
-    Notes
-    -----
     Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes",
     1978; creases by DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
     Where sharpness ends between two levels, the rules of both are mixed, as in Blender.
@@ -140,12 +129,8 @@ def _sharpness(cage, edges, edge):
 def _at_vertices(cage, at_faces, middles, faces_of, edges_of_vertex, sharp):
     """Return the rule (n,n) of the vertices of the cage.
 
-    Parameters
-    ----------
-    at_faces, middles : (f,n) and (e,n) csr_matrix
-    faces_of, edges_of_vertex : (n,f) and (n,e) csr_matrix
-        The faces and the edges of each vertex, as ones.
-    sharp : (e,) array
+    `at_faces`, `middles`: (f,n) and (e,n) csr_matrix. `faces_of`, `edges_of_vertex`: (n,f) and
+    (n,e) csr_matrix, the faces and the edges of each vertex, as ones. `sharp`: (e,).
     """
     import scipy.sparse as sp
 

@@ -12,8 +12,6 @@ def components(F, n, pairs=None):
     F : (m,3) int array of triangles. A vertex in no triangle is a component of its own.
     pairs : (p,2) int array of further connections, optional.
 
-    Notes
-    -----
     Vertices carry the number of a vertex of their component. Each round hangs every number below
     its least neighbor, follows the chains to their ends, and forgets the edges that have become
     inner ones (Liu and Tarjan, "Simple Concurrent Labeling Algorithms for Connected Components",

@@ -18,20 +18,8 @@ def cotangents(V, F):
     together even where it has no area, so that every edge-connected part stays connected in the
     Laplacian.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Positions.
-    F : (m,3) int array
-        Triangles.
+    `V`: (n,3), positions. `F`: (m,3) int, triangles. Returns `C`: (m,3), cotangents, without unit.
 
-    Returns
-    -------
-    C : (m,3) float array
-        Cotangents, without unit.
-
-    Notes
-    -----
     Pinkall and Polthier, "Computing discrete minimal surfaces and their conjugates", 1993.
     """
     C = np.empty((3, len(F))).T  # as `algebra.columns` wants it

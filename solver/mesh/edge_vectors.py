@@ -14,20 +14,9 @@ BLOCK = 1 << 13
 def edge_vectors(V, F):
     """Yield ``block, edges`` for all triangles.
 
-    Parameters
-    ----------
-    V : (n,d) float array
-        Positions, or some of their coordinates.
-    F : (m,3) int array
-        Triangles.
-
-    Yields
-    ------
-    block : slice
-        Rows of F.
-    edges : (3,d,b) float64 array
-        ``edges[k, c]`` is coordinate c of the edges opposite corner k, which run from corner k+1
-        to corner k+2.
+    `V`: (n,d), positions, or some of their coordinates. `F`: (m,3) int, triangles. Gives `block`:
+    slice, rows of F; `edges`: (3,d,b), ``edges[k, c]`` is coordinate c of the edges opposite corner
+    k, which run from corner k+1 to corner k+2.
     """
     coordinates = np.array(V.T, dtype=np.float64, order="C")
     for begin in range(0, len(F), BLOCK):

@@ -55,16 +55,8 @@ class Edges:
 def edges_of(start, end, n):
     """Find which of many edges between n vertices are the same, in either direction.
 
-    Parameters
-    ----------
-    start, end : (h,) int arrays
-
-    Returns
-    -------
-    edges : (e,2) int array
-        Each edge once, the lower end first, in ascending order.
-    number : (h,) int array
-        The index of each given edge among them.
+    `start`, `end`: (h,) int. Returns `edges`: (e,2) int, each edge once, the lower end first, in
+    ascending order; `number`: (h,) int, the index of each given edge among them.
     """
     lower, upper = np.minimum(start, end), np.maximum(start, end)
     order, is_new, number = _numbered(lower, upper, n)
@@ -75,14 +67,8 @@ def edges_of(start, end, n):
 def _numbered(lower, upper, n):
     """Return numbers of pairs below n, in ascending order.
 
-    Returns
-    -------
-    order : (h,) int array
-        Their stable order.
-    is_new : (h,) bool array
-        Which are not as the one before in it.
-    number : (h,) int array
-        Of each pair; the same if they are.
+    Returns `order`: (h,) int, their stable order; `is_new`: (h,) bool, which are not as the one
+    before in it; `number`: (h,) int, of each pair; the same if they are.
     """
     order = stable_order(upper, n)
     order = order[stable_order(lower[order], n)].astype(np.intp)

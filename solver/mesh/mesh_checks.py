@@ -19,24 +19,11 @@ MOST_REVERSED = 0.05
 def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
     """Return the mesh as contiguous arrays, or raise an error that says what is wrong with it.
 
-    Parameters
-    ----------
-    V : (n,3) array_like of float
-        Vertex positions, any unit.
-    F : (m,3) array_like of int, or faces with more corners
-        Triangles, as indices into V. Polygons (m,s), or rows of any length, are split into
-        triangles, block by block of the same number of corners.
-
-    Returns
-    -------
-    V : (n,3) float64 array
-    F : (m,3) int32 array
-
-    Raises
-    ------
-    CubicCraftError
-        Wrong shapes or types, no faces, fewer than 3 vertices, non-finite positions, indices out of
-        range, a polygon that has a vertex twice.
+    `V`: (n,3) array_like of float, vertex positions, any unit. `F`: (m,3) array_like of int, or
+    faces with more corners, triangles, as indices into V. Polygons (m,s), or rows of any length,
+    are split into triangles, block by block of the same number of corners. Returns `V`: (n,3); `F`:
+    (m,3) int32. Raises CubicCraftError: wrong shapes or types, no faces, fewer than 3 vertices,
+    non-finite positions, indices out of range, a polygon that has a vertex twice.
     """
     V = np.ascontiguousarray(real_numbers(V, "positions"))
     if V.ndim != 2 or V.shape[1] != 3:
@@ -67,9 +54,7 @@ def check_winding(F: IntArray, count: int) -> None:
 
     Where triangles face away from each other, normals cancel out, and nothing becomes cubic.
 
-    Raises
-    ------
-    CubicCraftError
+    Raises CubicCraftError.
     """
     edges = Edges(F, count)
     number = edges.number.ravel()
@@ -130,10 +115,8 @@ def _triangles(V: FloatArray, block: NDArray[Any]) -> NDArray[Any]:
 def per_vertex(values: ArrayLike, name: str, n: int) -> FloatArray:
     """Return a scalar or an array (n,) as a finite, non-negative (n,) float64 array.
 
-    Raises
-    ------
-    CubicCraftError
-        Another shape or type, a negative or a non-finite value; `name` is used in the message.
+    Raises CubicCraftError: another shape or type, a negative or a non-finite value; `name` is used
+    in the message.
     """
     values = real_numbers(values, name)
     if values.shape not in ((), (n,)):

@@ -19,29 +19,14 @@ def nearest_on_planes(V, vertex, plane, normals, offsets, most, limit, walls=())
     before, or would move the vertex farther than the limit, is skipped. A vertex that already lies
     in a plane is not moved by it.
 
-    Parameters
-    ----------
-    V : (n,3) float64 array
-        Positions.
-    vertex, plane : (p,) int arrays
-        Pairs of a vertex and a plane, in ascending order of the vertices, the planes of each
-        vertex in the order in which they are tried.
-    normals : (f,3) float64 array
-        Unit normals of the planes.
-    offsets : (f,) float64 array
-        Their distances from the origin, in the unit of the positions.
-    most : (n,) int array
-        How many planes each vertex can be moved into, 0 to 3.
-    limit : float
-        The largest distance that a vertex may be moved by, in the unit of the positions.
-    walls : sequence of ((n,) bool array, (3,) array)
-        Vertices that move only along a plane, and its unit normal.
-
-    Returns
-    -------
-    positions : (n,3) float64 array
-    is_in : (p,) bool array
-        Whether the vertex of each pair now lies in its plane.
+    `V`: (n,3), positions. `vertex`, `plane`: (p,) int, pairs of a vertex and a plane, in ascending
+    order of the vertices, the planes of each vertex in the order in which they are tried.
+    `normals`: (f,3), unit normals of the planes. `offsets`: (f,), their distances from the origin,
+    in the unit of the positions. `most`: (n,) int, how many planes each vertex can be moved into, 0
+    to 3. `limit`: float, the largest distance that a vertex may be moved by, in the unit of the
+    positions. `walls`: sequence of ((n,) bool, (3,)), vertices that move only along a plane, and
+    its unit normal. Returns `positions`: (n,3); `is_in`: (p,) bool, whether the vertex of each pair
+    now lies in its plane.
     """
     step = np.zeros_like(V)
     basis = np.zeros((len(V), MOST + len(walls), 3))

@@ -32,12 +32,8 @@ def blocks_of_overlaps(low, high, is_asking=None):
     is_asking : (m,) bool array, optional
         Only pairs of one of these and one of the others are found.
 
-    Yields
-    ------
-    box : (e,) int array
-        Boxes, some of them several times.
-    first, second : (k,) int arrays
-        Places in it: pairs that overlap, each of them in one block only.
+    Gives `box`: (e,) int, boxes, some of them several times; `first`, `second`: (k,) int, places in
+    it: pairs that overlap, each of them in one block only.
     """
     low, high = _on_grid(low), _on_grid(high)
     for cells in _leaves(low, high):

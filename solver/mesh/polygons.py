@@ -25,21 +25,10 @@ BEND = 1e-4
 def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     """Split polygons into triangles without new vertices.
 
-    Parameters
-    ----------
-    V : (n,3) numpy array
-    faces : (k,s) numpy int array
-        Polygons with s corners each, which may be concave. They need not be planar.
-
-    Returns
-    -------
-    (k * (s - 2), 3) numpy int array
-        In the order of the polygons, and with their orientation; none for s less than 3.
-
-    Raises
-    ------
-    CubicCraftError
-        A concave one has more than `MANY` corners, and mapbox-earcut is not installed.
+    `V`: (n,3). `faces`: (k,s) int, polygons with s corners each, which may be concave. They need
+    not be planar. Returns (k * (s - 2), 3) int array, in the order of the polygons, and with their
+    orientation; none for s less than 3. Raises CubicCraftError: a concave one has more than `MANY`
+    corners, and mapbox-earcut is not installed.
     """
     count, size = faces.shape
     if size <= 3:

@@ -50,22 +50,11 @@ def triangle_areas_and_normals(V: FloatArray, F: IntArray) -> tuple[FloatArray, 
 def areas_and_normals(V, F, of_triangles=None):
     """Return barycentric vertex areas and area-weighted unit vertex normals.
 
-    Parameters
-    ----------
-    V : (n,3) numpy array
-        Rest positions.
-    F : (m,3) numpy int array
-        Triangles.
-    of_triangles : optional
-        What `triangle_areas_and_normals` returns for them.
-
-    Returns
-    -------
-    areas : (n,) numpy array
-        A third of the area of the triangles around each vertex, in the units of V squared.
-    normals : (n,3) numpy array
-        Unit normals; zero where the triangles around a vertex cancel out or have no area, which
-        disables the cubic term there.
+    `V`: (n,3), rest positions. `F`: (m,3) int, triangles. `of_triangles`: optional, what
+    `triangle_areas_and_normals` returns for them. Returns `areas`: (n,), a third of the area of the
+    triangles around each vertex, in the units of V squared; `normals`: (n,3), unit normals; zero
+    where the triangles around a vertex cancel out or have no area, which disables the cubic term
+    there.
     """
     face_areas, face_normals = of_triangles or triangle_areas_and_normals(V, F)
     corners = F.T.astype(np.intp, order="C")

@@ -126,11 +126,7 @@ def spokes_and_rims(V, F, C, edges=None):
 class Pattern:
     """The places in a sparse matrix of the pairs of vertices that share an edge.
 
-    Parameters
-    ----------
-    edges : Edges
-    n : int
-        Number of vertices.
+    `edges`: Edges. `n`: int, number of vertices.
     """
 
     def __init__(self, edges, n):

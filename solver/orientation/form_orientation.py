@@ -45,19 +45,9 @@ ASIDE = np.array([4e-3, -7e-3, 5e-3])
 def form_orientation(normals, areas, form: Polytope):
     """Return the orientation of a form that best fits the normals.
 
-    Parameters
-    ----------
-    normals : (n,3) numpy array
-        Unit normals of the triangles, or zero.
-    areas : (n,) numpy array
-        Their weights, not negative.
-    form : Polytope
-
-    Returns
-    -------
-    Q : (3,3) numpy array
-        Rotation that maps a vector into the frame of the form, the nearest to the identity of
-        those that are equivalent.
+    `normals`: (n,3), unit normals of the triangles, or zero. `areas`: (n,), their weights, not
+    negative. Returns `Q`: (3,3), rotation that maps a vector into the frame of the form, the
+    nearest to the identity of those that are equivalent.
     """
     coarse = binned(normals, areas, COARSE)
     if not len(coarse[0]):

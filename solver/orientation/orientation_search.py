@@ -7,14 +7,8 @@ import numpy as np
 def binned(normals, areas, bins):
     """Return mean directions (k,3) of the cells of the sphere and their areas (k,).
 
-    Parameters
-    ----------
-    normals : (n,3) numpy array
-        Unit normals; zero ones are left out.
-    areas : (n,) numpy array
-        Those with area zero are left out.
-    bins : int
-        Cells per unit length.
+    `normals`: (n,3), unit normals; zero ones are left out. `areas`: (n,), those with area zero are
+    left out. `bins`: int, cells per unit length.
     """
     is_there = (areas > 0.0) & (np.abs(normals).max(axis=1) > 0.0)
     n, a = normals[is_there], areas[is_there]

@@ -77,10 +77,7 @@ class CageFit:
     def __call__(self, surface: FloatArray, goal: FloatArray) -> FloatArray:
         """Return the cage (k,3) of a surface (N,3).
 
-        Parameters
-        ----------
-        goal : (k,3) array
-            Where held vertices are.
+        `goal`: (k,3), where held vertices are.
         """
         cage = goal.copy()
         if self._solve is not None:

@@ -35,11 +35,7 @@ _SAMPLE = 400  # vertices, by half of which most planes are known not to be one 
 def common_planes(pieces: Sequence[Piece], rest: "RestMesh") -> tuple[Mirror, ...]:
     """Return the planes about which what is linked is symmetric at rest, each with its vertices.
 
-    Parameters
-    ----------
-    pieces : sequence of Piece
-    rest : RestMesh
-        Of all of them.
+    `rest`: of all of them.
     """
     of_vertex = np.repeat(np.arange(len(pieces)), [piece.solved for piece in pieces])
     figure = _figures(rest, of_vertex, len(pieces))

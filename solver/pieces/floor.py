@@ -36,11 +36,7 @@ _CYCLES = 12
 class Floor:
     """The feet of what stands on the ground.
 
-    Parameters
-    ----------
-    setup : Setup
-    up : (3,) array
-        Unit vector.
+    `up`: (3,), unit vector.
     """
 
     def __init__(self, setup: "Setup", up: FloatArray):
@@ -62,11 +58,8 @@ class Floor:
         Components that begin higher than the others do not move, and neither do those with held
         vertices.
 
-        Parameters
-        ----------
-        positions : (N,3) array, where the run has taken the vertices of the input
-        only_standing : bool
-            Leave alone what has no feet or base, such as a ball, but touches the ground.
+        `positions`: (N,3), where the run has taken the vertices of the input. `only_standing`:
+        leave alone what has no feet or base, such as a ball, but touches the ground.
         """
         is_moved = self._is_moved & self._is_standing if only_standing else self._is_moved
         if not is_moved.any():

@@ -59,16 +59,8 @@ class HandlePose:
 def targets(original: FloatArray, handle_of: IntArray, handles: Sequence[HandlePose]) -> FloatArray:
     """Return the targets of the vertices by the handles.
 
-    Parameters
-    ----------
-    original : (n,3) array
-    handle_of : (n,) int array
-        Number of the handle of each vertex, or -1.
-    handles : sequence of HandlePose
-
-    Returns
-    -------
-    (n,3) float64 array; free vertices and those of handles that do not move keep their bits
+    `original`: (n,3). `handle_of`: (n,) int, number of the handle of each vertex, or -1. Returns
+    (n,3); free vertices and those of handles that do not move keep their bits.
     """
     result = original.astype(np.float64)
     for number, handle in enumerate(handles):

@@ -108,12 +108,8 @@ def _key_of(values):
 def placement_by(matrix: ArrayLike, styles: tuple[Style, ...]) -> Placement:
     """Return the Placement of an object in the world.
 
-    Parameters
-    ----------
-    matrix : (4,4) array
-        From the object's coordinates to those of the world; its linear part is invertible.
-    styles : tuple of Style
-        Of the object and of each of its regions, with orientations of the world.
+    `matrix`: (4,4), from the object's coordinates to those of the world; its linear part is
+    invertible. `styles`: of the object and of each of its regions, with orientations of the world.
     """
     matrix = np.asarray(matrix, dtype=np.float64)
     linear, offset = np.ascontiguousarray(matrix[:3, :3]), matrix[:3, 3].copy()

@@ -19,12 +19,7 @@ def grown(
 ) -> IntArray:
     """Return the handle that holds each vertex; small handles also hold vertices around them.
 
-    Parameters
-    ----------
-    handle_of : (n,) int array, -1 for vertices of none
-    handles
-    V : (n,3) array, visible positions
-    F : (m,3) int array
+    `handle_of`: (n,) int, -1 for vertices of none. `V`: (n,3), visible positions. `F`: (m,3) int.
     """
     from ..mesh.edge_distances import edge_distances
 

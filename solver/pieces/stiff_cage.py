@@ -20,13 +20,8 @@ LEAST = np.radians(5.0)
 def is_stiff(piece: Piece, positions: FloatArray, own: FloatArray) -> bool:
     """Return whether a piece is a cage that does not follow its result.
 
-    Parameters
-    ----------
-    piece : Piece
-    positions : (N,3) array
-        The result, where it was solved.
-    own : (n,3) array
-        The mesh that was read back from it.
+    `positions`: (N,3), the result, where it was solved. `own`: (n,3), the mesh that was read back
+    from it.
     """
     whole = piece.whole
     if not isinstance(whole, Subdivided):

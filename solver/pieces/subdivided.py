@@ -27,12 +27,8 @@ class Subdivided(Whole):
     The mesh is the cage, of n vertices; `source` and all that is indexed by N are of the surface,
     which begins with the vertices of the cage and their images.
 
-    Parameters
-    ----------
-    original, triangles, reflections, symmetry
-        As for `Whole`.
-    cage : Cage
-        The faces of the mesh.
+    `original`, `triangles`, `reflections`, `symmetry`: as for `Whole`. `cage`: the faces of the
+    mesh.
     """
 
     def __init__(
@@ -154,11 +150,8 @@ class Subdivided(Whole):
     ) -> FloatArray:
         """Return the mesh (n,3) whose surface is nearest to a given one (N,3).
 
-        Parameters
-        ----------
-        at_rest, goal : (k,3) arrays
-            The `cage` at rest, and where held vertices go.
-        is_held : (n,) bool array
+        `at_rest`, `goal`: (k,3), the `cage` at rest, and where held vertices go. `is_held`: (n,)
+        bool.
         """
         fit, held = self._fit, is_held[self._source]
         if fit is None or not fit.serves(at_rest, held):

@@ -23,11 +23,7 @@ def box_frames(V, F, part):
 
     None if there is no such part. The rows of a frame are its axes.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
-    part : (n,) int array
+    `V`: (n,3). `F`: (m,3) int. `part`: (n,) int.
     """
     count = int(part.max()) + 1
     area, unit = triangle_areas_and_normals(V, F)

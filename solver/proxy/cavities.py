@@ -28,14 +28,8 @@ _AT_ONCE = 500
 def cavity_links(triangles, normals, areas, part):
     """Return links of solidity 1 across cavities.
 
-    Parameters
-    ----------
-    triangles : Triangles
-    normals : (n,3) float array
-        Unit normals, or zero.
-    areas : (n,) float array
-    part : (n,) int array
-        Connected part of each vertex.
+    `triangles`: Triangles. `normals`: (n,3), unit normals, or zero. `areas`: (n,). `part`: (n,)
+    int, connected part of each vertex.
     """
     V, outward = triangles.V, outward_sign(triangles, part)[part]
     is_open = outward == 0.0

@@ -12,8 +12,6 @@ def closest_points(P, A, B, C):
     P, A, B, C : (k,3) float arrays
         Points, and the corners of the triangles. Fastest if they lie as by `algebra.by_columns`.
 
-    Notes
-    -----
     The regions of a triangle as in Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
     """
     ab, ac = columns(B - A), columns(C - A)

@@ -26,13 +26,7 @@ _LEAST = 0.5  # smoothness of the corners of a triangle, together, that can spea
 def cubic_shares(triangles, smooth, areas):
     """Return the area (n,) represented by the normal of each vertex, relative to its own area.
 
-    Parameters
-    ----------
-    triangles : Triangles
-    smooth : (n,) array
-        See `smoothness`.
-    areas : (n,) float array
-        Barycentric areas.
+    `triangles`: Triangles. `smooth`: (n,), see `smoothness`. `areas`: (n,), barycentric areas.
     """
     corners = _corners(triangles.F)
     at_corners = smooth.take(corners)

@@ -69,16 +69,8 @@ class Links(Value):
     def entries(self, V):
         """Return what the links add to the matrices of `spokes_and_rims`.
 
-        Parameters
-        ----------
-        V : (n,3) float array
-            Rest positions.
-
-        Returns
-        -------
-        row, column : (e,) int arrays
-        laplacian : (e,) array
-        gather : (e,3) array
+        `V`: (n,3), rest positions. Returns `row`, `column`: (e,) int; `laplacian`: (e,); `gather`:
+        (e,3).
         """
         c, w = self.coefficients, self.weights
         d = np.einsum("kj,kjx->kx", c, V[self.vertices])

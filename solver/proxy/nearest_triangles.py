@@ -74,14 +74,8 @@ class NearestTriangles:
     def ways(self):
         """Return where a triangle has been found, and how to get there.
 
-        Returns
-        -------
-        i, triangle : (f,) int arrays
-            Vertices, in ascending order, and triangles.
-        barycentric : (f,3) array
-            Of the nearest point.
-        d : (f,3) array
-            From the vertex to it.
+        Returns `i`, `triangle`: (f,) int, vertices, in ascending order, and triangles;
+        `barycentric`: (f,3), of the nearest point; `d`: (f,3), from the vertex to it.
         """
         rows = np.flatnonzero(self.triangle >= 0)
         rows = rows[np.argsort(self._chosen[rows])]

@@ -92,16 +92,8 @@ def _near_others(V, part, count):
 def _is_accepted(places, normals, sizes, d):
     """Return which links (k,) to create; see the module.
 
-    Parameters
-    ----------
-    places : (k,3,3) array
-        Of the corners of the triangles.
-    normals : (k,3) array
-        Of the vertices.
-    sizes : (2,k) array
-        Extents of both parts.
-    d : (k,3) array
-        From the vertices to the triangles.
+    `places`: (k,3,3), of the corners of the triangles. `normals`: (k,3), of the vertices. `sizes`:
+    (2,k), extents of both parts. `d`: (k,3), from the vertices to the triangles.
     """
     distance = np.linalg.norm(d, axis=1)
     a, b, c = places.transpose(1, 0, 2)

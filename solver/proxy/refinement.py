@@ -28,13 +28,7 @@ _STEP = 0.6  # of the longest edge, relative to its bound: a round splits longer
 def longest_edges(V, F, part):
     """Return the maximum edge length of each part, (p,).
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Positions in the unit box.
-    F : (m,3) int array
-    part : (n,) int array
-        Part of each vertex.
+    `V`: (n,3), positions in the unit box. `F`: (m,3) int. `part`: (n,) int, part of each vertex.
     """
     return np.maximum(extents(V, part) / FINENESS, 1.0 / FINEST)
 
@@ -49,26 +43,11 @@ def refine(V, F, bound, parts=1):
     any (Rivara, "Algorithms for refining triangular grids", 1984), which keeps triangles from
     becoming needles; neighbors share midpoints, so the surface stays closed.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
-    bound : (n,) float array
-        How long edges may be, at each vertex; the same within a part.
-    parts : int
-        How many of them there are.
-
-    Returns
-    -------
-    V : (n+k,3) float array
-        The given positions, then those of midpoints.
-    F : (l,3) int array
-    parents : (k,2) int array
-        Ends of the edge that each midpoint halves.
-    rounds : (r+1,) int array
-        Where in `parents` each round begins, and the end.
-    whole : (l,) int array
-        The given triangle that each one is a piece of.
+    `V`: (n,3). `F`: (m,3) int. `bound`: (n,), how long edges may be, at each vertex; the same
+    within a part. `parts`: int, how many of them there are. Returns `V`: (n+k,3), the given
+    positions, then those of midpoints; `F`: (l,3) int; `parents`: (k,2) int, ends of the edge that
+    each midpoint halves; `rounds`: (r+1,) int, where in `parents` each round begins, and the end;
+    `whole`: (l,) int, the given triangle that each one is a piece of.
     """
     budget = max(min(BUDGET + FOR_EACH_PART * (parts - 1), MOST), int(GROWTH * len(V)))
     parents, rounds = [np.empty((0, 2), np.int64)], [0]
@@ -108,14 +87,9 @@ def _midpoints(F, is_split, n):
 
     Only triangles with such a side are looked at: most of a fine mesh has none.
 
-    Returns
-    -------
-    rows : (m,) bool array
-        The k triangles that have such sides.
-    new : (p,2) int array
-        Ends of the edges that are split, in ascending order.
-    middle : (k,3) int array
-        Midpoint of the side opposite each corner, or -1.
+    Returns `rows`: (m,) bool, the k triangles that have such sides; `new`: (p,2) int, ends of the
+    edges that are split, in ascending order; `middle`: (k,3) int, midpoint of the side opposite
+    each corner, or -1.
     """
     rows = is_split[:, 0] | is_split[:, 1] | is_split[:, 2]  # `any` takes four times as long
     sides, is_split = F[rows], is_split[rows].ravel()
@@ -129,19 +103,8 @@ def _midpoints(F, is_split, n):
 def _split(F, middle, length):
     """Replace triangles, each of which has at least one midpoint, by two, three or four.
 
-    Parameters
-    ----------
-    F : (m,3) int array
-    middle : (m,3) int array
-        Midpoint of the edge opposite each corner, or -1.
-    length : (m,3) array
-        Of those edges.
-
-    Returns
-    -------
-    (l,3) int array
-    (l,) int array
-        The row of F that each is a piece of.
+    `F`: (m,3) int. `middle`: (m,3) int, midpoint of the edge opposite each corner, or -1. `length`:
+    (m,3), of those edges. Returns (l,3) int; (l,) int, the row of F that each is a piece of.
     """
     # the corner opposite the longest edge that is split comes first
     turn = (np.where(middle >= 0, length, -1.0).argmax(axis=1)[:, None] + np.arange(3)) % 3

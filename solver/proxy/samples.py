@@ -13,21 +13,9 @@ def surface_samples(V, normals, areas, part, is_candidate, count):
     One is taken from each cell of a grid and each direction that the surface faces there, so that
     both sides of a thin wall have their own. Parts have separate samples.
 
-    Parameters
-    ----------
-    V, normals : (n,3) float arrays
-    areas : (n,) float array
-    part : (n,) int array
-    is_candidate : (n,) bool array
-
-    Returns
-    -------
-    spacing : (n,) array
-        Distance of neighbors, at each vertex.
-    chosen : (k,) int array
-        Vertices.
-    area : (k,) array
-        The area that each represents.
+    `V`, `normals`: (n,3). `areas`: (n,). `part`: (n,) int. `is_candidate`: (n,) bool. Returns
+    `spacing`: (n,), distance of neighbors, at each vertex; `chosen`: (k,) int, vertices; `area`:
+    (k,), the area that each represents.
     """
     rows = np.flatnonzero(is_candidate)
     spacing = np.sqrt(areas[rows].sum() / max(min(count, len(rows)), 1))

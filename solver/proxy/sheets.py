@@ -34,11 +34,7 @@ CAPS, SHARE = 0.3, 0.98
 def planar_sheets(V, F, part):
     """Return which parts (p,) are planar sheets. None is if there are no other parts.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-    F : (m,3) int array
-    part : (n,) int array
+    `V`: (n,3). `F`: (m,3) int. `part`: (n,) int.
     """
     area, normal = triangle_areas_and_normals(V, F)
     total, moments = moments_of_normals(area, normal, part[F[:, 0]], int(part.max()) + 1)
@@ -50,10 +46,7 @@ def planar_sheets(V, F, part):
 def extrusions(V, F, part):
     """Return which parts (p,) are extruded outlines, such as letters: two planes, and a rim.
 
-    Parameters
-    ----------
-    V, F, part
-        As of `planar_sheets`.
+    `V`, `F`, `part`: as of `planar_sheets`.
     """
     area, normal = triangle_areas_and_normals(V, F)
     of_face = part[F[:, 0]]
@@ -73,12 +66,8 @@ def cards(V, F, part, component):
     They come in hundreds that lie through each other, and must not hold what they are on. So do
     strands that are closed tubes; but where they are few, they are fingers, legs or spokes.
 
-    Parameters
-    ----------
-    V, F, part
-        As of `planar_sheets`.
-    component : (n,) int array
-        What is linked; a card is small beside that.
+    `V`, `F`, `part`: as of `planar_sheets`. `component`: (n,) int, what is linked; a card is small
+    beside that.
     """
     area, normal = triangle_areas_and_normals(V, F)
     own, linked = part[F[:, 0]], component[F[:, 0]]

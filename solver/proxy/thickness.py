@@ -48,14 +48,8 @@ _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 def thickness_links(triangles, normals, areas, part):
     """Return links of solidity 1 to the opposite side.
 
-    Parameters
-    ----------
-    triangles : Triangles
-    normals : (n,3) float array
-        Unit normals, or zero.
-    areas : (n,) float array
-    part : (n,) int array
-        Connected part of each vertex.
+    `triangles`: Triangles. `normals`: (n,3), unit normals, or zero. `areas`: (n,). `part`: (n,)
+    int, connected part of each vertex.
     """
     outward = outward_sign(triangles, part)[part]
     return links_between(*facing_pairs(triangles.V, outward[:, None] * normals, areas, part))
@@ -64,23 +58,10 @@ def thickness_links(triangles, normals, areas, part):
 def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS):
     """Return pairs of vertices on opposite sides of a part, and weights of links between them.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    normals : (n,3) float array
-        Unit normals away from the side on which the balls are, or zero for none.
-    areas : (n,) float array
-    part : (n,) int array
-    count : int
-        Approximate number of vertices to start from.
-    most : int
-        Number of vertices that the balls are measured against.
-
-    Returns
-    -------
-    i, j : (k,) int arrays
-    weights : (k,) array
+    `V`: (n,3), rest positions in the unit box. `normals`: (n,3), unit normals away from the side on
+    which the balls are, or zero for none. `areas`: (n,). `part`: (n,) int. `count`: int,
+    approximate number of vertices to start from. `most`: int, number of vertices that the balls are
+    measured against. Returns `i`, `j`: (k,) int; `weights`: (k,).
     """
     is_asked = normals.any(axis=1)
     points = np.flatnonzero(is_asked)
@@ -183,10 +164,7 @@ def _border(edges, is_border):
 def _holes(V, start, end, part, count):
     """Return area and volume (count,) of the fans that close the borders of each part.
 
-    Parameters
-    ----------
-    start, end : (b,) int arrays
-        Ends of the border edges, in the direction of their triangles.
+    `start`, `end`: (b,) int, ends of the border edges, in the direction of their triangles.
     """
     if not len(start):
         return np.zeros(count), np.zeros(count)

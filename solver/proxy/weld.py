@@ -18,26 +18,13 @@ _BITS = 21  # for each coordinate in a key; the tolerance of 1e-6 needs 20
 def weld(V, F, part=None):
     """Return which vertices are merged, and the triangles between them.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Positions in the unit box.
-    F : (m,3) int array
-        Triangles.
-    part : (n,) int array, optional
-        Connected part of each vertex.
-
-    Returns
-    -------
-    group : (n,) int array
-        Index of the welded vertex of each, in the order of their first vertices.
-    first : (w,) int array
-        The first vertex of each. Parts that share only a vertex, not an edge, stay separate: an eye
-        would hang on it as on a hinge.
-    F : (k,3) int array
-        Triangles between welded vertices. Collapsed ones are removed, and of those with
-        the same corners, only one is kept: otherwise the normals of a leaf modeled as two
-        coincident sheets would cancel out.
+    `V`: (n,3), positions in the unit box. `F`: (m,3) int, triangles. `part`: (n,) int, optional,
+    connected part of each vertex. Returns `group`: (n,) int, index of the welded vertex of each, in
+    the order of their first vertices; `first`: (w,) int, the first vertex of each. Parts that share
+    only a vertex, not an edge, stay separate: an eye would hang on it as on a hinge; `F`: (k,3)
+    int, triangles between welded vertices. Collapsed ones are removed, and of those with the same
+    corners, only one is kept: otherwise the normals of a leaf modeled as two coincident sheets
+    would cancel out.
     """
     tolerance = _tolerance(V, F, components(F, len(V))[1] if part is None else part)
     label = _joined(_least_of_cell(V / tolerance + 0.5), _least_of_cell(V / tolerance))

@@ -89,20 +89,9 @@ SINGLE = Tolerances(angle=1e-3, slack=1e-5, aligned=1e-6)
 def active_set_rotations(problem, R, states):
     """Return the minimizers near R, in 64 bit; the Taichi kernels do the same step by step.
 
-    Parameters
-    ----------
-    problem : LocalProblem
-    R : (n,3,3) float array
-        Rotations to start from.
-    states : (n,w) float array
-        Subgradients to start from, and what else the form keeps of a vertex.
-
-    Returns
-    -------
-    R : (n,3,3) float array
-    states : (n,w) float array
-    is_done : (n,) bool array
-        Which are certified; the others are those given.
+    `problem`: LocalProblem. `R`: (n,3,3), rotations to start from. `states`: (n,w), subgradients to
+    start from, and what else the form keeps of a vertex. Returns `R`: (n,3,3); `states`: (n,w);
+    `is_done`: (n,) bool, which are certified; the others are those given.
     """
     form, todo = problem.form, np.arange(len(R))
     is_done = np.zeros(len(R), bool)

@@ -43,16 +43,8 @@ class AdmmOptions:
 def admm_rotations(problem, R, states, options):
     """Return rotations and states that minimize the local energy near R.
 
-    Parameters
-    ----------
-    problem, R, states
-        As in `active_set.active_set_rotations`.
-    options : AdmmOptions
-
-    Returns
-    -------
-    R : (n,3,3) float array
-    states : (n,w) float array
+    `problem`, `R`, `states`: as in `active_set.active_set_rotations`. `options`: AdmmOptions.
+    Returns `R`: (n,3,3); `states`: (n,w).
     """
     last, R, states = R, R.copy(), states.copy()
     plain = problem.lam == 0.0

@@ -22,23 +22,8 @@ def directions_of(normals, areas, most):
     to the mean of the normals that it is nearest to. Where they do not point to all sides, those
     opposite are added, and if they lie in one plane, its two normals.
 
-    Parameters
-    ----------
-    normals : (n,3) array
-        Unit normals.
-    areas : (n,) array
-        Their weights.
-    most : int
-        At least 6.
-
-    Returns
-    -------
-    (k,3) array of unit vectors
-
-    Raises
-    ------
-    CubicCraftError
-        There is no normal with an area.
+    `normals`: (n,3), unit normals. `areas`: (n,), their weights. `most`: int, at least 6. Returns
+    (k,3) of unit vectors. Raises CubicCraftError: there is no normal with an area.
     """
     d, a = binned(np.asarray(normals, np.float64), np.asarray(areas, np.float64), _BINS)
     if not len(d):

@@ -41,9 +41,7 @@ class FaceArrays(NamedTuple):
 class Faces:
     """The tables of several bodies.
 
-    Parameters
-    ----------
-    bodies : sequence of Polytope
+    `bodies`: sequence of Polytope.
     """
 
     arrays: FaceArrays

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The forms that can be asked for by name: what a ball would become."""
 
-__all__ = ("FORMS", "OF_OBJECT", "WITH_SIDES")
-
 # Only append: the place of a form is its number in files.
 FORMS = (
     ("CUBE", "Cube", "Six squares, as in the paper"),

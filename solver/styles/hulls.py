@@ -24,19 +24,7 @@ def simple_hull(points, most):
     the points. Of very many points, corners that are outermost in a narrow range of directions only
     may be left out, but the sides touch all points.
 
-    Parameters
-    ----------
-    points : (n,3) array
-    most : int
-
-    Returns
-    -------
-    Polytope
-
-    Raises
-    ------
-    CubicCraftError
-        As `from_points`.
+    `points`: (n,3). `most`: int. Returns Polytope. Raises CubicCraftError: as `from_points`.
     """
     points = np.asarray(points, dtype=np.float64)
     outer = _outermost(points) if len(points) > MANY_POINTS else points

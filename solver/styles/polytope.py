@@ -130,25 +130,12 @@ def from_directions(
 ) -> Polytope:
     """Return the body of all points y with ``d.y <= offset`` for each direction d.
 
-    Parameters
-    ----------
-    directions : (k,3) array
-        Of any length except zero.
-    offsets : (k,) array, optional
-        Positive; by default all sides are equally far away.
-    rounding : float
-        Relative distance below which vertices are one: corners where more than three sides meet.
-
-    Returns
-    -------
-    Polytope
-        In the size in which the same cubeness looks about as strong as with the cube, because
-        costs differ as much. Sides that do not touch the body are left out.
-
-    Raises
-    ------
-    CubicCraftError
-        The directions do not enclose the origin: the body would have no end.
+    `directions`: (k,3), of any length except zero. `offsets`: (k,), optional, positive; by default
+    all sides are equally far away. `rounding`: relative distance below which vertices are one:
+    corners where more than three sides meet. Returns Polytope, in the size in which the same
+    cubeness looks about as strong as with the cube, because costs differ as much. Sides that do not
+    touch the body are left out. Raises CubicCraftError: the directions do not enclose the origin:
+    the body would have no end.
     """
     d = vectors(directions, "the directions of a form")
     sizes = np.linalg.norm(d, axis=1)
@@ -180,19 +167,8 @@ def from_directions(
 def from_points(points: ArrayLike) -> Polytope:
     """Return the convex hull of points, about their origin.
 
-    Parameters
-    ----------
-    points : (n,3) array
-
-    Returns
-    -------
-    Polytope
-        As `from_directions`.
-
-    Raises
-    ------
-    CubicCraftError
-        The points are flat, or the origin does not lie inside.
+    `points`: (n,3). Returns Polytope, as `from_directions`. Raises CubicCraftError: the points are
+    flat, or the origin does not lie inside.
     """
     normals, offsets, _ = hull_planes(vectors(points, "the points of a form"))
     return from_directions(normals, offsets)
@@ -201,10 +177,7 @@ def from_points(points: ArrayLike) -> Polytope:
 def hull_planes(points):
     """Return unit normals (m,3), offsets (m,) and triangles (m,3) of the hull of points (n,3).
 
-    Raises
-    ------
-    CubicCraftError
-        As `from_points`.
+    Raises CubicCraftError: as `from_points`.
     """
     spatial = _scipy_spatial()
     try:

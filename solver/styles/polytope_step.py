@@ -13,12 +13,7 @@ NEAREST_FACET = 0.9
 def polytopes(forms, body):
     """Return the form of local problems.
 
-    Parameters
-    ----------
-    forms : list of Polytope
-        Without any, it is the cube.
-    body : (n,) int array
-        Which of several.
+    `forms`: list of Polytope, without any, it is the cube. `body`: (n,) int, which of several.
     """
     return Polytopes(faces_of(forms), body) if forms else CUBE
 
@@ -28,11 +23,7 @@ class Polytopes:
 
     The state of a vertex is its subgradient and the number of the face that it lies on (4,).
 
-    Parameters
-    ----------
-    faces : Faces
-    body : (n,) int array
-        Number of each vertex's body.
+    `faces`: Faces. `body`: (n,) int, number of each vertex's body.
     """
 
     width = 4

@@ -98,20 +98,10 @@ def solved_style(
 ) -> SolvedStyle:
     """Return a Style of the N vertices of the input at the n that are solved.
 
-    Parameters
-    ----------
-    style, setup
-    limbs : KnownLimbs, optional
-        As of `Pose`.
-    keep_rotation : bool
-        As of `SolverOptions`: boxes then stay as they lie.
-    normals : (n,3) array, optional
-        What the cubic term sees; by default the normals without their details.
-
-    Raises
-    ------
-    CubicCraftError
-        The style does not fit the mesh, or a value of it is invalid.
+    `limbs`: KnownLimbs, optional, as of `Pose`. `keep_rotation`: as of `SolverOptions`: boxes then
+    stay as they lie. `normals`: (n,3), optional, what the cubic term sees; by default the normals
+    without their details. Raises CubicCraftError: the style does not fit the mesh, or a value of it
+    is invalid.
     """
     rest = setup.rest
     cubeness = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0)

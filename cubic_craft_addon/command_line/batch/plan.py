@@ -11,8 +11,6 @@ from ....solver.console.errors import InputError
 from ..process.output_files import written
 from .sources import Source
 
-__all__ = ("Job", "decisive", "plan", "settings_of")
-
 OF_THE_BATCH = {
     *("inputs", "input", "handles", "handles_file", "report", "error_file"),
     *("output", "save_mesh", "bake", "part"),
@@ -55,11 +53,8 @@ class Job(NamedTuple):
 def plan(options: Namespace, sources: list[Source]) -> list[Job]:
     """Return one job per source, in the same order; with ``--only`` the one of that number.
 
-    Raises
-    ------
-    InputError
-        There are fewer sources.
-        A result would take the place of an input, or be taken for one the next time.
+    Raises InputError: there are fewer sources. A result would take the place of an input, or be
+    taken for one the next time.
     """
     jobs = [_job(options, source) for source in sources]
     inputs = {

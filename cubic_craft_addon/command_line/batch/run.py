@@ -24,8 +24,6 @@ from .sources import find_sources
 from .summary import summary
 from .task import Batch, do
 
-__all__ = ("SOME_FAILED", "run_batch")
-
 SOME_FAILED = 3
 """exit code"""
 SEEN_AT_ONCE = 20
@@ -98,10 +96,7 @@ def _do_all(
 ) -> tuple[dict[Job, dict[str, Any]], str]:
     """Do all jobs, so many at a time, and print a line for each.
 
-    Returns
-    -------
-    tuple
-        What the report has of them, in order, and why that could not be written at last.
+    Returns what the report has of them, in order, and why that could not be written at last.
     """
     files: dict[Job, dict[str, Any]] = {}
     folder, notices, error = options.output_folder.resolve(), set(), ""

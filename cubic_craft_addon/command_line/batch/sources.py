@@ -13,8 +13,6 @@ from ....solver.console.errors import InputError
 from ....solver.console.report import in_words
 from ..options.formats import READABLE, listing
 
-__all__ = ("Found", "Source", "find_sources")
-
 
 class Source(NamedTuple):
     """A file to work on."""
@@ -45,10 +43,7 @@ def find_sources(inputs: list[Path], is_recursive: bool, output_folder: Path) ->
     Hidden files are left out, and what lies in the output folder, as that is results; and what is
     not a regular file, or a link to none, as a pipe or a device may have no end.
 
-    Raises
-    ------
-    InputError
-        A folder cannot be read, or holds nothing that can.
+    Raises InputError: a folder cannot be read, or holds nothing that can.
     """
     places: dict[Path, tuple[PurePath, Path | None]] = {}  # in the folder that was given, and that
     left_out, kinds = [], Counter()

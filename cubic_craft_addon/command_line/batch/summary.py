@@ -6,8 +6,6 @@ from typing import Any
 from ....solver.console.report import FAILED, KEPT
 from ..process.one_line import one_line
 
-__all__ = ("summary",)
-
 
 def summary(about: dict[str, Any]) -> str:
     """Return one line about a file, without its name, from what `task.do` returns."""

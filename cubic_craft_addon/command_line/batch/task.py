@@ -26,8 +26,6 @@ from ..process.watched_process import Limits, finish, start
 from ..trust.places import is_inside, refuse_special
 from .plan import Job
 
-__all__ = ("Batch", "do", "key_of")
-
 REFUSED = 2
 """exit code for an input that cannot be used"""
 _ERROR = re.compile(r"^(?:headless_render\.py|cubic_craft): error: (.*)$", re.MULTILINE)
@@ -57,12 +55,9 @@ class Batch(NamedTuple):
 def do(job: Job, batch: Batch) -> dict[str, Any]:
     """Do a file, or wait while another process does it, as one of a batch that runs twice.
 
-    Returns
-    -------
-    dict
-        ``status``; of a file that failed ``error``, one line, and if that is the fault of the file
-        and not of the machine ``refused``; else ``seconds`` and ``report``;
-        and if it was begun ``words``, what its process wrote to standard error, and ``peak_gb``.
+    Returns ``status``; of a file that failed ``error``, one line, and if that is the fault of the
+    file and not of the machine ``refused``; else ``seconds`` and ``report``; and if it was begun
+    ``words``, what its process wrote to standard error, and ``peak_gb``.
     """
     try:
         refuse_special(job.path)
@@ -135,11 +130,8 @@ def _report(job: Job, key: str) -> dict[str, Any]:
 def _run(job: Job, batch: Batch, key: str) -> tuple[int, str, str, float | None]:
     """Run the process to its end.
 
-    Returns
-    -------
-    tuple
-        Its exit code, what it wrote to standard error, the limit that it has exceeded, and the most
-        gigabytes of memory that it had.
+    Returns its exit code, what it wrote to standard error, the limit that it has exceeded, and the
+    most gigabytes of memory that it had.
     """
     job.record.unlink(missing_ok=True)  # from now on the outputs may be others than it says
     limit = [f"--threads={batch.threads}"] if batch.threads else []

@@ -11,16 +11,12 @@ from ..trust.places import refuse_special
 from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE, listing
 
 REPORTS = (".json", LINES)
-__all__ = ("check_batch", "check_single", "refuse_empty")
 
 
 def check_single(options: Namespace) -> None:
     """Check what concerns a run with one file, and fill in what it writes.
 
-    Raises
-    ------
-    InputError
-        The input, an output path, or how options go together.
+    Raises InputError: the input, an output path, or how options go together.
     """
     for option in ("jobs", "force", "recursive", "only"):
         if getattr(options, option):
@@ -39,11 +35,8 @@ def check_single(options: Namespace) -> None:
 def check_form(options: Namespace) -> None:
     """Check that a form that is made from a file has one and no other has, and FACES directions.
 
-    Raises
-    ------
-    InputError
-        It has none, the directions are missing, or the file cannot be read, or that of the normal
-        capture.
+    Raises InputError: it has none, the directions are missing, or the file cannot be read, or that
+    of the normal capture.
     """
     needs_file = options.form in ("object", "directions")
     if needs_file and options.form_object is None:
@@ -63,10 +56,7 @@ def check_form(options: Namespace) -> None:
 def check_batch(options: Namespace) -> None:
     """Check what concerns a batch; what is wrong inside a file is found when its turn comes.
 
-    Raises
-    ------
-    InputError
-        An input, an output, or how options go together.
+    Raises InputError: an input, an output, or how options go together.
     """
     folder, report = options.output_folder, options.report
     if folder is None:

@@ -3,8 +3,6 @@
 
 from ...send.targets import TARGETS
 
-__all__ = ("ANIMATED", "FOR_ENGINES", "READABLE", "RENUMBER_VERTICES", "WRITABLE", "listing")
-
 READABLE = (
     (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
     + (".usd", ".usdc", ".usda", ".usdz")

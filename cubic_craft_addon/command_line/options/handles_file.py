@@ -11,8 +11,6 @@ from typing import Any
 
 from ....solver.console.errors import InputError
 
-__all__ = ("GivenHandle", "read_handles")
-
 KINDS = ("group", "vertices", "box")
 """what says which vertices belong to a handle; exactly one of them"""
 
@@ -57,10 +55,7 @@ class GivenHandle:
 def read_handles(path: Path) -> list[GivenHandle]:
     """Read and check the file.
 
-    Raises
-    ------
-    InputError
-        Naming the file, the handle by its number from 1, and what is wrong.
+    Raises InputError: naming the file, the handle by its number from 1, and what is wrong.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))

@@ -5,8 +5,6 @@ import argparse
 
 from .formats import ANIMATED, READABLE, WRITABLE, listing
 
-__all__ = ("COMMON", "EPILOG", "HELP", "WHOLE_EPILOG")
-
 COMMON = (
     *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--crispness", "--detail"),
     *("--output", "--no-render", "--save-mesh", "--low-poly", "--bake"),

@@ -8,8 +8,6 @@ from typing import NamedTuple
 from ....solver.method import SETTINGS, Method
 from ....solver.styles.form_names import WITH_SIDES
 
-__all__ = ("GivenRegion", "region_of", "region_option")
-
 
 class GivenRegion(NamedTuple):
     """A vertex group with a form and a cubeness of its own."""
@@ -23,10 +21,7 @@ class GivenRegion(NamedTuple):
 def region_of(text: str) -> GivenRegion:
     """Read a region, such as "head:octahedron:0.8", or "hat:prism5:1" with a number of sides.
 
-    Raises
-    ------
-    ValueError
-        It is none.
+    Raises ValueError: it is none.
     """
     group, form, cubeness = text.rsplit(":", 2)
     found = re.fullmatch(r"([a-z]+?)(\d*)", form.lower())
@@ -45,9 +40,7 @@ def region_of(text: str) -> GivenRegion:
 def region_option(forms):
     """Return the type of the option: it checks a text, and leaves it as it is for the workers.
 
-    Parameters
-    ----------
-    forms : names of forms that need no further settings than a number of sides
+    `forms`: names of forms that need no further settings than a number of sides.
     """
 
     def check(text: str) -> str:

@@ -21,17 +21,6 @@ from ..solving.cubify_all import Sculpture
 from ..writing.detached import detached_copy
 from .view import best_yaw
 
-__all__ = (
-    "Gallery",
-    "Group",
-    "arrange",
-    "build_gallery",
-    "extent_of",
-    "outline",
-    "scene_for_gallery",
-    "stand",
-)
-
 SIZE = 2.0
 """largest extent of the original in the gallery; everything else is measured by it"""
 GAP = 0.3
@@ -101,10 +90,7 @@ def arrange(
 ) -> Gallery:
     """Stand the groups side by side, with their labels, as large as the resolution allows.
 
-    Parameters
-    ----------
-    groups : their copies are in the scene, which is shown
-    turns : leave room for a turn of each
+    `groups`: their copies are in the scene, which is shown. `turns`: leave room for a turn of each.
     """
     outlines = np.array([outline(group, turns) for group in groups])
     labels = [_label(group.label, scene) for group in groups]

@@ -15,8 +15,6 @@ from ..process.quiet import captured
 from ..reading.blender_operator import reason
 from .gallery import Gallery
 
-__all__ = ("render",)
-
 ENGINES = {"cycles": "CYCLES", "workbench": "BLENDER_WORKBENCH"}
 BOUNCES = 4
 
@@ -24,10 +22,7 @@ BOUNCES = 4
 def render(gallery: Gallery, paths: list[Path], options: Namespace) -> Iterator[Path]:
     """Render one picture, or one per path of a full turn, and yield each path when it is done.
 
-    Raises
-    ------
-    InputError
-        The engine does not work on this machine, or a file cannot be written.
+    Raises InputError: the engine does not work on this machine, or a file cannot be written.
     """
     scene = gallery.scene
     _set_up(scene, options)

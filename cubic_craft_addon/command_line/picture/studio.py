@@ -9,8 +9,6 @@ from mathutils import Vector
 
 from .gallery import ELEVATION, Gallery
 
-__all__ = ("FINISHES", "furnish", "surface")
-
 FINISHES = {
     "clay": ((0.56, 0.20, 0.09), 0.55),
     "teal": ((0.012, 0.27, 0.235), 0.42),

@@ -10,8 +10,6 @@ from mathutils.bvhtree import BVHTree
 
 from ... import mesh_bridge
 
-__all__ = ("best_yaw",)
-
 MOST = 400
 """vertices that are looked for"""
 BETTER = 1.1
@@ -26,10 +24,8 @@ def best_yaw(
     That is how much of the picture the objects cover, times the share of their vertices that is
     seen: a face has more of them than the back of a head.
 
-    Parameters
-    ----------
-    places : where each object is
-    yaw, elevation : radians, of the objects toward a camera that looks along Y, and of that
+    `places`: where each object is. `yaw`, `elevation`: radians, of the objects toward a camera that
+    looks along Y, and of that.
     """
     points, triangles, count = [], [], 0
     for obj, place in zip(objects, places, strict=True):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names and messages as they can be printed, whoever has chosen the names."""
 
-__all__ = ("one_line",)
-
 
 def one_line(text: str) -> str:
     """Return a text, such as a file's name, as it can be printed in one line."""

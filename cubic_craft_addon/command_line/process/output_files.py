@@ -6,15 +6,6 @@ from pathlib import Path
 
 from ....solver.console.output import check_folder, check_place
 
-__all__ = (
-    "check_writable",
-    "leveled",
-    "meshes",
-    "numbered",
-    "per_cubeness",
-    "written",
-)
-
 
 def per_cubeness(path: Path, cubeness: list[float]) -> list[Path]:
     """One path per cubeness: the path itself for one value, else ``name_0.4.obj`` and so on."""
@@ -50,10 +41,7 @@ def written(picture: Path | None, mesh: Path | None, options: Namespace) -> list
 def check_writable(option: str, paths: list[Path]) -> None:
     """Refuse paths that cannot be written, before the long work starts.
 
-    Raises
-    ------
-    InputError
-        Naming the option, the path and the cure.
+    Raises InputError: naming the option, the path and the cure.
     """
     for path in paths:
         check_place(f"{option} {path}", path)

@@ -10,8 +10,6 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
 
-__all__ = ("ProgressBar", "Task")
-
 
 class Task:
     """One step of the run, as `ProgressBar.task` gives it."""

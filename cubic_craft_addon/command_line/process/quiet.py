@@ -11,8 +11,6 @@ import sys
 import tempfile
 from collections.abc import Iterator
 
-__all__ = ("captured", "mute_stdout", "terminal")
-
 _terminals = [2]
 
 

@@ -4,8 +4,6 @@
 import tomllib
 from pathlib import Path
 
-__all__ = ("version",)
-
 _MANIFEST = Path(__file__).resolve().parents[3] / "blender_manifest.toml"
 
 

@@ -13,8 +13,6 @@ from typing import Any, NamedTuple
 
 from ....solver.console.process_memory import GIGABYTE, memory_of, peak_gb
 
-__all__ = ("Limits", "end_processes", "finish", "start")
-
 PATIENCE = 10.0
 """seconds in which a process tidies up before it is killed"""
 IMPATIENCE = 1.0
@@ -52,11 +50,8 @@ def start(command: list[str], **how: Any) -> subprocess.Popen:
 def finish(process: subprocess.Popen, limits: Limits) -> tuple[str, float | None]:
     """Wait for the end of a process.
 
-    Returns
-    -------
-    tuple
-        In words the limit that it has exceeded, if any; and the most gigabytes that it was seen to
-        have had in memory, if known.
+    Returns tuple, in words the limit that it has exceeded, if any; and the most gigabytes that it
+    was seen to have had in memory, if known.
     """
     begin, exceeded, peak = time.monotonic(), "", None
     while process.returncode is None:

@@ -9,16 +9,11 @@ import bpy
 
 from ....solver.console.errors import InputError
 
-__all__ = ("operator", "reason")
-
 
 def operator(name: str, path: Path) -> Callable[..., Any]:
     """Return an operator by its name, such as "wm.obj_import".
 
-    Raises
-    ------
-    InputError
-        This Blender does not have it; ``path`` is the file that it was meant for.
+    Raises InputError: this Blender does not have it; ``path`` is the file that it was meant for.
     """
     group, _, verb = name.partition(".")
     if verb not in dir(getattr(bpy.ops, group)):

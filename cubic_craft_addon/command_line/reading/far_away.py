@@ -14,8 +14,6 @@ import numpy as np
 
 from .mesh_arrays import positions_of
 
-__all__ = ("middle_if_far", "warn_if_rounded")
-
 FAR = 1000.0
 """times its largest extent: there 32 bits round to 6e-5 of the extent"""
 

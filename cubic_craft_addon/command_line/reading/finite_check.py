@@ -13,8 +13,6 @@ import numpy as np
 
 from ....solver.console.errors import InputError
 
-__all__ = ("refuse_infinite",)
-
 PLY_TYPES = {"char": "i1", "uchar": "u1", "int": "i4", "uint": "u4", "float": "f4"}
 """those that NumPy does not call the same"""
 CUT_OFF = -1
@@ -27,10 +25,7 @@ NOT_FINITE = re.compile(rb"[+-]?(nan|inf)", re.IGNORECASE)
 def refuse_infinite(path: Path) -> None:
     """Check the vertices of a .ply or .stl; files that make no sense are the importer's to refuse.
 
-    Raises
-    ------
-    InputError
-        Naming the file, the first vertex that is wrong, and the cure.
+    Raises InputError: naming the file, the first vertex that is wrong, and the cure.
     """
     data = path.read_bytes()
     vertex = None

@@ -10,8 +10,6 @@ import numpy as np
 from .load_meshes import empty_blender, load
 from .mesh_arrays import read
 
-__all__ = ("FormMesh", "make_form", "read_form")
-
 
 class FormMesh(NamedTuple):
     """All meshes of a file as one, in the axes of the scene, about its origin."""
@@ -25,10 +23,7 @@ class FormMesh(NamedTuple):
 def read_form(path: Path, verbose: bool) -> FormMesh:
     """Read the meshes of a file; Blender is empty afterwards.
 
-    Raises
-    ------
-    InputError
-        The file cannot be read, or holds no mesh.
+    Raises InputError: the file cannot be read, or holds no mesh.
     """
     points, triangles, count = [], [], 0
     for obj in load(path, None, verbose).objects:

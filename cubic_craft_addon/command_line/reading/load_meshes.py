@@ -21,8 +21,6 @@ from .obj_layout import ObjLayout, match_objects, read_layout
 from .seen_objects import is_in_picture, show_as_meshes
 from .weld import weld
 
-__all__ = ("Loaded", "empty_blender", "load")
-
 LEVELS_OF_MONKEY = 2
 IMPORTERS = {
     ".obj": "wm.obj_import",

@@ -6,8 +6,6 @@ from typing import Any
 import bpy
 import numpy as np
 
-__all__ = ("distinct_rows", "positions_of", "read")
-
 
 def read(collection: Any, name: str, kind: Any = np.float32, width: int = 1) -> np.ndarray:
     """Return a property of all members of a collection, (n,) or with a width (n,width)."""

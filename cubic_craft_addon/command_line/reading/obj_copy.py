@@ -16,8 +16,6 @@ import numpy as np
 from ....solver.console.temporary import temporary_folder
 from .obj_lines import ObjLines
 
-__all__ = ("file_named", "in_file", "readable_copy")
-
 WITH_TEXTURES = (b"map_", b"bump", b"norm", b"disp", b"decal", b"refl")
 """how lines of a material library begin that name a file"""
 STANDS_FOR_BACKSLASH = "\N{FULLWIDTH REVERSE SOLIDUS}"
@@ -27,11 +25,8 @@ STANDS_FOR_BACKSLASH = "\N{FULLWIDTH REVERSE SOLIDUS}"
 def readable_copy(path: Path, encoding: str, offset: np.ndarray) -> Iterator[Path]:
     """Give the path of a copy, of the same name, during the block.
 
-    Parameters
-    ----------
-    path : of the .obj file
-    encoding : of its names
-    offset : (3,) what is taken from all positions
+    `path`: of the .obj file. `encoding`: of its names. `offset`: (3,) what is taken from all
+    positions.
     """
     with temporary_folder() as folder:
         copy = folder / path.name

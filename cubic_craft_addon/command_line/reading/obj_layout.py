@@ -22,8 +22,6 @@ from .mesh_arrays import positions_of
 from .obj_copy import file_named
 from .obj_lines import ObjLines
 
-__all__ = ("ObjLayout", "match_objects", "read_layout")
-
 
 @dataclass
 class ObjLayout:
@@ -54,10 +52,7 @@ class ObjLayout:
 def read_layout(path: Path) -> ObjLayout:
     """Read positions and indices of an .obj file; faces that make no sense are passed over.
 
-    Raises
-    ------
-    InputError
-        A vertex without three finite coordinates, which Blender would read as zeros.
+    Raises InputError: a vertex without three finite coordinates, which Blender would read as zeros.
     """
     coordinates: list[list[bytes]] = []
     sections: list[tuple[int, set[int]]] = [(0, set())]  # first vertex, used vertices

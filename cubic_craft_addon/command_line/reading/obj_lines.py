@@ -7,8 +7,6 @@ from pathlib import Path
 
 from ....solver.console.obj_lines import WITH_NAMES, logical_lines
 
-__all__ = ("ObjLines",)
-
 
 class ObjLines:
     """Iterate over the lines of a file without comments, each as its keyword and the rest.

@@ -10,8 +10,6 @@ import bpy
 from ....solver.errors import CubicCraftError
 from ... import mesh_bridge
 
-__all__ = ("is_in_picture", "show_as_meshes")
-
 
 def is_in_picture(obj: bpy.types.Object) -> bool:
     """Return whether an object of the scene is shown and rendered.
@@ -36,10 +34,8 @@ def show_as_meshes(*, only_covered: bool = False) -> list[str]:
     Each new object has the name, the children and the place of the one that it stands for. What
     shows no faces stays as it is.
 
-    Parameters
-    ----------
-    only_covered : bool
-        Only meshes whose modifiers are known to show a shape of their own, whatever the mesh is.
+    `only_covered`: only meshes whose modifiers are known to show a shape of their own, whatever the
+    mesh is.
     """
     pairs = []
     for obj in list(bpy.context.scene.objects):

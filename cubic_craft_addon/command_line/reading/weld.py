@@ -12,8 +12,6 @@ import numpy as np
 
 from .mesh_arrays import distinct_rows, positions_of, read
 
-__all__ = ("weld",)
-
 
 def weld(mesh: bpy.types.Mesh) -> None:
     """Join vertices with bit-identical coordinates; UVs and normals of the faces stay."""

@@ -26,8 +26,6 @@ from ..trust.symlinks import refuse_links_in
 from .cubify_all import check_groups, settings_of_object
 from .pose import handles_of_all
 
-__all__ = ("bake_frames",)
-
 
 @dataclass
 class _Given:
@@ -50,12 +48,8 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
     continues there, and one with ``--part`` leaves it for the one that writes. While another run
     is there with the same frames, this one waits, and continues if that was ended.
 
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    CubicCraftError
-        An object or a setting cannot be used in some frame.
+    Raises InputError: the file cannot be written; CubicCraftError: an object or a setting cannot be
+    used in some frame.
     """
     check_groups(loaded.objects, options)
     path = options.bake

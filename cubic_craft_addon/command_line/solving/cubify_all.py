@@ -31,8 +31,6 @@ from ..process.progress import ProgressBar
 from ..reading.load_meshes import Loaded
 from .pose import groups_of, handles_of_all, start_of
 
-__all__ = ("Sculpture", "check_groups", "cubify_all", "settings_of_object")
-
 
 @dataclass
 class Sculpture:
@@ -59,12 +57,8 @@ class Sculpture:
 def cubify_all(loaded: Loaded, options: Namespace, bar: ProgressBar) -> list[Sculpture]:
     """Solve each mesh once per cubeness; objects that share a mesh share the results.
 
-    Raises
-    ------
-    InputError
-        No object has a vertex group that was named, or a handle concerns none.
-    CubicCraftError
-        An object, or an option for it, cannot be used.
+    Raises InputError: no object has a vertex group that was named, or a handle concerns none;
+    CubicCraftError: an object, or an option for it, cannot be used.
     """
     check_groups(loaded.objects, options)
     handles = handles_of_all(loaded, options)

@@ -16,8 +16,6 @@ from ..options.handles_file import GivenHandle
 from ..reading.load_meshes import Loaded
 from ..reading.mesh_arrays import positions_of
 
-__all__ = ("groups_of", "handles_of_all", "start_of")
-
 
 def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
     """Return the names of all vertex groups, and the same for a message."""
@@ -37,10 +35,8 @@ def handles_of_all(loaded: Loaded, options: Namespace) -> dict[str, tuple[Handle
     Those of ``--pin`` come first, so they hold where others overlap them. A handle that only other
     objects have does not concern an object.
 
-    Raises
-    ------
-    InputError
-        A handle of the file concerns no object, or its vertex numbers mean nothing here.
+    Raises InputError: a handle of the file concerns no object, or its vertex numbers mean nothing
+    here.
     """
     found: dict[str, list[Handle]] = {
         obj.name: [Handle(group) for group in options.pin if group in obj.vertex_groups]

@@ -12,24 +12,15 @@ from .obj import restricted_copy
 from .trial import CRASHING, try_to_read
 from .usd import check_usd
 
-__all__ = ("readable",)
-
 
 @contextlib.contextmanager
 def readable(path: Path, importer: str, has_own_process: bool) -> Iterator[Path]:
     """Give the file that Blender may read for this one: itself, or a copy that refers to less.
 
-    Parameters
-    ----------
-    path : what was given, a regular file
-    importer : Blender's operator for it, such as "wm.usd_import"
-    has_own_process : a crash ends nothing else, and is reported by whoever started this process
-
-    Raises
-    ------
-    InputError
-        The file refers to one outside of its folder, stands for far more data than it has, or
-        crashes Blender.
+    `path`: what was given, a regular file. `importer`: Blender's operator for it, such as
+    "wm.usd_import". `has_own_process`: a crash ends nothing else, and is reported by whoever
+    started this process. Raises InputError: the file refers to one outside of its folder, stands
+    for far more data than it has, or crashes Blender.
     """
     suffix = path.suffix.lower()
     if suffix in (".glb", ".gltf"):

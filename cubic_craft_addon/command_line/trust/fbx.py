@@ -13,8 +13,6 @@ from pathlib import Path
 from ....solver.console.errors import InputError
 from .places import is_special
 
-__all__ = ("check_fbx",)
-
 _NAME = re.compile(rb'File[Nn]ame(?::\s*"([^"\r\n]*)"|S(.{4}))', re.DOTALL)
 """in text in quotes; in a binary file behind its length"""
 _LONGEST = 4096

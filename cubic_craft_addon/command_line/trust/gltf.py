@@ -13,8 +13,6 @@ from typing import Any
 from ....solver.console.errors import InputError
 from .places import refuse_outside
 
-__all__ = ("check_gltf",)
-
 _MAGIC, _HEADER, _CHUNK = b"glTF", 12, 8
 _INLINE = ";base64,"
 _MOST = 200
@@ -28,10 +26,8 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "
 def check_gltf(path: Path) -> None:
     """Look into a .gltf or .glb; what makes no sense is the importer's to refuse.
 
-    Raises
-    ------
-    InputError
-        It refers to a file outside of its folder, or stands for far more data than it has.
+    Raises InputError: it refers to a file outside of its folder, or stands for far more data than
+    it has.
     """
     try:
         content = json.loads(_json_of(path).decode())

@@ -12,8 +12,6 @@ from pathlib import Path
 
 from .places import is_inside, say_left_out
 
-__all__ = ("restricted_copy",)
-
 _REST = rb"[\t ]+((?:\\\r?\n|[^\r\n])*)"  # of a line, which goes on after a backslash
 _LIBRARY = re.compile(rb"^[\t ]*mtllib" + _REST, re.MULTILINE)
 _TEXTURE = re.compile(rb"^[\t ]*(map_\w+|bump|disp|decal|refl|norm)" + _REST, re.M | re.I)
@@ -22,10 +20,7 @@ _TEXTURE = re.compile(rb"^[\t ]*(map_\w+|bump|disp|decal|refl|norm)" + _REST, re
 def restricted_copy(path: Path, folder: Path) -> Path | None:
     """Copy an .obj and its libraries without what lies outside its folder; None if nothing does.
 
-    Parameters
-    ----------
-    path : absolute, without links
-    folder : where the copies are written
+    `path`: absolute, without links. `folder`: where the copies are written.
     """
     home, lost, materials = path.parent, [], b""
     if not path.stat().st_size:

@@ -16,8 +16,6 @@ import bpy
 from ....solver.console.errors import InputError
 from .places import is_inside
 
-__all__ = ("check_opened", "checked_before_evaluation", "with_all_paths")
-
 _LOOKS = (
     *(bpy.types.Image, bpy.types.MovieClip, bpy.types.Sound, bpy.types.Text),
     *(bpy.types.VectorFont, bpy.types.Node),
@@ -37,10 +35,7 @@ def checked_before_evaluation(path: Path) -> Iterator[list[str]]:
 
     What is left out is in the list that it gives, as `check_opened` returns it.
 
-    Raises
-    ------
-    InputError
-        Something in it is refused; nothing of it is left in Blender.
+    Raises InputError: something in it is refused; nothing of it is left in Blender.
     """
     errors: list[Exception] = []
     left_out: list[str] = []
@@ -65,15 +60,8 @@ def checked_before_evaluation(path: Path) -> Iterator[list[str]]:
 def check_opened(path: Path) -> list[str]:
     """Check what Blender has read of a file: refuse, or leave out, what leads out of its folder.
 
-    Returns
-    -------
-    list of str
-        The paths that are left out and that there is something at.
-
-    Raises
-    ------
-    InputError
-        Naming what is refused, and the cure.
+    Returns the paths that are left out and that there is something at. Raises InputError: naming
+    what is refused, and the cure.
     """
     _emptied.clear()
     bpy.data.use_autopack = False  # which puts the bytes of all files that it names into a .blend

@@ -8,16 +8,11 @@ from pathlib import Path
 from ....solver.console.errors import InputError
 from ..process.one_line import one_line
 
-__all__ = ("is_inside", "is_special", "refuse_outside", "refuse_special", "say_left_out")
-
 
 def is_inside(path: str | Path, folder: Path) -> bool:
     """Return whether a path leads to a place in a folder, links followed, and to no device.
 
-    Parameters
-    ----------
-    path : as it is written, relative to the folder or absolute
-    folder : absolute, without links
+    `path`: as it is written, relative to the folder or absolute. `folder`: absolute, without links.
     """
     try:
         place = Path(os.path.realpath(folder / path))

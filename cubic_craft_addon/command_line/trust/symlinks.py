@@ -6,17 +6,12 @@ from pathlib import Path
 
 from ....solver.console.errors import InputError
 
-__all__ = ("refuse_links", "refuse_links_in")
-
 
 def refuse_links(option: str, folder: Path, places: Iterable[Path]) -> None:
     """Raise InputError if a folder that is written to is a link, or lies behind one.
 
-    Parameters
-    ----------
-    option : for the message
-    folder : what was given, which may itself be a link
-    places : folders in it at any depth, or itself, absolute
+    `option`: for the message. `folder`: what was given, which may itself be a link. `places`:
+    folders in it at any depth, or itself, absolute.
     """
     home = folder.resolve()
     for place in places:

@@ -10,8 +10,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-__all__ = ("CRASHING", "try_to_read")
-
 CRASHING = (".usd", ".usda", ".usdc", ".usdz", ".abc", ".fbx")
 """formats whose importers trust the file"""
 
@@ -19,9 +17,7 @@ CRASHING = (".usd", ".usda", ".usdc", ".usdz", ".abc", ".fbx")
 def try_to_read(path: Path, importer: str) -> None:
     """Raise InputError if reading a file crashes Blender.
 
-    Parameters
-    ----------
-    importer : operator, such as "wm.usd_import"
+    `importer`: operator, such as "wm.usd_import".
     """
     import bpy
 

@@ -10,8 +10,6 @@ from ....solver.console.errors import InputError
 from .places import is_inside
 from .usd_crate import MAGIC, tokens
 
-__all__ = ("check_usd",)
-
 _LAYERS = (".usd", ".usda", ".usdc", ".usdz", ".abc")
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\r\n]+)@", re.DOTALL)
 _EXPRESSION = "`"
@@ -24,10 +22,7 @@ def check_usd(path: Path) -> None:
 
     Textures are not looked for: they are not needed to read it.
 
-    Raises
-    ------
-    InputError
-        A layer lies outside of the folder, or cannot be looked into.
+    Raises InputError: a layer lies outside of the folder, or cannot be looked into.
     """
     home = path.resolve().parent
     waiting, seen = [path.resolve()], set()

@@ -7,8 +7,6 @@ name TOKENS has the texts, since version 0.4 compressed by LZ4.
 
 import struct
 
-__all__ = ("MAGIC", "tokens")
-
 MAGIC = b"PXR-USDC"
 _BOOTSTRAP, _SECTION = struct.Struct("<8s8Bq"), struct.Struct("<16sqq")
 _COMPRESSED = (0, 4)
@@ -18,10 +16,7 @@ _COMPRESSED = (0, 4)
 def tokens(data: bytes) -> list[bytes]:
     """Return the texts of a crate.
 
-    Raises
-    ------
-    ValueError, IndexError
-        It is none, or is cut off.
+    Raises ValueError, IndexError: it is none, or is cut off.
     """
     try:
         _, major, minor, *_, contents = _BOOTSTRAP.unpack_from(data)

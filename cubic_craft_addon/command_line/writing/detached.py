@@ -6,8 +6,6 @@ import numpy as np
 
 from ...mesh_bridge import discard_original
 
-__all__ = ("detached_copy",)
-
 
 def detached_copy(
     obj: bpy.types.Object, positions: np.ndarray, keep_modifiers: bool
@@ -16,11 +14,8 @@ def detached_copy(
 
     The copy has no parent, animation, constraints or shape keys, and it is in no collection yet.
 
-    Parameters
-    ----------
-    positions : (n,3) numpy float32 array, object space
-    keep_modifiers : bool
-        Keep those that need no other object; without them the mesh is what is exported.
+    `positions`: (n,3) float32, object space. `keep_modifiers`: keep those that need no other
+    object; without them the mesh is what is exported.
     """
     place = obj.matrix_world.copy()
     copy, mesh = obj.copy(), obj.data.copy()

@@ -12,8 +12,6 @@ from ....solver.errors import CubicCraftError
 from ...send.normal_map import MapOptions, passing_normal_map
 from ..solving.cubify_all import Sculpture
 
-__all__ = ("low_poly",)
-
 LEAST = 12
 """triangles of an object"""
 
@@ -24,20 +22,9 @@ def low_poly(
 ) -> Iterator[tuple[list[bpy.types.Object], list[str]]]:
     """Give low-poly versions of all objects, which carry their results, during the block.
 
-    Parameters
-    ----------
-    triangles : of all meshes together, shared among them by the triangles that they have
-    path : of the file that they are for
-
-    Yields
-    ------
-    tuple
-        The objects, and what should be known about them, a line each.
-
-    Raises
-    ------
-    InputError
-        There is no Cycles, or a mesh has no room for another UV map.
+    `triangles`: of all meshes together, shared among them by the triangles that they have. `path`:
+    of the file that they are for. Gives the objects, and what should be known about them, a line
+    each. Raises InputError: there is no Cycles, or a mesh has no room for another UV map.
     """
     total = sum(sculpture.member.triangles for sculpture in sculptures)
     objects: list[bpy.types.Object] = []

@@ -21,8 +21,6 @@ from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
 
-__all__ = ("write_animation_report", "write_report")
-
 SETTINGS = {
     *names_of_options(Style, StyleInScene, Kept, Advanced, KeptInScene).values(),
     *("region", "symmetry", "with_modifiers"),
@@ -38,9 +36,7 @@ def write_report(
 ) -> None:
     """Write the report as JSON.
 
-    Parameters
-    ----------
-    seconds : what "load", "write", "render" and "total" took
+    `seconds`: what "load", "write", "render" and "total" took.
     """
     report = {
         **_head(options),
@@ -60,9 +56,7 @@ def write_animation_report(
 ) -> None:
     """Write the report of ``--bake`` as JSON.
 
-    Parameters
-    ----------
-    animation : from `bake_frames`
+    `animation`: from `bake_frames`.
     """
     report = {**_head(options), **animation, "seconds": seconds}
     write_json(path, {**report, **_made(options, [options.bake])})

@@ -31,8 +31,6 @@ from .low_poly import low_poly
 from .write_mtl import relative, write_mtl
 from .write_obj import ObjPart, write_obj
 
-__all__ = ("check_exporter", "save_meshes")
-
 TO_Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 """Blender's Z-up space to that of .obj files, as Blender's own exporter has it"""
 
@@ -50,19 +48,9 @@ def save_meshes(
     restore. Formats for engines and printers hold the objects as Send writes them. All others hold
     the base meshes alone, without modifiers and shape keys, with the vertices of the input.
 
-    Parameters
-    ----------
-    levels : numbers of triangles of low-poly versions
-
-    Returns
-    -------
-    list of str
-        What should be known of the files, a line each.
-
-    Raises
-    ------
-    InputError
-        A file cannot be written, or the vertices of an .obj cannot be told apart.
+    `levels`: numbers of triangles of low-poly versions. Returns what should be known of the files,
+    a line each. Raises InputError: a file cannot be written, or the vertices of an .obj cannot be
+    told apart.
     """
     problems = []
     for number, path in enumerate(paths):

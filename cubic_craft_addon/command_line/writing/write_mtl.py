@@ -11,8 +11,6 @@ from bpy_extras.node_shader_utils import PrincipledBSDFWrapper
 from ....solver.console.temporary import replacing
 from ..reading.obj_copy import in_file
 
-__all__ = ("relative", "write_mtl")
-
 SUFFIXES = {"JPEG": ".jpg", "TARGA": ".tga", "OPEN_EXR": ".exr", "TIFF": ".tif"}
 """of packed images; of others .png"""
 TEXTURES = {
@@ -30,14 +28,7 @@ def write_mtl(path: Path, meshes: list[bpy.types.Mesh]) -> list[str]:
 
     Images that are files are named as they lie, packed ones are written beside.
 
-    Parameters
-    ----------
-    path : of the .obj
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
+    `path`: of the .obj. Raises InputError: the file cannot be written.
     """
     materials = {m.name: m for mesh in meshes for m in mesh.materials if m}
     if not materials:

@@ -16,8 +16,6 @@ import numpy as np
 from ..reading.mesh_arrays import distinct_rows, read
 from ..reading.obj_copy import in_file
 
-__all__ = ("ObjPart", "write_obj")
-
 
 class ObjPart(NamedTuple):
     """One object of the file."""

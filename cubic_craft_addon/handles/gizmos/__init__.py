@@ -6,5 +6,3 @@
 """
 
 from .group import register, unregister
-
-__all__ = ("register", "unregister")

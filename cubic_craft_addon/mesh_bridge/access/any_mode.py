@@ -48,11 +48,8 @@ def in_no_mode(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
 def glance(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray | None]:
     """Read the present shape, without shape keys, and change nothing.
 
-    Returns
-    -------
-    positions : (n,3) numpy float32 array, object space
-    corners : (c,) numpy int32 array or None
-        The vertices of the face corners; None in Edit Mode, where this would take long.
+    Returns `positions`: (n,3) float32, object space; `corners`: (c,) int32 or None, the vertices of
+    the face corners; None in Edit Mode, where this would take long.
     """
     mesh = mesh_of(obj)
     if mesh.is_editmode:

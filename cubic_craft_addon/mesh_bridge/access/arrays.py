@@ -14,14 +14,8 @@ from ....solver.errors import CubicCraftError
 def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
     """Read the ``position`` attribute of a mesh.
 
-    Returns
-    -------
-    (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        The mesh is in Edit Mode, where the attribute does not exist.
+    Returns (n,3) float32, object space. Raises CubicCraftError: the mesh is in Edit Mode, where the
+    attribute does not exist.
     """
     if mesh.is_editmode:
         raise CubicCraftError(f'Mesh "{mesh.name}" is in Edit Mode: go back to Object Mode first')
@@ -40,14 +34,8 @@ def write_position(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
 def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
     """Read the points of a shape key of a mesh.
 
-    Returns
-    -------
-    (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        The key does not fit the mesh, which scripts may cause.
+    Returns (n,3) float32, object space. Raises CubicCraftError: the key does not fit the mesh,
+    which scripts may cause.
     """
     check_fits(mesh, key)
     flat = np.empty(3 * len(key.points), np.float32)
@@ -58,10 +46,7 @@ def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
 def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
     """Check that a shape key has a point for each vertex of its mesh.
 
-    Raises
-    ------
-    CubicCraftError
-        It does not fit, which scripts may cause.
+    Raises CubicCraftError: it does not fit, which scripts may cause.
     """
     if len(key.points) != len(mesh.vertices):
         raise CubicCraftError(
@@ -90,9 +75,7 @@ def mark_moved(mesh: bpy.types.Mesh) -> None:
 def loose_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
     """Find the vertices that belong to no face.
 
-    Returns
-    -------
-    (n,) numpy bool array
+    Returns (n,) bool.
     """
     loose = np.ones(len(mesh.vertices), bool)
     loose[corner_vertices(mesh)] = False

@@ -56,10 +56,8 @@ def our_attributes(
 def check_names(mesh: bpy.types.Mesh) -> None:
     """Check that our names are free or ours; those of vertex groups do not matter here.
 
-    Raises
-    ------
-    CubicCraftError
-        A UV map, a color attribute or another attribute of the artist has such a name.
+    Raises CubicCraftError: a UV map, a color attribute or another attribute of the artist has such
+    a name.
     """
     for attribute in mesh.attributes:
         if is_our_name(attribute.name) and not _is_ours(attribute):
@@ -107,9 +105,7 @@ def read_attribute(
 ) -> np.ndarray | None:
     """Read an attribute of vectors (size 3) or quaternions (size 4).
 
-    Returns
-    -------
-    (n,size) numpy float32 array, or None if there is no such attribute of that kind
+    Returns (n,size) float32, or None if there is no such attribute of that kind.
     """
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.domain != domain:

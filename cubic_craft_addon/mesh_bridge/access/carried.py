@@ -17,12 +17,9 @@ def carried_attributes(
 ) -> Iterator[None]:
     """Add point attributes, and remove them however the block ends.
 
-    Parameters
-    ----------
-    mesh : the mesh, not in Edit Mode, whose names of attributes are not among those of `values`
-    values : (n,) numpy float32 array for each name
-    are_colors : bool
-        Whether they are gray colors instead of plain numbers.
+    `mesh`: the mesh, not in Edit Mode, whose names of attributes are not among those of `values`.
+    `values`: (n,) float32 for each name. `are_colors`: whether they are gray colors instead of
+    plain numbers.
     """
     free = {name: free_name() for name in values}
     try:

@@ -13,10 +13,7 @@ from .note import check_note
 def check_editable(obj: bpy.types.Object) -> None:
     """Check that an object is a mesh that can be read, solved and written.
 
-    Raises
-    ------
-    CubicCraftError
-        As `check_usable`, or coordinates that are not finite.
+    Raises CubicCraftError: as `check_usable`, or coordinates that are not finite.
     """
     check_usable(obj)
     check_finite(mesh_of(obj), obj.name)
@@ -25,12 +22,9 @@ def check_editable(obj: bpy.types.Object) -> None:
 def check_usable(obj: bpy.types.Object) -> None:
     """Do the checks of `check_editable` that are cheap enough for each redraw: no coordinates.
 
-    Raises
-    ------
-    CubicCraftError
-        Not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode, fewer than three
-        vertices, no faces, shape keys that do not fit, or a name conflict with our note or
-        attributes.
+    Raises CubicCraftError: not a mesh, linked or overridden data, hidden, in Edit or Sculpt Mode,
+    fewer than three vertices, no faces, shape keys that do not fit, or a name conflict with our
+    note or attributes.
     """
     mesh = mesh_of(obj)
     if mesh.is_editmode and obj.mode != "EDIT":
@@ -59,10 +53,7 @@ def check_usable(obj: bpy.types.Object) -> None:
 def mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
     """Return the mesh of an object.
 
-    Raises
-    ------
-    CubicCraftError
-        The object is not a mesh.
+    Raises CubicCraftError: the object is not a mesh.
     """
     if not isinstance(obj.data, bpy.types.Mesh):
         raise CubicCraftError(
@@ -87,10 +78,7 @@ def why_no_mesh(obj: bpy.types.Object) -> str:
 def check_relative_keys(obj: bpy.types.Object) -> None:
     """Check that a mesh object can take a shape key as a result.
 
-    Raises
-    ------
-    CubicCraftError
-        It has absolute shape keys.
+    Raises CubicCraftError: it has absolute shape keys.
     """
     keys = mesh_of(obj).shape_keys
     if keys is not None and not keys.use_relative:
@@ -103,10 +91,7 @@ def check_relative_keys(obj: bpy.types.Object) -> None:
 def check_writable(mesh: bpy.types.Mesh, name: str) -> None:
     """Check that changes to the mesh persist; `name` is used in the message.
 
-    Raises
-    ------
-    CubicCraftError
-        As `check_local`, or Edit Mode.
+    Raises CubicCraftError: as `check_local`, or Edit Mode.
     """
     check_local(mesh, name)
     if mesh.is_editmode:
@@ -118,10 +103,7 @@ def check_local(mesh: bpy.types.Mesh, name: str) -> None:
 
     Blender itself does not object to writes to linked data and only loses them on saving.
 
-    Raises
-    ------
-    CubicCraftError
-        Linked, missing or overridden data.
+    Raises CubicCraftError: linked, missing or overridden data.
     """
     if mesh.is_missing:
         raise CubicCraftError(_missing(mesh, name))
@@ -140,10 +122,7 @@ def is_linked(mesh: bpy.types.Mesh) -> bool:
 def check_finite(mesh: bpy.types.Mesh, name: str) -> None:
     """Check that the mesh and each of its shape keys have finite coordinates.
 
-    Raises
-    ------
-    CubicCraftError
-        The message names the shape and the first wrong vertex.
+    Raises CubicCraftError: the message names the shape and the first wrong vertex.
     """
     shapes = {"": read_position(mesh)}
     if mesh.shape_keys is not None:

@@ -21,10 +21,7 @@ def remove_copy(new: bpy.types.Object) -> None:
 def passing_copy(new: bpy.types.Object, obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     """Provide a copy of an object to read from, and remove it.
 
-    Raises
-    ------
-    CubicCraftError
-        What is raised while it is read, with the name of the object itself.
+    Raises CubicCraftError: what is raised while it is read, with the name of the object itself.
     """
     name = new.name
     try:

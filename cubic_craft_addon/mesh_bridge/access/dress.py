@@ -18,9 +18,7 @@ def dress_of(obj: bpy.types.Object) -> str:
 
     Selection, and all else whose name begins with a dot, is not counted. The mesh has no preview.
 
-    Returns
-    -------
-    str of 32 hexadecimal digits
+    Returns a str of 32 hexadecimal digits.
     """
     mesh = mesh_of(obj)
     found = hashlib.blake2b(digest_size=16)

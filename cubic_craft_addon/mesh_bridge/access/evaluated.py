@@ -13,16 +13,8 @@ from .arrays import corner_vertices
 def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
     """Read only the positions.
 
-    Returns
-    -------
-    points : (n,3) numpy float32 array, object space
-    corners : int
-        Number of corners of all faces.
-
-    Raises
-    ------
-    CubicCraftError
-        It has no surface.
+    Returns `points`: (n,3) float32, object space; `corners`: int, number of corners of all faces.
+    Raises CubicCraftError: it has no surface.
     """
     with _evaluated_mesh(obj) as mesh:
         return _points(mesh), len(mesh.loops)
@@ -31,15 +23,8 @@ def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
 def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     """Read the surface of an object of any kind that has one.
 
-    Returns
-    -------
-    points : (n,3) numpy float32 array, object space
-    triangles : (m,3) numpy int32 array
-
-    Raises
-    ------
-    CubicCraftError
-        It has no surface.
+    Returns `points`: (n,3) float32, object space; `triangles`: (m,3) int32. Raises CubicCraftError:
+    it has no surface.
     """
     with _evaluated_mesh(obj) as mesh:
         points = _points(mesh)

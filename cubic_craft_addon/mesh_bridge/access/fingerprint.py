@@ -9,13 +9,8 @@ import numpy as np
 def fingerprint(positions: np.ndarray) -> str:
     """Hash the bits of a shape.
 
-    Parameters
-    ----------
-    positions : (n,3) numpy float32 array
-
-    Returns
-    -------
-    str of 32 hexadecimal digits; equal only for the same number of vertices and the same bits
+    `positions`: (n,3) float32. Returns a str of 32 hexadecimal digits; equal only for the same
+    number of vertices and the same bits.
     """
     bits = np.ascontiguousarray(positions, np.float32)
     return hashlib.blake2b(bits.data, digest_size=16).hexdigest()

@@ -41,15 +41,9 @@ def domain_of_free_normals(mesh: bpy.types.Mesh) -> str | None:
 def turned(mesh: bpy.types.Mesh, normals: np.ndarray, matrices: np.ndarray) -> np.ndarray:
     """Turn the free normals of a mesh with its vertices; that of a face by all of its corners.
 
-    Parameters
-    ----------
-    mesh : the mesh that they were read from
-    normals : (k,3) numpy float32 array
-    matrices : (n,3,3) numpy float64 array, of each vertex
-
-    Returns
-    -------
-    (k,3) numpy float32 array of the same lengths; the bits of `normals` where nothing turns
+    `mesh`: the mesh that they were read from. `normals`: (k,3) float32. `matrices`: (n,3,3), of
+    each vertex. Returns (k,3) float32 of the same lengths; the bits of `normals` where nothing
+    turns.
     """
     domain = domain_of_free_normals(mesh)
     is_turned = (matrices != np.eye(3)).any(axis=(1, 2))

@@ -19,9 +19,7 @@ def set_groups_aside(obj: bpy.types.Object) -> None:
     This is what Blender does with attributes of the same name. It also works in Edit Mode. It is
     cheap enough to be called after each update of the object.
 
-    Parameters
-    ----------
-    obj : an object with a mesh
+    `obj`: an object with a mesh.
     """
     clashing = [group for group in obj.vertex_groups if is_our_name(group.name)]
     mesh = obj.data

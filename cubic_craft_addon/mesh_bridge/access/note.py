@@ -71,10 +71,7 @@ def read_note(mesh: bpy.types.Mesh) -> dict[str, Any]:
 def write_note(mesh: bpy.types.Mesh, note: dict[str, Any]) -> None:
     """Write the note, or remove it if it is empty.
 
-    Raises
-    ------
-    CubicCraftError
-        As `check_note`, if there is something to write.
+    Raises CubicCraftError: as `check_note`, if there is something to write.
     """
     if note:
         check_note(mesh)
@@ -86,10 +83,7 @@ def write_note(mesh: bpy.types.Mesh, note: dict[str, Any]) -> None:
 def check_note(mesh: bpy.types.Mesh) -> None:
     """Check that the name of the note is free or ours.
 
-    Raises
-    ------
-    CubicCraftError
-        A custom property of that name is not ours.
+    Raises CubicCraftError: a custom property of that name is not ours.
     """
     if NOTE in mesh and not read_note(mesh):
         raise CubicCraftError(

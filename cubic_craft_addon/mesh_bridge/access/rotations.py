@@ -11,16 +11,9 @@ import numpy as np
 def quaternions_from_matrices(rotations: np.ndarray) -> np.ndarray:
     """Convert rotation matrices to unit quaternions.
 
-    Parameters
-    ----------
-    rotations : (n,3,3) numpy array
+    `rotations`: (n,3,3). Returns (n,4) float32 of w, x, y, z; exactly 1, 0, 0, 0 for the exact
+    identity.
 
-    Returns
-    -------
-    (n,4) numpy float32 array of w, x, y, z; exactly 1, 0, 0, 0 for the exact identity
-
-    Notes
-    -----
     All ten products of two components follow from sums of matrix entries. The row of products
     with the largest component is the quaternion times that component: no cancellation
     (Shepperd 1978).
@@ -43,13 +36,7 @@ def quaternions_from_matrices(rotations: np.ndarray) -> np.ndarray:
 def matrices_from_quaternions(quaternions: np.ndarray) -> np.ndarray:
     """Convert quaternions, unit up to rounding, to rotation matrices.
 
-    Parameters
-    ----------
-    quaternions : (n,4) numpy array of w, x, y, z, none of them zero
-
-    Returns
-    -------
-    (n,3,3) numpy float64 array
+    `quaternions`: (n,4) of w, x, y, z, none of them zero. Returns (n,3,3).
     """
     q = np.asarray(quaternions, np.float64)
     w, x, y, z = q.T

@@ -17,21 +17,9 @@ def rounded_for_storage(
 ) -> np.ndarray:
     """Round positions for storage; unmoved and loose vertices keep their bits.
 
-    Parameters
-    ----------
-    mesh : their mesh, named in messages
-    positions : (n,3) numpy array, object space
-    base : (n,3) numpy float32 array, the original positions
-    loose : (n,) numpy bool array, see `loose_vertices`
-
-    Returns
-    -------
-    (n,3) numpy float32 array
-
-    Raises
-    ------
-    CubicCraftError
-        As `check_shape`.
+    `mesh`: their mesh, named in messages. `positions`: (n,3), object space. `base`: (n,3) float32,
+    the original positions. `loose`: (n,) bool, see `loose_vertices`. Returns (n,3) float32. Raises
+    CubicCraftError: as `check_shape`.
     """
     check_shape(mesh, positions, base.shape, "positions")
     with np.errstate(over="ignore"):
@@ -49,20 +37,8 @@ def rotations_for_storage(
 ) -> np.ndarray:
     """Round rotations for storage; vertices in no face do not turn.
 
-    Parameters
-    ----------
-    mesh : their mesh, named in messages
-    rotations : (n,3,3) numpy array
-    loose : (n,) numpy bool array
-
-    Returns
-    -------
-    (n,4) numpy float32 array of quaternions
-
-    Raises
-    ------
-    CubicCraftError
-        As `check_shape`.
+    `mesh`: their mesh, named in messages. `rotations`: (n,3,3). `loose`: (n,) bool. Returns (n,4)
+    float32 of quaternions. Raises CubicCraftError: as `check_shape`.
     """
     check_shape(mesh, rotations, (len(loose), 3, 3), "rotations")
     quaternions = quaternions_from_matrices(rotations)
@@ -75,10 +51,7 @@ def carry_finite(
 ) -> Shapes:
     """Do what `carry` does, turn the free normals, and refuse shape keys that became infinite.
 
-    Raises
-    ------
-    CubicCraftError
-        As `check_shape`.
+    Raises CubicCraftError: as `check_shape`.
     """
     carried = carry(original, base, rotations)
     for name, points in carried.keys.items():
@@ -91,10 +64,7 @@ def carry_finite(
 def check_shape(mesh: bpy.types.Mesh, array: np.ndarray, shape: tuple[int, ...], what: str) -> None:
     """Check that an array to be written fits the mesh and is finite.
 
-    Raises
-    ------
-    CubicCraftError
-        The message names the array, `what`.
+    Raises CubicCraftError: the message names the array, `what`.
     """
     if np.shape(array) != shape:
         raise CubicCraftError(

@@ -73,17 +73,9 @@ def carry(
     vertex. Where nothing moves and nothing turns, a key keeps its bits. The free normals are left
     out.
 
-    Parameters
-    ----------
-    shapes : the shapes before
-    base : (n,3) numpy float32 array, the new base; also the new ``position``, because Blender
-        itself keeps that equal to the reference key
-    rotations : (n,3,3) numpy float64 array
-    known : dict from names of keys to their new points, if already known
-
-    Returns
-    -------
-    Shapes
+    `shapes`: the shapes before. `base`: (n,3) float32, the new base; also the new ``position``,
+    because Blender itself keeps that equal to the reference key. `rotations`: (n,3,3). `known`:
+    dict from names of keys to their new points, if already known.
     """
     if shapes.reference is None:
         return Shapes(base, {}, None, {})
@@ -103,14 +95,8 @@ def carried(
 ) -> np.ndarray:
     """Carry one key along with the key `other` that it is relative to.
 
-    Parameters
-    ----------
-    key, other, new_other : (n,3) numpy float32 arrays
-    matrices : (n,3,3) numpy float64 array, what the offsets are turned by
-
-    Returns
-    -------
-    (n,3) numpy float32 array; the bits of `key` where nothing moves and nothing turns
+    `key`, `other`, `new_other`: (n,3) float32. `matrices`: (n,3,3), what the offsets are turned by.
+    Returns (n,3) float32; the bits of `key` where nothing moves and nothing turns.
     """
     offset = key.astype(np.float64) - other
     with np.errstate(over="ignore"):  # infinities are refused when the result is written

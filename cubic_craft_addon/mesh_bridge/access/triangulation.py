@@ -14,20 +14,10 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     Where a face with more than three corners is cut depends on the shape. Cubify must always cut
     the original, however the mesh looks now.
 
-    Parameters
-    ----------
-    mesh : a mesh in Object Mode
-    positions : (n,3) numpy float32 array, the original positions
-
-    Returns
-    -------
-    (m,3) numpy int32 array; vertices in no face do not occur
-
-    Raises
-    ------
-    CubicCraftError
-        A face refers to a vertex that does not exist. Some importers create such faces, and
-        triangulating them would read memory outside the mesh.
+    `mesh`: a mesh in Object Mode. `positions`: (n,3) float32, the original positions. Returns (m,3)
+    int32; vertices in no face do not occur. Raises CubicCraftError: a face refers to a vertex that
+    does not exist. Some importers create such faces, and triangulating them would read memory
+    outside the mesh.
     """
     corners = corner_vertices(mesh)
     wrong = corners[(corners < 0) | (corners >= len(positions))]

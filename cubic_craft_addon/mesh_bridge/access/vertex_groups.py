@@ -13,10 +13,7 @@ from .checks import mesh_of
 def vertex_group(obj: bpy.types.Object, name: str) -> bpy.types.VertexGroup:
     """Return the vertex group of that name.
 
-    Raises
-    ------
-    CubicCraftError
-        The object has no such group.
+    Raises CubicCraftError: the object has no such group.
     """
     group = obj.vertex_groups.get(name)
     if group is None:
@@ -27,14 +24,8 @@ def vertex_group(obj: bpy.types.Object, name: str) -> bpy.types.VertexGroup:
 def group_weights(obj: bpy.types.Object, name: str) -> np.ndarray:
     """Read the weights of a vertex group.
 
-    Returns
-    -------
-    (n,) numpy float64 array, 0 for vertices that are not in the group
-
-    Raises
-    ------
-    CubicCraftError
-        The object has no such group.
+    Returns (n,), 0 for vertices that are not in the group. Raises CubicCraftError: the object has
+    no such group.
     """
     return weights_of_groups(obj, [name])[name]
 
@@ -42,10 +33,7 @@ def group_weights(obj: bpy.types.Object, name: str) -> np.ndarray:
 def weights_of_groups(obj: bpy.types.Object, names: Iterable[str]) -> dict[str, np.ndarray]:
     """Read the weights of several vertex groups, by their names, in the time of one.
 
-    Raises
-    ------
-    CubicCraftError
-        The object has no group of one of the names.
+    Raises CubicCraftError: the object has no group of one of the names.
     """
     vertices = mesh_of(obj).vertices
     weights = {name: np.zeros(len(vertices)) for name in names}

@@ -46,14 +46,7 @@ class Affine:
     def agrees(self, before: np.ndarray, after: np.ndarray, slack: float = 1.0) -> np.ndarray:
         """Return which points it has moved, up to the rounding of float32.
 
-        Parameters
-        ----------
-        before, after : (n,3) numpy arrays
-        slack : factor of the rounding
-
-        Returns
-        -------
-        (n,) numpy bool array
+        `before`, `after`: (n,3). `slack`: factor of the rounding. Returns (n,) bool.
         """
         return _agrees(self.linear, self.offset, before, after, slack)
 
@@ -67,13 +60,7 @@ def fit(before: np.ndarray, after: np.ndarray) -> Affine | None:
     If the vertices lie in a plane, on a line or in one point, there are many such maps. Then the
     missing extents are scaled by the mean of the others, and not mirrored.
 
-    Parameters
-    ----------
-    before, after : (n,3) numpy float32 arrays
-
-    Returns
-    -------
-    Affine, or None if there is none
+    `before`, `after`: (n,3) float32. Returns Affine, or None if there is none.
     """
     if np.array_equal(before, after):
         return IDENTITY
@@ -105,15 +92,8 @@ def _some(count: int) -> np.ndarray:
 def consensus(before: np.ndarray, after: np.ndarray) -> Affine:
     """Find how a mesh was transformed if some vertices were also moved by hand.
 
-    Parameters
-    ----------
-    before, after : (n,3) numpy float32 arrays, of at least one vertex
-
-    Returns
-    -------
-    Affine
-        The map of most vertices; if hardly any two agree, the one that fits all best,
-        or the identity.
+    `before`, `after`: (n,3) float32, of at least one vertex. Returns the map of most vertices; if
+    hardly any two agree, the one that fits all best, or the identity.
     """
     if not (np.isfinite(before).all() and np.isfinite(after).all()):
         return IDENTITY

@@ -39,10 +39,7 @@ def first_kept(mesh: bpy.types.Mesh, start: Start, original: Shapes) -> Callable
 
     Everything is read at once, nothing is changed.
 
-    Parameters
-    ----------
-    mesh : as it is before the result is written
-    start, original : what that is made from
+    `mesh`: as it is before the result is written. `start`, `original`: what that is made from.
     """
     if not starts_here(mesh, start):
         return lambda: None  # it is still that of the same original

@@ -19,13 +19,7 @@ _PLACES = 2**24  # as many as float32 represents exactly
 def make_marks(original: np.ndarray, written: np.ndarray) -> np.ndarray:
     """Make the marks of a result; the same for the same shapes.
 
-    Parameters
-    ----------
-    original, written : (n,3) numpy float32 arrays
-
-    Returns
-    -------
-    (n,3) numpy float32 array
+    `original`, `written`: (n,3) float32. Returns (n,3) float32.
     """
     digest = hashlib.blake2b(np.ascontiguousarray(original).data, digest_size=8)
     digest.update(np.ascontiguousarray(written).data)
@@ -45,10 +39,7 @@ def groups(marks: np.ndarray) -> list[np.ndarray]:
 def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
     """Split the vertices of a result where their order restarts.
 
-    Returns
-    -------
-    runs : list of arrays of vertices
-    between : array of the vertices with broken marks
+    Returns `runs`: list of arrays of vertices; `between`: array of the vertices with broken marks.
     """
     places = marks[rows, 1]
     is_whole = places == np.rint(places)

@@ -41,14 +41,8 @@ RESULT = Stored(ORIGINAL, ROTATION, "mesh")
 def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     """Read the effective shape: the points of the reference key, or the positions without keys.
 
-    Returns
-    -------
-    (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        Edit Mode, or coordinates that are not finite.
+    Returns (n,3) float32, object space. Raises CubicCraftError: Edit Mode, or coordinates that are
+    not finite.
     """
     return _finite(_base(mesh), mesh)
 
@@ -56,14 +50,8 @@ def read_positions(mesh: bpy.types.Mesh) -> np.ndarray:
 def original_positions(mesh: bpy.types.Mesh, start: Start = "HERE") -> np.ndarray:
     """Read the base as it was before we wrote to it, or as it is if it is not ours.
 
-    Returns
-    -------
-    (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        Edit Mode, or coordinates that are not finite.
+    Returns (n,3) float32, object space. Raises CubicCraftError: Edit Mode, or coordinates that are
+    not finite.
     """
     present = _base(mesh)
     recognized = _start_of(mesh, start)
@@ -101,10 +89,7 @@ def is_edited(mesh: bpy.types.Mesh) -> bool:
 
     As expensive as `has_original`.
 
-    Raises
-    ------
-    CubicCraftError
-        The mesh is in Edit Mode, or has shape keys that do not fit.
+    Raises CubicCraftError: the mesh is in Edit Mode, or has shape keys that do not fit.
     """
     recognized = recognize_result(mesh)
     return recognized is not None and recognized.is_edited
@@ -115,10 +100,7 @@ def is_lost(mesh: bpy.types.Mesh) -> bool:
 
     As expensive as `has_original`.
 
-    Raises
-    ------
-    CubicCraftError
-        As `is_edited`.
+    Raises CubicCraftError: as `is_edited`.
     """
     return has_stored(mesh) and recognize_result(mesh) is None
 

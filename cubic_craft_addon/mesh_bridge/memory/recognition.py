@@ -53,14 +53,9 @@ UNCHANGED = Recognized((Part(slice(None), IDENTITY),), is_edited=False)
 def recognize(marks: np.ndarray, written: np.ndarray, present: np.ndarray) -> Recognized | None:
     """Recognize a result.
 
-    Parameters
-    ----------
-    marks : (n,3) numpy float32 array, see `marks`
-    written, present : (n,3) numpy float32 arrays, the shape as we wrote it, and as it is
-
-    Returns
-    -------
-    Recognized, or None if the original of some vertices cannot be determined
+    `marks`: (n,3) float32, see `marks`. `written`, `present`: (n,3) float32, the shape as we wrote
+    it, and as it is. Returns Recognized, or None if the original of some vertices cannot be
+    determined.
     """
     parts: list[Part] = []
     is_edited = False

@@ -97,11 +97,9 @@ class Stored:
     ) -> None:
         """Store the original in attributes of the mesh and describe it in the note.
 
-        Parameters
-        ----------
-        mesh : a mesh where this is not stored
-        original, written : the shapes before and after, of the same shape keys
-        quaternions : (n,4) numpy float32 array, the rotations from the first to the second
+        `mesh`: a mesh where this is not stored. `original`, `written`: the shapes before and after,
+        of the same shape keys. `quaternions`: (n,4) float32, the rotations from the first to the
+        second.
         """
         name = self.original
         add_attribute(mesh, name, original.base)

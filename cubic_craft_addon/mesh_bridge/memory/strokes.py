@@ -19,14 +19,9 @@ from .recognition import Recognized
 def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
     """Read the strokes that belong onto the next result.
 
-    Parameters
-    ----------
-    mesh : a mesh without a preview
-    start : what the next result is made from; strokes are kept with "EDITS" only
-
-    Returns
-    -------
-    (n,3) numpy float32 array in object space, on the original as it is now; None if there are none
+    `mesh`: a mesh without a preview. `start`: what the next result is made from; strokes are kept
+    with "EDITS" only. Returns (n,3) float32 in object space, on the original as it is now; None if
+    there are none.
     """
     if start != "EDITS":
         return None
@@ -47,15 +42,8 @@ def read_strokes(mesh: bpy.types.Mesh, start: Start) -> np.ndarray | None:
 def offsets_by_hand(mesh: bpy.types.Mesh) -> np.ndarray | None:
     """Return how far vertices were moved by hand since the result, beside what moved them all.
 
-    Returns
-    -------
-    (n,3) numpy float64 array in object space, on the original; None if none were, or if the
-    original is not known
-
-    Raises
-    ------
-    CubicCraftError
-        As `is_edited`, or coordinates that are not finite.
+    Returns (n,3) in object space, on the original; None if none were, or if the original is not
+    known. Raises CubicCraftError: as `is_edited`, or coordinates that are not finite.
     """
     recognized = recognize_result(mesh)
     return _since(mesh, recognized) if recognized is not None and recognized.is_edited else None
@@ -74,21 +62,10 @@ def with_strokes(
 ) -> np.ndarray:
     """Put strokes onto a result.
 
-    Parameters
-    ----------
-    mesh : the mesh of the result, named in messages
-    points : (n,3) numpy float32 array, the cubic shape
-    strokes : (n,3) numpy float32 array, or None for none
-    matrices : (n,3,3) numpy float64 array, the rotations of the vertices
-
-    Returns
-    -------
-    (n,3) numpy float32 array; the bits of `points` where there are no strokes
-
-    Raises
-    ------
-    CubicCraftError
-        As `check_shape`.
+    `mesh`: the mesh of the result, named in messages. `points`: (n,3) float32, the cubic shape.
+    `strokes`: (n,3) float32, or None for none. `matrices`: (n,3,3), the rotations of the vertices.
+    Returns (n,3) float32; the bits of `points` where there are no strokes. Raises CubicCraftError:
+    as `check_shape`.
     """
     if strokes is None:
         return points

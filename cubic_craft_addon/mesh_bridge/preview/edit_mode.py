@@ -30,10 +30,7 @@ class EditedMesh:
     def read_shapes(self) -> Shapes:
         """Read all shapes; ``position``, which does not exist in Edit Mode, is that of the base.
 
-        Raises
-        ------
-        CubicCraftError
-            The layers are not those of the shape keys, which scripts may cause.
+        Raises CubicCraftError: the layers are not those of the shape keys, which scripts may cause.
         """
         if not self._names:
             return assembled(self._mesh, self._co, {})

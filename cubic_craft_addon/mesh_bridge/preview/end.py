@@ -37,9 +37,7 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     If the artist has edited the base since, that shape is kept. Edit Mode itself turns -0 into 0 in
     shape keys, and moves the `position` attribute onto the reference key.
 
-    Returns
-    -------
-    Whether there was a preview to end. Linked meshes are not changed.
+    Returns whether there was a preview to end. Linked meshes are not changed.
     """
     if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
         return False
@@ -74,9 +72,7 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
 def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
     """End the preview on every mesh of the file except some.
 
-    Returns
-    -------
-    Names of the meshes that had one.
+    Returns names of the meshes that had one.
     """
     meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
     return [mesh.name for mesh in meshes if end_preview(mesh)]

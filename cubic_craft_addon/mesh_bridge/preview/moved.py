@@ -28,17 +28,9 @@ def take_along(
 ) -> dict[str, Any] | None:
     """Transform the data stored under a preview as the artist has transformed the visible mesh.
 
-    Parameters
-    ----------
-    mesh : with a preview on it, in Object Mode
-    part : the "live" part of its note
-    present : the current shapes
-    shown : (n,3) numpy array, the shape shown last, if known
-
-    Returns
-    -------
-    The "live" part that is on the mesh now; None if not all vertices were moved alike, and
-    nothing has changed.
+    `mesh`: with a preview on it, in Object Mode. `part`: the "live" part of its note. `present`:
+    the current shapes. `shown`: (n,3), the shape shown last, if known. Returns the "live" part that
+    is on the mesh now; None if not all vertices were moved alike, and nothing has changed.
     """
     known = _shown.get(part["fingerprint"], shown)
     if known is None or len(known) != len(present.base):

@@ -38,16 +38,9 @@ class Preview:
     def __init__(self, mesh: bpy.types.Mesh, start: Start = "HERE") -> None:
         """Store the current shapes on the mesh; an existing preview is ended first.
 
-        Parameters
-        ----------
-        mesh
-        start : what the run starts from if the mesh was edited by hand since the last result
-
-        Raises
-        ------
-        CubicCraftError
-            A mesh that cannot be written, or a name conflict with our note or attributes; the
-            mesh is then unchanged.
+        `start`: what the run starts from if the mesh was edited by hand since the last result.
+        Raises CubicCraftError: a mesh that cannot be written, or a name conflict with our note or
+        attributes; the mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
         check_note(mesh)
@@ -80,19 +73,12 @@ class Preview:
 
         Our own shape key also shows it, so that the picture does not depend on its value.
 
-        Parameters
-        ----------
-        mesh : the mesh, or its replacement after an undo; in Object Mode
-        positions : (n,3) numpy array, object space; ignored for vertices in no face
-        rotations : (n,3,3) numpy array, the local rotation of each vertex; None if they do not
-            rotate, or `needs_rotations` is false
-        outcome : values for JSON, which `keep_preview` returns if a file is opened with this shape
-
-        Raises
-        ------
-        CubicCraftError
-            Wrong number of vertices, values that are not finite, a mesh that cannot be written,
-            or one without this preview. The mesh is then unchanged.
+        `mesh`: the mesh, or its replacement after an undo; in Object Mode. `positions`: (n,3),
+        object space; ignored for vertices in no face. `rotations`: (n,3,3), the local rotation of
+        each vertex; None if they do not rotate, or `needs_rotations` is false. `outcome`: values
+        for JSON, which `keep_preview` returns if a file is opened with this shape. Raises
+        CubicCraftError: wrong number of vertices, values that are not finite, a mesh that cannot be
+        written, or one without this preview. The mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh) | {"outcome": outcome}
@@ -113,9 +99,8 @@ class Preview:
         If the origin was set, or a transform applied, all vertices have been moved alike.
         `end_preview` would mistake the visible shape for one that was made by hand.
 
-        Returns
-        -------
-        Whether the preview must be ended and restarted, which is also so with other shape keys.
+        Returns whether the preview must be ended and restarted, which is also so with other shape
+        keys.
         """
         part = read_note(mesh).get("live")
         if part is None or LIVE not in mesh.attributes or mesh.is_editmode:

@@ -58,15 +58,9 @@ def move_live(mesh: bpy.types.Mesh, moved: Callable[[np.ndarray], np.ndarray]) -
 def marked(part: dict[str, Any], shown: Shapes | None) -> dict[str, Any]:
     """Describe in the "live" part of the note what is on the mesh.
 
-    Parameters
-    ----------
-    part : the current part, which tells where everything is stored
-    shown : the shapes on the mesh; None while they are being written, when any shape counts as
-        shown
-
-    Returns
-    -------
-    A new "live" part.
+    `part`: the current part, which tells where everything is stored. `shown`: the shapes on the
+    mesh; None while they are being written, when any shape counts as shown. Returns a new "live"
+    part.
     """
     if shown is None:
         keys = [entry | {"fingerprint": ""} for entry in part["keys"]]
@@ -109,15 +103,9 @@ def shapes_before(
 
     A shape key that the artist has edited or added since is carried onto the earlier base.
 
-    Parameters
-    ----------
-    present : the current shapes
-    part : the "live" part of the note
-    read : reads the (n,3) values of one of our attributes, None if there is none
-
-    Returns
-    -------
-    Shapes, or None if the base is the artist's own, not the shape shown
+    `present`: the current shapes. `part`: the "live" part of the note. `read`: reads the (n,3)
+    values of one of our attributes, None if there is none. Returns Shapes, or None if the base is
+    the artist's own, not the shape shown.
     """
     if part["fingerprint"] not in ("", fingerprint_of_values(present.base)):
         return None

@@ -16,10 +16,7 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     Faces are of one chart if they are connected over edges without seam or sharpness, at which
     they have one material and the same UVs. Vertices at the same place count as one.
 
-    Parameters
-    ----------
-    mesh
-    positions : (n,3) array
+    `positions`: (n,3).
     """
     faces, size = len(mesh.polygons), _read(mesh.polygons, "loop_total", 1, np.int32)
     start = _read(mesh.polygons, "loop_start", 1, np.int32)

@@ -41,12 +41,8 @@ def cover_problem(obj: bpy.types.Object) -> str:
 class Look:
     """What is seen of an object, and what it will be compared with.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        A mesh.
-    result : {"MESH", "SHAPE_KEY", "NEW_OBJECT"}
-        Where the positions will be written.
+    `obj`: a mesh. `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}, where the positions will be
+    written.
     """
 
     def __init__(self, obj: bpy.types.Object, result: str):

@@ -32,17 +32,10 @@ def noted_outcome(mesh: bpy.types.Mesh) -> Any:
 def keep_preview(mesh: bpy.types.Mesh, run: dict[str, Any], start: Start) -> None:
     """Write the shape that the preview shows as a result.
 
-    Parameters
-    ----------
-    mesh : with a preview on it, in Object Mode
-    run : the note of the run (see `note`)
-    start : what the run has started from if the mesh was edited by hand since the last result
-
-    Raises
-    ------
-    CubicCraftError
-        The shape is not that of the preview, the run is not one, or a mesh that cannot be written.
-        The mesh is then unchanged.
+    `mesh`: with a preview on it, in Object Mode. `run`: the note of the run (see `note`). `start`:
+    what the run has started from if the mesh was edited by hand since the last result. Raises
+    CubicCraftError: the shape is not that of the preview, the run is not one, or a mesh that cannot
+    be written. The mesh is then unchanged.
     """
     check_writable(mesh, mesh.name)
     check_names(mesh)

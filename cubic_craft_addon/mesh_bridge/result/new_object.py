@@ -29,23 +29,11 @@ def write_new_object(
     active in its place, unless the source is in Weight Paint or another mode, which can be left
     only while it is active. It holds the original of the source, so it can be restored.
 
-    Parameters
-    ----------
-    obj : an object with a mesh, in any mode
-    positions : (n,3) numpy array, object space
-    rotations : (n,3,3) numpy array
-    prepare : called with the new object once it has the result, before it takes the place of `obj`
-    run : the note of the run (see `note`)
-    start : what the result was made from if the mesh was edited by hand since the last one
-
-    Returns
-    -------
-    the new object
-
-    Raises
-    ------
-    CubicCraftError
-        As `write_mesh`. After any exception, there is no new object.
+    `obj`: an object with a mesh, in any mode. `positions`: (n,3), object space. `rotations`:
+    (n,3,3). `prepare`: called with the new object once it has the result, before it takes the place
+    of `obj`. `run`: the note of the run (see `note`). `start`: what the result was made from if the
+    mesh was edited by hand since the last one. Returns the new object. Raises CubicCraftError: as
+    `write_mesh`. After any exception, there is no new object.
     """
     mesh = mesh_of(obj)
     check_local(mesh, obj.name)

@@ -52,22 +52,10 @@ def write_ngons(
     in the selection, as with `write_new_object`. It keeps UVs, materials, vertex groups, modifiers
     and shape keys, but no original.
 
-    Parameters
-    ----------
-    obj : an object with a result, not in Edit Mode
-    polygons
-    edges : "NONE", "CREASES" or "BEVEL": the weights of edges between sides
-    finish : called last, with the new object
-
-    Returns
-    -------
-    the new object
-
-    Raises
-    ------
-    CubicCraftError
-        A mesh that cannot be written. After any exception, also of `finish`, there is no new
-        object, and the same objects are selected as before.
+    `obj`: an object with a result, not in Edit Mode. `edges`: "NONE", "CREASES" or "BEVEL": the
+    weights of edges between sides. `finish`: called last, with the new object. Returns the new
+    object. Raises CubicCraftError: a mesh that cannot be written. After any exception, also of
+    `finish`, there is no new object, and the same objects are selected as before.
     """
     mesh = mesh_of(obj)
     active, is_selected = bpy.context.view_layer.objects.active, obj.select_get()

@@ -15,15 +15,8 @@ def plain_copy(obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Object
 
     It keeps UVs, materials, vertex groups and modifiers, and is in no scene yet.
 
-    Parameters
-    ----------
-    obj : an object with a mesh, not in Edit Mode
-    positions : (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        A mesh that cannot be written; no copy is left then.
+    `obj`: an object with a mesh, not in Edit Mode. `positions`: (n,3) float32, object space. Raises
+    CubicCraftError: a mesh that cannot be written; no copy is left then.
     """
     new_mesh, new = mesh_of(obj).copy(), obj.copy()
     assert new_mesh is not None and new is not None

@@ -34,19 +34,9 @@ from .rollback import all_or_nothing
 def result_positions(obj: bpy.types.Object) -> np.ndarray:
     """Read the present shape of a result: of the shape key "Cubic", or of the mesh.
 
-    Parameters
-    ----------
-    obj : an object with a mesh that shows no preview
-
-    Returns
-    -------
-    (n,3) numpy float32 array, object space
-
-    Raises
-    ------
-    CubicCraftError
-        There is no result, or none whose original is known; Edit Mode, or coordinates that are not
-        finite.
+    `obj`: an object with a mesh that shows no preview. Returns (n,3) float32, object space. Raises
+    CubicCraftError: there is no result, or none whose original is known; Edit Mode, or coordinates
+    that are not finite.
     """
     mesh = mesh_of(obj)
     key = find_cubic_key(mesh)
@@ -62,16 +52,10 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
 
     Shape keys follow: they keep their offsets. Edits by hand become strokes in the result.
 
-    Parameters
-    ----------
-    obj : an object with a mesh that has a result, in Object Mode
-    positions : (n,3) numpy array, object space; ignored for vertices in no face
-
-    Raises
-    ------
-    CubicCraftError
-        As `result_positions`; wrong number of vertices, values that are not finite, or a mesh that
-        cannot be written. The mesh is then unchanged.
+    `obj`: an object with a mesh that has a result, in Object Mode. `positions`: (n,3), object
+    space; ignored for vertices in no face. Raises CubicCraftError: as `result_positions`; wrong
+    number of vertices, values that are not finite, or a mesh that cannot be written. The mesh is
+    then unchanged.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)

@@ -21,10 +21,8 @@ def restore(obj: bpy.types.Object) -> None:
     If the mesh has been transformed since, as a whole or in parts, so is the original. Edits by
     hand are lost.
 
-    Raises
-    ------
-    CubicCraftError
-        Nothing to restore, or a mesh that cannot be written, which is then unchanged.
+    Raises CubicCraftError: nothing to restore, or a mesh that cannot be written, which is then
+    unchanged.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -55,10 +53,8 @@ def restore_first(obj: bpy.types.Object) -> None:
 
     It is transformed as `restore` does. The later originals, which were edited by hand, are lost.
 
-    Raises
-    ------
-    CubicCraftError
-        There is no first original, or a mesh that cannot be written, which is then unchanged.
+    Raises CubicCraftError: there is no first original, or a mesh that cannot be written, which is
+    then unchanged.
     """
     mesh = mesh_of(obj)
     check_writable(mesh, obj.name)
@@ -90,10 +86,7 @@ def discard_original(mesh: bpy.types.Mesh) -> None:
 
     The shape key "Cubic" is kept; a leftover preview is not.
 
-    Raises
-    ------
-    CubicCraftError
-        A mesh that cannot be written, which is then unchanged.
+    Raises CubicCraftError: a mesh that cannot be written, which is then unchanged.
     """
     check_writable(mesh, mesh.name)
     end_preview(mesh)

@@ -90,19 +90,12 @@ def write_shape_key(
 ) -> None:
     """Write a result to the shape key "Cubic"; everything else has its original shape.
 
-    Parameters
-    ----------
-    obj : an object with a mesh, in Object Mode
-    positions : (n,3) numpy array, object space; ignored for vertices in no face
-    rotations : (n,3,3) numpy array, by which what was moved by hand turns; None if nothing turns
-    run : the note of the run (see `note`)
-    start : what the result was made from if the mesh was edited by hand since the last one
-
-    Raises
-    ------
-    CubicCraftError
-        Wrong number of vertices, values that are not finite, absolute shape keys, or a mesh that
-        cannot be written. The mesh is then unchanged.
+    `obj`: an object with a mesh, in Object Mode. `positions`: (n,3), object space; ignored for
+    vertices in no face. `rotations`: (n,3,3), by which what was moved by hand turns; None if
+    nothing turns. `run`: the note of the run (see `note`). `start`: what the result was made from
+    if the mesh was edited by hand since the last one. Raises CubicCraftError: wrong number of
+    vertices, values that are not finite, absolute shape keys, or a mesh that cannot be written. The
+    mesh is then unchanged.
     """
     mesh = mesh_of(obj)
     _check_for_key(obj, mesh)

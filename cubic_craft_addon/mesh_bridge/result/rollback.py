@@ -42,9 +42,7 @@ def mesh_untouched(mesh: bpy.types.Mesh) -> Iterator[None]:
 def carry_result(mesh: bpy.types.Mesh, other: bpy.types.Mesh) -> bool:
     """Give another mesh of the same vertices the shapes of this one, and all that is ours on it.
 
-    Returns
-    -------
-    Whether it could be done: not if it has other vertices or faces, or lacks a shape key.
+    Returns whether it could be done: not if it has other vertices or faces, or lacks a shape key.
     """
     state = _State(mesh)
     there = other.shape_keys.key_blocks.keys() if other.shape_keys is not None else ()

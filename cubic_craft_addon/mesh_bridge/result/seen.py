@@ -32,10 +32,7 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
     It has the materials, UVs, vertex groups and attributes of the evaluated mesh and the transform
     of the source, but no modifiers and shape keys, which are already applied.
 
-    Raises
-    ------
-    CubicCraftError
-        The object has no visible faces; no new object is left then.
+    Raises CubicCraftError: the object has no visible faces; no new object is left then.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     try:
@@ -60,10 +57,7 @@ def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
 def as_seen(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     """Provide an object made by `make_seen` to read from.
 
-    Raises
-    ------
-    CubicCraftError
-        As `make_seen`; what is raised while it is read names the object itself.
+    Raises CubicCraftError: as `make_seen`; what is raised while it is read names the object itself.
     """
     with passing_copy(make_seen(obj), obj) as new:
         yield new
@@ -79,17 +73,9 @@ def write_seen(
 ) -> bpy.types.Object:
     """Write a result to an object made by `make_seen`, and show it beside the source.
 
-    Parameters
-    ----------
-    new, source : bpy.types.Object
-        The source is None if it was deleted in the meantime.
-    positions, rotations, prepare, run
-        As for `write_new_object`.
-
-    Raises
-    ------
-    CubicCraftError
-        As `write_mesh`. After any exception, there is no new object.
+    `new`, `source`: the source is None if it was deleted in the meantime. `positions`, `rotations`,
+    `prepare`, `run`: as for `write_new_object`. Raises CubicCraftError: as `write_mesh`. After any
+    exception, there is no new object.
     """
     try:
         write_mesh(mesh_of(new), positions, rotations, run)
