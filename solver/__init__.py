@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
     from .meshes import stylize_mesh as stylize_mesh
     from .normal_capture import NormalCapture as NormalCapture
+    from .one_call import run as run
     from .one_call import stylize as stylize
     from .options import SolverOptions as SolverOptions
     from .orientation.auto_orientation import auto_orient as auto_orient
@@ -66,7 +67,6 @@ if TYPE_CHECKING:
     from .result import Result as Result
     from .rotation_fit import svd_rotations as svd_rotations
     from .runner import Run as Run
-    from .runner import run as run
     from .setup import Setup as Setup
     from .stop_rule import StopRule as StopRule
     from .styles.cube import nearest_to_identity as nearest_to_identity
@@ -96,7 +96,7 @@ else:
         "mesh.rest_measures": "triangle_areas_and_normals",
         "meshes": "stylize_mesh",
         "normal_capture": "NormalCapture",
-        "one_call": "stylize",
+        "one_call": "run stylize",
         "options": "SolverOptions",
         "orientation.auto_orientation": "auto_orient",
         "pieces.from_mesh": "piece_of",
@@ -111,7 +111,7 @@ else:
         "rest": "RestMesh",
         "result": "Result",
         "rotation_fit": "svd_rotations",
-        "runner": "Run run",
+        "runner": "Run",
         "setup": "Setup",
         "stop_rule": "StopRule",
         "styles.cube": "nearest_to_identity",

@@ -1,28 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A complete run in one call: mesh in, cubic mesh out."""
+"""A complete run in one call: of a mesh, or of a Stylization."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .aliases import Device, Faces, Precision
+from .inputs import switch
 from .limbs import KnownLimbs
 from .mesh.mesh_checks import check_mesh, check_winding
 from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
 from .preparation import rest_mesh
+from .progress_bar import progress_bar
 from .proxy import PAPER, ProxyOptions
 from .result import Result
-from .runner import OnIteration, run
+from .runner import OnIteration, Run
 from .setup import Setup
 from .styles.admm import AdmmOptions
 from .styles.polytope import Polytope
 from .styles.style import CRISPNESS, Style
 from .stylization import Stylization
+
+_log = logging.getLogger(__name__)
 
 
 def stylize(
@@ -177,3 +182,70 @@ def stylize(
     )
     stylization = Stylization(setup, style, Pose(targets=targets, limbs=limbs), options)
     return run(stylization, max_iterations, tolerance, on_iteration, progress)
+
+
+def run(
+    stylization: Stylization,
+    max_iterations: int = 1000,
+    tolerance: float = 1e-3,
+    on_iteration: OnIteration | None = None,
+    progress: bool = False,
+) -> Result:
+    """Iterate a new Stylization to its end.
+
+    Parameters
+    ----------
+    stylization : Stylization
+    max_iterations : int
+        Limit, even if the run has not converged.
+    tolerance : float
+        See `StopRule`.
+    on_iteration : callable, optional
+        Called with the Stylization after each iteration, also on coarser meshes (`is_coarse`); a
+        true value cancels the run.
+    progress : bool
+        Whether to show a progress bar on standard error.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    CubicCraftError
+        The tolerance is not positive, or max_iterations is no whole number from 1.
+
+    See Also
+    --------
+    stylize : The same for a mesh, in one call.
+    Run : The same, phase by phase.
+
+    Examples
+    --------
+    How far the surface moves, with one factorization for three values of cubeness:
+
+    >>> import numpy as np
+    >>> from solver import Setup, SolverOptions, Stylization, ball, rest_mesh, run
+    >>> V, F = ball()
+    >>> setup = Setup(rest_mesh(V, F))
+    >>> options = SolverOptions(keep_rotation=True, device="numpy")
+    >>> for cubeness in (0.0, 0.1, 0.6):
+    ...     result = run(Stylization(setup, cubeness, options=options))
+    ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
+    0.00
+    0.17
+    0.26
+    """
+    steps = Run(stylization, max_iterations, tolerance)
+    if switch(progress, "progress"):
+        with progress_bar(max_iterations, tolerance) as update:
+            steps.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
+    else:
+        steps.complete(on_iteration)
+    result = steps.result()
+    _log.info(
+        "%s after %d iterations, energy %.6g, %s, %.2f s",
+        *(result.reason, result.iterations, result.energy.total, result.device),
+        result.solve_seconds,
+    )
+    return result

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run from the first iteration to the last, in one call or phase by phase."""
+"""A run from the first iteration to the last, phase by phase."""
 
 from __future__ import annotations
 
-import logging
 import math
 import time
 from collections.abc import Callable
@@ -27,12 +26,9 @@ from .errors import CubicCraftError
 from .from_below import FromBelow
 from .hardening.hardening import ROUNDS
 from .inputs import instance, real_number, switch, whole_number
-from .progress_bar import progress_bar
 from .result import Reason, Result
 from .stop_rule import StopRule
 from .stylization import Stylization
-
-_log = logging.getLogger(__name__)
 
 OnIteration: TypeAlias = Callable[[Stylization], object]
 
@@ -40,73 +36,6 @@ OF_ROUND = 8
 LEAST_ROUND = 10
 """A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
-
-
-def run(
-    stylization: Stylization,
-    max_iterations: int = 1000,
-    tolerance: float = 1e-3,
-    on_iteration: OnIteration | None = None,
-    progress: bool = False,
-) -> Result:
-    """Iterate a new Stylization to its end.
-
-    Parameters
-    ----------
-    stylization : Stylization
-    max_iterations : int
-        Limit, even if the run has not converged.
-    tolerance : float
-        See `StopRule`.
-    on_iteration : callable, optional
-        Called with the Stylization after each iteration, also on coarser meshes (`is_coarse`); a
-        true value cancels the run.
-    progress : bool
-        Whether to show a progress bar on standard error.
-
-    Returns
-    -------
-    Result
-
-    Raises
-    ------
-    CubicCraftError
-        The tolerance is not positive, or max_iterations is no whole number from 1.
-
-    See Also
-    --------
-    stylize : The same for a mesh, in one call.
-    Run : The same, phase by phase.
-
-    Examples
-    --------
-    How far the surface moves, with one factorization for three values of cubeness:
-
-    >>> import numpy as np
-    >>> from solver import Setup, SolverOptions, Stylization, ball, rest_mesh, run
-    >>> V, F = ball()
-    >>> setup = Setup(rest_mesh(V, F))
-    >>> options = SolverOptions(keep_rotation=True, device="numpy")
-    >>> for cubeness in (0.0, 0.1, 0.6):
-    ...     result = run(Stylization(setup, cubeness, options=options))
-    ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
-    0.00
-    0.17
-    0.26
-    """
-    steps = Run(stylization, max_iterations, tolerance)
-    if switch(progress, "progress"):
-        with progress_bar(max_iterations, tolerance) as update:
-            steps.complete(lambda state: update(state) or (on_iteration and on_iteration(state)))
-    else:
-        steps.complete(on_iteration)
-    result = steps.result()
-    _log.info(
-        "%s after %d iterations, energy %.6g, %s, %.2f s",
-        *(result.reason, result.iterations, result.energy.total, result.device),
-        result.solve_seconds,
-    )
-    return result
 
 
 class Run:

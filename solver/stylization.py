@@ -282,7 +282,7 @@ class Stylization(Stored):
         other._targets, other._hold_matrices = pose.targets_of(setup), pose.hold_matrices
         R = self.rotations.copy()
         moved = after.V - before.V
-        shift = _means(moved, before.areas, after.topology.component)
+        shift = after.topology.means(moved, before.areas)
         U = self.positions + shift + np.einsum("nij,nj->ni", R, moved - shift)
         held = setup.pinned
         U[held] = after.V[held] + pins_moved(setup, other._targets) / after.box.size
@@ -407,14 +407,6 @@ class Stylization(Stored):
         assert self.energy is not None  # the local step has set it
         return self.energy
 
-    def energy_at_rest(self) -> Energy:
-        """Return the Energy of the rest shape; the state stays as it is, but for its momentum."""
-        energy, R, U = self.energy, self.rotations.copy(), self.positions.copy()
-        self.go_to(np.tile(np.eye(3), (len(U), 1, 1)), self.rest.V)
-        at_rest, _ = self.finish(), self.go_to(R, U)
-        self.energy = energy
-        return at_rest
-
     def energy_of(self, positions: ArrayLike, steps: int = 20) -> Energy:
         """Return the Energy of a given shape, with rotations that fit it.
 
@@ -456,11 +448,3 @@ class Stylization(Stored):
         held = self.setup.pinned_input
         positions[held] = self._targets[held]
         return positions
-
-
-def _means(vectors, weights, component):
-    """Return the weighted mean of the vectors (n,3) of each component at its vertices (n,3)."""
-    weights = weights + 1e-300
-    total = np.bincount(component, weights)
-    sums = [np.bincount(component, weights * column) / total for column in vectors.T]
-    return np.stack(sums, axis=1)[component]

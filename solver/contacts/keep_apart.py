@@ -159,7 +159,7 @@ class KeepApart:
                 return None
         found = mirrored(found, stylization.setup.mirrors)
         if not self._rounds and self._are_of_two_parts(pairs).mean() > BETWEEN:
-            fall = stylization.energy_at_rest().cubic - stylization.energy.cubic
+            fall = _energy_at_rest(stylization).cubic - stylization.energy.cubic
             self._before = _Before(stylization, self._now, fall)
         self._links = merged(self._links, found)
         self._rounds += 1
@@ -270,3 +270,12 @@ class KeepApart:
         """Return the triangles of pairs that crossed nothing at rest."""
         triangles = pairs.ravel()
         return triangles[~self._rest.crosses_at_rest(triangles)]
+
+
+def _energy_at_rest(stylization):
+    """Return the Energy of the rest shape; the state stays as it is, but for its momentum."""
+    energy, R, U = stylization.energy, stylization.rotations.copy(), stylization.positions.copy()
+    stylization.go_to(np.tile(np.eye(3), (len(U), 1, 1)), stylization.rest.V)
+    at_rest, _ = stylization.finish(), stylization.go_to(R, U)
+    stylization.energy = energy
+    return at_rest

@@ -77,6 +77,13 @@ class Topology(Value):
             return np.stack([self._sums(column) for column in values.T], axis=1)
         return self._sums(values)
 
+    def means(self, vectors, weights):
+        """Return the mean (n,3) of vectors (n,3), by weights (n,), of each vertex's component."""
+        weights = weights + 1e-300  # a component without any has a mean as well
+        total = self._sums(weights)
+        means = [self._sums(weights * column) / total for column in vectors.T]
+        return np.stack(means, axis=1)[self.component]
+
     def shares(self, weights):
         """Return the share (n,) of each vertex in its component, by positive weights (n,)."""
         return weights / self.sum_parts(weights)[self.component]

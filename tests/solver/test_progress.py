@@ -38,4 +38,4 @@ def test_the_end_of_a_run_is_logged(caplog):
         result = stylize(V, F, 0.4, device="numpy", proxy=PAPER)
     (line,) = caplog.messages
     assert line.startswith(f"converged after {result.iterations} iterations, energy ")
-    assert "numpy" in line and caplog.records[0].name == "solver.runner"
+    assert "numpy" in line and caplog.records[0].name == "solver.one_call"
