@@ -5,8 +5,6 @@ Each vertex goes to the nearest point in the planes of its facets, which one lin
 finds. Nothing has to converge, and the same input always gives the same bits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@
 Neither library is imported.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from copy import deepcopy
 from typing import Any, Concatenate, ParamSpec, TypeVar

@@ -7,8 +7,6 @@ interpolated linearly over the triangles of the convex hull of the directions, s
 was asks for nothing, and a flat side of it for exactly one normal.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

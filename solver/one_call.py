@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A complete run in one call: of a mesh, or of a Stylization."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Sequence
 

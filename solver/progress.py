@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The progress of a run as one number, for a progress bar."""
 
-from __future__ import annotations
-
 import math
 
 from .stylization import Stylization

@@ -10,8 +10,6 @@ signed singular values as eigenvalues. So the result is certified, and what Newt
 certify (reflections, rank 1, far-off guesses) gets a singular value decomposition.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

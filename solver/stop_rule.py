@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """When the iteration has converged."""
 
-from __future__ import annotations
-
 ENERGY_WINDOW = 10
 """number of iterations over which the fall of the energy is measured"""
 ENERGY_SHARE = 0.1

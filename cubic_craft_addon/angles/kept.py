@@ -5,8 +5,6 @@ Reading a mesh takes too long for each redraw, so its angles are kept until Blen
 mesh has changed, or its form or orientation is another one.
 """
 
-from __future__ import annotations
-
 import bpy
 from bpy.app.handlers import persistent
 

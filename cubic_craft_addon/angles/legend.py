@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The legend of the angles to the form: what their colors mean, in a corner of the viewport."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import blf

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Play frames at an even speed: equal steps of the largest movement of any vertex."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

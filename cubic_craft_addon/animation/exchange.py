@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of baked frames for other programs, by Blender's exporters."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

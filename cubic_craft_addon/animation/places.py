@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which files the frames of an object go to; no other object's are among them."""
 
-from __future__ import annotations
-
 import itertools
 import os
 from collections.abc import Iterator

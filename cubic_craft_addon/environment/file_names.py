@@ -6,8 +6,6 @@ systems ignore case or how accents are stored, and names must be short. What wou
 gets a digest of what it is called in Blender.
 """
 
-from __future__ import annotations
-
 import hashlib
 import unicodedata
 from collections import Counter

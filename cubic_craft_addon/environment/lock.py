@@ -5,8 +5,6 @@ The system lets go of a lock when its process ends, however that ends. Where a f
 locks, there are none.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import sys

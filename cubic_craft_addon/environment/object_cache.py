@@ -8,8 +8,6 @@ what they depend on, shape keys, transforms. After undo, on another frame and in
 everything is made anew.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from hashlib import blake2b
 from typing import Any, NamedTuple, TypeVar

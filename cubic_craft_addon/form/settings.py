@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of the form as plain values, and what is wrong with them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import bpy

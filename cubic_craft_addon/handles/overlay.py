@@ -5,8 +5,6 @@ They are in the middle of the vertices as these are seen now; a pose that Cubify
 does not move them. They are kept until Blender reports that the mesh has changed.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Regions: vertex groups with a form, an orientation and a cubeness of their own."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 import bpy

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How much each vertex belongs to the regions of its object."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import bpy

@@ -5,8 +5,6 @@ Its original is still in the former pose. What was moved since then would be put
 result as strokes of the artist, which tears it where the pose differs.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cycles bakes the normals of one surface to the UV map of another near it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The low-poly mesh that a normal map is for: its triangles, its UV map and its hard edges."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials that show a normal map: copies of the artist's, or a plain one."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -6,8 +6,6 @@ A glTF file splits vertices at seams and hard edges, so it gets the index of eac
 ``_GROUP_NAME`` of glTF, or as colors of FBX. An FBX file keeps the order of vertices itself.
 """
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 

@@ -6,8 +6,6 @@ shows the outcome of the last run, what has changed since, the progress of Live,
 mode in which nothing can be done.
 """
 
-from __future__ import annotations
-
 import bpy
 
 from ...solver.console.crossing_words import crossing_words

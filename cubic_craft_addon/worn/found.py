@@ -5,8 +5,6 @@ Boxes alone would take a floor, a room and a sword beside a hip for clothes. So 
 has to lie near the surface itself, as it is seen, and its box within that of the wearer.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

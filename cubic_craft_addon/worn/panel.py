@@ -5,8 +5,6 @@ What lies on it is found when nothing is drawn for a moment, and kept until anyt
 has moved.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -50,7 +50,7 @@ def credit(path):
     """Collect what is known of the license of a wheel (Path).
 
     Raises ValueError: its license, its text or its copyright is not known; see
-    ``licenses/additions.toml``.
+    ``licences/additions.toml``.
     """
     name, version, *_ = parse_wheel_filename(path.name)
     additions = tomllib.loads((ADDITIONS / "additions.toml").read_text())

@@ -16,8 +16,6 @@ over several frames. A few steps for each frame are nearly enough to converge, a
 the end. They cost little: the factorization is that of the first pose, see `RestMesh.posed`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

@@ -12,8 +12,6 @@ Arrays are indexed by frame and vertex, (f,k,...). An animation is passed in pie
 frames and some of its vertices, so that it need not fit into the memory.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 

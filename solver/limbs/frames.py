@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame of the form at each vertex, in which limbs keep their direction."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -6,8 +6,6 @@ Bones that go on from each other are measured together, as a tail may have many 
 the width of the vertices that they move.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Areas and normals of the rest shape."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..aliases import FloatArray, IntArray

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A piece of plain arrays, for callers without an object in Blender."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

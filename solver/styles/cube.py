@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cube: the cost of a normal, its active sets and its symmetries."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

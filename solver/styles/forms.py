@@ -6,8 +6,6 @@ convex: a star or an hourglass would be its convex hull. Where nothing else is a
 local step has code of its own, which is faster.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from functools import cache, partial

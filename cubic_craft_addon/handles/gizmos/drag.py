@@ -6,8 +6,6 @@ pose. A motion D of the world changes it to P' = W^-1 D W P. The location of W c
 omitted, so that a part far from the origin does not lose digits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ A gizmo gets its value from us and sets it from the mouse: the values of arrows,
 rings and boxes are relative to the start of a drag, those of dots are positions in the world.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 from typing import Any

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Affine maps between two shapes of the same vertices: what transforming a whole mesh does."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
