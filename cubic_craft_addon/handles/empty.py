@@ -49,10 +49,7 @@ def is_ours_alone(target: bpy.types.Object):
 
 def _shown_positions(context, obj):
     """Return the visible positions (n,3), if the modifiers keep the vertices."""
-    count = len(obj.data.vertices)
     seen = obj.evaluated_get(context.evaluated_depsgraph_get()).data
-    if len(seen.vertices) != count:
+    if len(seen.vertices) != len(obj.data.vertices):
         return mesh_bridge.read_positions(obj.data).astype(np.float64)
-    positions = np.empty(3 * count, dtype=np.float32)
-    seen.vertices.foreach_get("co", positions)
-    return positions.reshape(-1, 3).astype(np.float64)
+    return mesh_bridge.read_values(seen.vertices, "co", width=3).astype(np.float64)

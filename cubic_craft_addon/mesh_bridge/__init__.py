@@ -8,7 +8,7 @@ first original is removed by Apply and *Restore First*).
 """
 
 from .access.any_mode import flush, glance, in_no_mode
-from .access.arrays import corner_vertices
+from .access.arrays import corner_vertices, read_position, read_values
 from .access.carried import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
 from .access.copies import remove_copy

@@ -50,17 +50,18 @@ def read_cage(obj: bpy.types.Object) -> Cage | None:
     if options is None or not mesh.polygons:
         return None
     boundary, has_creases = options
-    count, sizes = len(mesh.vertices), np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
+    count, sizes = (
+        len(mesh.vertices),
+        mesh_bridge.read_values(mesh.polygons, "loop_total", np.int32),
+    )
     corners = mesh_bridge.corner_vertices(mesh).astype(np.int64)
     edges, stiffness = np.empty((0, 2), np.int64), np.zeros(count)
     sharpness = np.empty(0)
     if has_creases:
         sharpness = _creases(mesh, "crease_edge", len(mesh.edges))
         stiffness = _creases(mesh, "crease_vert", count)
-        flat = np.empty(2 * len(mesh.edges), np.int32)
-        mesh.edges.foreach_get("vertices", flat)
-        edges = flat.reshape(-1, 2)[sharpness > 0.0].astype(np.int64)
+        edges = mesh_bridge.read_values(mesh.edges, "vertices", np.int32, 2)
+        edges = edges[sharpness > 0.0].astype(np.int64)
         sharpness = sharpness[sharpness > 0.0]
     keeps_corners = boundary == "PRESERVE_CORNERS"
     cage = Cage(sizes.astype(np.int64), corners, edges, sharpness, stiffness, keeps_corners)
@@ -72,5 +73,5 @@ def _creases(mesh, name, count):
     """Return for how many levels creases stay sharp: ten times the square of what Blender shows."""
     values, attribute = np.zeros(count, np.float32), mesh.attributes.get(name)
     if isinstance(attribute, bpy.types.FloatAttribute) and len(attribute.data) == count:
-        attribute.data.foreach_get("value", values)
+        values = mesh_bridge.read_values(attribute.data, "value")
     return FULL * values.astype(np.float64) ** 2

@@ -8,6 +8,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ...solver import CubicCraftError
+from ..mesh_bridge import read_values
 from .studio import Studio
 
 _SLACK = 1.05  # rays start this much farther out than the surfaces are apart
@@ -78,17 +79,14 @@ def distance(high: bpy.types.Object, low: bpy.types.Object) -> float:
 
 def _surface(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     mesh: Any = obj.data
-    V = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", V)
+    V = read_values(mesh.vertices, "co", width=3)
     mesh.calc_loop_triangles()
-    F = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", F)
+    F = read_values(mesh.loop_triangles, "vertices", np.int32, 3)
     matrix = np.array(obj.matrix_world)
-    F = F.reshape(-1, 3)
     used = np.unique(F)  # loose vertices have no surface
-    place = np.zeros(len(V) // 3, np.int32)
+    place = np.zeros(len(V), np.int32)
     place[used] = np.arange(len(used))
-    return V.reshape(-1, 3)[used] @ matrix[:3, :3].T + matrix[:3, 3], place[F]
+    return V[used] @ matrix[:3, :3].T + matrix[:3, 3], place[F]
 
 
 def _farthest(points: np.ndarray, tree: BVHTree) -> float:

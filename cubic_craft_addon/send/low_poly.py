@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ..mesh_bridge import read_values
 from .studio import Studio
 from .uv_overlap import fits_unit_square, overlap
 
@@ -71,9 +72,7 @@ def choose_uv(
 
 def uv_of_triangles(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     """Return the UVs (m,3,2) of a mesh of triangles."""
-    uv = np.empty(2 * len(mesh.loops), np.float32)
-    mesh.uv_layers[name].uv.foreach_get("vector", uv)
-    return uv.reshape(-1, 3, 2)
+    return read_values(mesh.uv_layers[name].uv, "vector", width=2).reshape(-1, 3, 2)
 
 
 def set_hard_edges(mesh: bpy.types.Mesh, name: str) -> None:
@@ -85,14 +84,10 @@ def set_hard_edges(mesh: bpy.types.Mesh, name: str) -> None:
 
     `mesh`: a mesh of triangles. `name`: of the UV map.
     """
-    m = len(mesh.polygons)
-    edge_of, vertex_of = np.empty(3 * m, np.int32), np.empty(3 * m, np.int32)
-    mesh.loops.foreach_get("edge_index", edge_of)
-    mesh.loops.foreach_get("vertex_index", vertex_of)
-    normals = np.empty(3 * m, np.float32)
-    mesh.polygons.foreach_get("normal", normals)
-    normals = normals.reshape(-1, 3)
-    uv, vertices = uv_of_triangles(mesh, name), vertex_of.reshape(-1, 3)
+    edge_of = read_values(mesh.loops, "edge_index", np.int32)
+    vertices = read_values(mesh.loops, "vertex_index", np.int32).reshape(-1, 3)
+    normals = read_values(mesh.polygons, "normal", width=3)
+    uv = uv_of_triangles(mesh, name)
     ends = np.stack([vertices[:, _ENDS[:-1]], vertices[:, _ENDS[1:]]], axis=-1).reshape(-1, 2)
     sides = np.stack([uv[:, _ENDS[:-1]], uv[:, _ENDS[1:]]], axis=2).reshape(-1, 2, 2)
     turned = ends[:, 0] > ends[:, 1]
@@ -106,7 +101,7 @@ def set_hard_edges(mesh: bpy.types.Mesh, name: str) -> None:
     is_hard = np.zeros(len(mesh.edges), bool)
     limits = np.where(is_border, math.cos(_HARD), math.cos(_HARD_INSIDE))
     is_hard[edge_of[first[cosines < limits]]] = True
-    mesh.polygons.foreach_set("use_smooth", np.ones(m, bool))
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(normals), bool))
     mesh.edges.foreach_set("use_edge_sharp", is_hard)
     mesh.update()
 

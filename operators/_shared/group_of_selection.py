@@ -17,9 +17,7 @@ def group_of_selection(obj: bpy.types.Object, name: str) -> tuple[bpy.types.Vert
     Raises CubicCraftError: no vertex is selected, or all are.
     """
     obj.update_from_editmode()
-    vertices = mesh_bridge.mesh_of(obj).vertices
-    is_selected = np.empty(len(vertices), dtype=bool)
-    vertices.foreach_get("select", is_selected)
+    is_selected = mesh_bridge.read_values(mesh_bridge.mesh_of(obj).vertices, "select", bool)
     if not is_selected.any():
         raise CubicCraftError("No vertex is selected; select some in Edit Mode first")
     if is_selected.all():

@@ -8,7 +8,7 @@ from mathutils import Matrix, Vector
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
-from cubic_craft.cubic_craft_addon.command_line.reading.mesh_arrays import read
+from cubic_craft.cubic_craft_addon.mesh_bridge import read_values
 
 from .figure_meshes import FigureMeshes, moved
 
@@ -66,7 +66,7 @@ def _ball(shape, clay: bpy.types.Material) -> bpy.types.Object:
     mesh = bpy.data.meshes.new("Ball")
     edited.to_mesh(mesh)
     edited.free()
-    directions = read(mesh.vertices, "co", width=3).astype(np.float64)
+    directions = read_values(mesh.vertices, "co", width=3).astype(np.float64)
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     mesh.vertices.foreach_set("co", shape(directions).astype(np.float32).ravel())
     mesh.materials.append(clay)
@@ -75,7 +75,9 @@ def _ball(shape, clay: bpy.types.Material) -> bpy.types.Object:
 
 def _stand_beside(group: Group, ball: bpy.types.Object) -> None:
     """Put the ball on the floor, before the mesh and to its left."""
-    points = RADIUS * group.extent * read(ball.data.vertices, "co", width=3).astype(np.float64)
+    points = (
+        RADIUS * group.extent * read_values(ball.data.vertices, "co", width=3).astype(np.float64)
+    )
     low, high = group.points.min(axis=0), group.points.max(axis=0)
     away = Vector((*AWAY, 0.0)) * group.extent
     away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))

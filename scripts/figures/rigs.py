@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
-from cubic_craft.cubic_craft_addon.command_line.reading.mesh_arrays import positions_of
+from cubic_craft.cubic_craft_addon.mesh_bridge import read_position
 from cubic_craft.solver import ProxyOptions, stylize
 
 from .figure_meshes import FigureMeshes, Model
@@ -74,11 +74,11 @@ def _rig(model: Model) -> bpy.types.Object:
 def _posed(model: Model, rig: bpy.types.Object, positions: np.ndarray) -> np.ndarray:
     """Return where the rig takes positions (n,3)."""
     mesh = model.object.data
-    before = positions_of(mesh)
+    before = read_position(mesh)
     mesh.vertices.foreach_set("co", positions.ravel())
     mesh.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = positions_of(model.object.evaluated_get(depsgraph).data)
+    found = read_position(model.object.evaluated_get(depsgraph).data)
     mesh.vertices.foreach_set("co", before.ravel())
     mesh.update()
     return found

@@ -16,7 +16,6 @@ from mathutils import Euler, Matrix, Vector
 
 from ....solver.console.errors import InputError
 from ... import mesh_bridge
-from ..reading.mesh_arrays import positions_of, read
 from ..solving.cubify_all import Sculpture
 from ..writing.detached import detached_copy
 from .view import best_yaw
@@ -156,7 +155,9 @@ def _check_seen(
     for user, original, copy in zip(users, originals, copies, strict=True):
         if not copy.modifiers:
             continue
-        moved = mesh_bridge.distance(positions_of(original.data), positions_of(copy.data))
+        moved = mesh_bridge.distance(
+            mesh_bridge.read_position(original.data), mesh_bridge.read_position(copy.data)
+        )
         before, now = (mesh_bridge.read_evaluated_points(obj)[0] for obj in (original, copy))
         if moved > 0.0 and mesh_bridge.is_still(before, now, moved):
             raise InputError(
@@ -174,8 +175,8 @@ def _points(copy: bpy.types.Object, place: Matrix) -> np.ndarray:
     """(n,3) vertices of faces as they are rendered, where ``place`` takes them."""
     evaluated = copy.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
-    points = read(mesh.vertices, "co", width=3)
-    corners = read(mesh.loops, "vertex_index", np.int32)
+    points = mesh_bridge.read_values(mesh.vertices, "co", width=3)
+    corners = mesh_bridge.read_values(mesh.loops, "vertex_index", np.int32)
     evaluated.to_mesh_clear()
     matrix = np.array(place)
     visible = points[np.unique(corners)].astype(np.float64)

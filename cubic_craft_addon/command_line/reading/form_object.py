@@ -7,8 +7,8 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
+from ...mesh_bridge import read_values
 from .load_meshes import empty_blender, load
-from .mesh_arrays import read
 
 
 class FormMesh(NamedTuple):
@@ -30,9 +30,9 @@ def read_form(path: Path, verbose: bool) -> FormMesh:
         mesh = obj.data
         mesh.calc_loop_triangles()
         matrix = np.array(obj.matrix_world)
-        own = read(mesh.vertices, "co", width=3).astype(np.float64)
+        own = read_values(mesh.vertices, "co", width=3).astype(np.float64)
         points.append(own @ matrix[:3, :3].T + matrix[:3, 3])
-        corners = read(mesh.loop_triangles, "vertices", np.int32, width=3)
+        corners = read_values(mesh.loop_triangles, "vertices", np.int32, width=3)
         triangles.append(corners[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else corners)
         triangles[-1] = triangles[-1] + count
         count += len(own)

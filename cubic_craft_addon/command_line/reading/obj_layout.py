@@ -17,8 +17,8 @@ import numpy as np
 
 from ....solver.console.errors import InputError
 from ....solver.console.obj_lines import vertex_of
+from ...mesh_bridge import read_position
 from .far_away import middle_if_far
-from .mesh_arrays import positions_of
 from .obj_copy import file_named
 from .obj_lines import ObjLines
 
@@ -136,7 +136,7 @@ def _positions(coordinates: list[list[bytes]], path: Path) -> np.ndarray:
 def _has_positions(mesh: bpy.types.Mesh, wanted: np.ndarray) -> bool:
     # Reading decimals by way of float64 may round the last bit otherwise than Blender does.
     return len(mesh.vertices) == len(wanted) and np.allclose(
-        positions_of(mesh), wanted, rtol=1e-6, atol=0.0, equal_nan=True
+        read_position(mesh), wanted, rtol=1e-6, atol=0.0, equal_nan=True
     )
 
 

@@ -10,16 +10,16 @@ import bmesh
 import bpy
 import numpy as np
 
-from .mesh_arrays import distinct_rows, positions_of, read
+from ...mesh_bridge import read_position, read_values
 
 
 def weld(mesh: bpy.types.Mesh) -> None:
     """Join vertices with bit-identical coordinates; UVs and normals of the faces stay."""
-    positions = positions_of(mesh) + np.float32(0.0)  # no -0.0, which has other bits
+    positions = read_position(mesh) + np.float32(0.0)  # no -0.0, which has other bits
     first, place = distinct_rows(positions)
     if len(first) == len(positions):
         return
-    normals = read(mesh.corner_normals, "vector", width=3)
+    normals = read_values(mesh.corner_normals, "vector", width=3)
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)
@@ -38,3 +38,10 @@ def weld(mesh: bpy.types.Mesh) -> None:
         edited.free()
     if len(mesh.loops) == len(normals):  # no face has collapsed
         mesh.normals_split_custom_set(normals.tolist())
+
+
+def distinct_rows(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first of each of the rows that differ in a bit, and which of them each row is."""
+    keys = np.ascontiguousarray(values).view(f"V{values.itemsize * values.shape[1]}").ravel()
+    _, first, row = np.unique(keys, return_index=True, return_inverse=True)
+    return first, row.ravel()

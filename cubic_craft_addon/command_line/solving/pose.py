@@ -11,10 +11,10 @@ from mathutils import Euler, Matrix, Vector
 from ....solver.console.errors import InputError
 from ... import mesh_bridge
 from ...handles import Handle
+from ...mesh_bridge import read_position
 from ..options.formats import RENUMBER_VERTICES
 from ..options.handles_file import GivenHandle
 from ..reading.load_meshes import Loaded
-from ..reading.mesh_arrays import positions_of
 
 
 def groups_of(objects: list[bpy.types.Object]) -> tuple[list[str], str]:
@@ -119,7 +119,7 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
     if given.vertices is not None:
         return "none of its vertices is part of the mesh"
     if given.box is not None:
-        points = np.concatenate([positions_of(obj.data) for obj in loaded.objects], dtype=float)
+        points = np.concatenate([read_position(obj.data) for obj in loaded.objects], dtype=float)
         if loaded.obj_layout is not None:
             points += loaded.obj_layout.offset
         low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))

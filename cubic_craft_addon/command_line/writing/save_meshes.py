@@ -15,6 +15,7 @@ from mathutils import Matrix
 from ....solver.console.errors import InputError
 from ....solver.console.temporary import replacing
 from ....solver.errors import CubicCraftError
+from ...mesh_bridge import read_position
 from ...run import pipeline
 from ...send.file import ready
 from ...send.targets import TARGETS, Options, exporter, settings, target_of
@@ -22,7 +23,6 @@ from ..process.output_files import leveled
 from ..process.quiet import captured
 from ..reading.blender_operator import reason
 from ..reading.load_meshes import Loaded
-from ..reading.mesh_arrays import positions_of
 from ..reading.obj_layout import ObjLayout
 from ..solving.cubify_all import Sculpture
 from ..trust.opened import with_all_paths
@@ -175,7 +175,7 @@ def _rows_in_file(path: Path, layout: ObjLayout, uid: int, name: str) -> np.ndar
 
 def _placed_positions(copy: bpy.types.Object) -> np.ndarray:
     """Return (n,3) positions in the space of an .obj; if one was read, bit for bit as in it."""
-    positions = positions_of(copy.data)
+    positions = read_position(copy.data)
     to_file = np.array(TO_Y_UP @ copy.matrix_world)
     if np.allclose(to_file, np.eye(4), rtol=0.0, atol=1e-6):
         return positions

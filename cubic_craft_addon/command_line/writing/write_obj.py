@@ -13,8 +13,9 @@ from typing import NamedTuple, TextIO
 import bpy
 import numpy as np
 
-from ..reading.mesh_arrays import distinct_rows, read
+from ...mesh_bridge import read_values
 from ..reading.obj_copy import in_file
+from ..reading.weld import distinct_rows
 
 
 class ObjPart(NamedTuple):
@@ -57,7 +58,7 @@ def write_obj(
         counts = [0, 0]
         for part in parts:
             file.write(f"o {in_file(part.name, encoding)}\n")
-            vertices = part.rows[read(part.mesh.loops, "vertex_index", np.int32)] + 1
+            vertices = part.rows[read_values(part.mesh.loops, "vertex_index", np.int32)] + 1
             columns = [map(str, vertices.tolist())]
             for number, (keyword, values) in enumerate(_of_corners(part.mesh).items()):
                 first, row_of_corner = distinct_rows(values)
@@ -86,10 +87,10 @@ def _of_corners(mesh: bpy.types.Mesh) -> dict[str, np.ndarray]:
     All other normals are what readers work out themselves.
     """
     layer, none = mesh.uv_layers.active, np.empty((0, 3), np.float32)
-    uvs = none if layer is None else read(layer.uv, "vector", width=2)
+    uvs = none if layer is None else read_values(layer.uv, "vector", width=2)
     normals = none
     if mesh.has_custom_normals:
-        normals = read(mesh.corner_normals, "vector", width=3).round(4)
+        normals = read_values(mesh.corner_normals, "vector", width=3).round(4)
     return {"vt": uvs, "vn": normals + np.float32(0.0)}  # no -0.0
 
 
@@ -104,7 +105,7 @@ def _write_faces(file: TextIO, mesh: bpy.types.Mesh, corners: list[str], encodin
     names = [in_file(name, encoding) for name in materials]
     kinds = {name: np.int32 for name in ("loop_start", "loop_total", "material_index")}
     kinds["use_smooth"] = bool
-    columns = [read(mesh.polygons, name, kind).tolist() for name, kind in kinds.items()]
+    columns = [read_values(mesh.polygons, name, kind).tolist() for name, kind in kinds.items()]
     used = shaded = None
     for start, size, material, smooth in zip(*columns, strict=True):
         if names and (name := names[min(material, len(names) - 1)]) != used:
@@ -117,7 +118,7 @@ def _write_faces(file: TextIO, mesh: bpy.types.Mesh, corners: list[str], encodin
 
 
 def _write_loose_edges(file: TextIO, part: ObjPart) -> None:
-    edges = read(part.mesh.edges, "vertices", np.int32, 2)
+    edges = read_values(part.mesh.edges, "vertices", np.int32, 2)
     is_loose = np.ones(len(edges), dtype=bool)
-    is_loose[read(part.mesh.loops, "edge_index", np.int32)] = False
+    is_loose[read_values(part.mesh.loops, "edge_index", np.int32)] = False
     file.writelines(f"l {a} {b}\n" for a, b in (part.rows[edges[is_loose]] + 1).tolist())

@@ -5,10 +5,19 @@ Blender stores coordinates as float32, and ``foreach_get`` / ``foreach_set`` tak
 (one memory copy) only with a flat float32 buffer.
 """
 
+from typing import Any
+
 import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
+
+
+def read_values(collection: Any, name: str, kind: Any = np.float32, width: int = 1) -> np.ndarray:
+    """Read a property of all members of a collection, (k,) or with a width (k,width)."""
+    flat = np.empty(len(collection) * width, kind)
+    collection.foreach_get(name, flat)
+    return flat if width == 1 else flat.reshape(-1, width)
 
 
 def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -19,10 +28,9 @@ def read_position(mesh: bpy.types.Mesh) -> np.ndarray:
     """
     if mesh.is_editmode:
         raise CubicCraftError(f'Mesh "{mesh.name}" is in Edit Mode: go back to Object Mode first')
-    flat = np.empty(3 * len(mesh.vertices), np.float32)
-    if len(flat):  # a mesh without vertices may have no such attribute
-        _position_of(mesh).data.foreach_get("vector", flat)
-    return flat.reshape(-1, 3)
+    if not len(mesh.vertices):  # it may have no such attribute
+        return np.empty((0, 3), np.float32)
+    return read_values(_position_of(mesh).data, "vector", width=3)
 
 
 def write_position(mesh: bpy.types.Mesh, positions: np.ndarray) -> None:
@@ -38,9 +46,7 @@ def read_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> np.ndarray:
     which scripts may cause.
     """
     check_fits(mesh, key)
-    flat = np.empty(3 * len(key.points), np.float32)
-    key.points.foreach_get("co", flat)
-    return flat.reshape(-1, 3)
+    return read_values(key.points, "co", width=3)
 
 
 def check_fits(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey) -> None:
@@ -84,13 +90,10 @@ def loose_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
     """Read the vertex of every face corner, in the order of the faces, as int32."""
-    corners = np.empty(len(mesh.loops), np.int32)
     attribute = mesh.attributes.get(".corner_vert")
     if isinstance(attribute, bpy.types.IntAttribute):
-        attribute.data.foreach_get("value", corners)  # a hundred times as fast as through `loops`
-    else:
-        mesh.loops.foreach_get("vertex_index", corners)
-    return corners
+        return read_values(attribute.data, "value", np.int32)  # a hundred times as fast
+    return read_values(mesh.loops, "vertex_index", np.int32)
 
 
 def _position_of(mesh: bpy.types.Mesh) -> bpy.types.FloatVectorAttribute:

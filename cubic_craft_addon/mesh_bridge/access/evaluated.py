@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from .arrays import corner_vertices
+from .arrays import corner_vertices, read_values
 
 
 def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
@@ -17,7 +17,7 @@ def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
     Raises CubicCraftError: it has no surface.
     """
     with _evaluated_mesh(obj) as mesh:
-        return _points(mesh), len(mesh.loops)
+        return read_values(mesh.vertices, "co", width=3), len(mesh.loops)
 
 
 def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
@@ -27,13 +27,11 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     it has no surface.
     """
     with _evaluated_mesh(obj) as mesh:
-        points = _points(mesh)
+        points = read_values(mesh.vertices, "co", width=3)
         if len(mesh.loops) == 3 * len(mesh.polygons):
             return points, corner_vertices(mesh).reshape(-1, 3)  # much faster
         mesh.calc_loop_triangles()
-        triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
-        mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
-    return points, triangles
+        return points, read_values(mesh.loop_triangles, "vertices", np.int32, 3)
 
 
 @contextlib.contextmanager
@@ -48,9 +46,3 @@ def _evaluated_mesh(obj):
         yield mesh
     finally:
         evaluated.to_mesh_clear()
-
-
-def _points(mesh):
-    points = np.empty((len(mesh.vertices), 3), np.float32)
-    mesh.vertices.foreach_get("co", points.ravel())
-    return points

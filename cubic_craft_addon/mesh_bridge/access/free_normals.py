@@ -9,7 +9,7 @@ a face, or to a face.
 import bpy
 import numpy as np
 
-from .arrays import corner_vertices
+from .arrays import corner_vertices, read_values
 
 _NAME = "custom_normal"
 _DOMAINS = ("POINT", "CORNER", "FACE")
@@ -18,11 +18,7 @@ _DOMAINS = ("POINT", "CORNER", "FACE")
 def read_free_normals(mesh: bpy.types.Mesh) -> np.ndarray | None:
     """Read the free normals as a (k,3) float32 array, None if there are none."""
     attribute = _find(mesh)
-    if attribute is None:
-        return None
-    flat = np.empty(3 * len(attribute.data), np.float32)
-    attribute.data.foreach_get("vector", flat)
-    return flat.reshape(-1, 3)
+    return None if attribute is None else read_values(attribute.data, "vector", width=3)
 
 
 def write_free_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
@@ -51,8 +47,7 @@ def turned(mesh: bpy.types.Mesh, normals: np.ndarray, matrices: np.ndarray) -> n
         corners = corner_vertices(mesh)
         matrices, is_turned = matrices[corners], is_turned[corners]
     if domain == "FACE":
-        starts = np.empty(len(mesh.polygons), np.int32)
-        mesh.polygons.foreach_get("loop_start", starts)
+        starts = read_values(mesh.polygons, "loop_start", np.int32)
         if len(starts):
             matrices = np.add.reduceat(matrices, starts)
             is_turned = np.logical_or.reduceat(is_turned, starts)

@@ -5,6 +5,8 @@ import bmesh
 import bpy
 import numpy as np
 
+from .arrays import read_values
+
 
 def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Return the normals of the selected faces of a mesh in Edit Mode, as they are now.
@@ -18,9 +20,7 @@ def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def not_hidden(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
     """Return those of some faces, by their numbers, that can be seen in Edit Mode."""
-    is_hidden = np.empty(len(mesh.polygons), dtype=bool)
-    mesh.polygons.foreach_get("hide", is_hidden)
-    return faces[~is_hidden[faces]]
+    return faces[~read_values(mesh.polygons, "hide", bool)[faces]]
 
 
 def select_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from .arrays import corner_vertices, write_position
+from .arrays import corner_vertices, read_values, write_position
 
 
 def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
@@ -29,8 +29,7 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
         )
     if len(corners) == 3 * len(mesh.polygons):
         return corners.reshape(-1, 3)
-    starts = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
+    starts = read_values(mesh.polygons, "loop_start", np.int32)
     # A bare mesh of its own also has no cached normals, which can change how faces are cut.
     bare = bpy.data.meshes.new("cubic_craft_triangulation")
     try:
@@ -41,15 +40,12 @@ def triangles(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
         bare.polygons.add(len(starts))
         bare.polygons.foreach_set("loop_start", starts)
         bare.calc_loop_triangles()
-        flat = np.empty(3 * len(bare.loop_triangles), np.int32)
-        bare.loop_triangles.foreach_get("vertices", flat)
+        return read_values(bare.loop_triangles, "vertices", np.int32, 3)
     finally:
         bpy.data.meshes.remove(bare)
-    return flat.reshape(-1, 3)
 
 
 def faces_of_triangles(mesh: bpy.types.Mesh) -> np.ndarray:
     """Return the face (m,) that each of the `triangles` is a part of, whatever the shape."""
-    sizes = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
+    sizes = read_values(mesh.polygons, "loop_total", np.int32)
     return np.repeat(np.arange(len(sizes)), np.maximum(sizes - 2, 0))

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of a mesh that are set apart by UVs, materials, seams or sharp edges."""
 
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ....solver.mesh.components import components
 from ....solver.mesh.edges import edges_of
+from ..access.arrays import read_values
 
 
 def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
@@ -18,10 +17,10 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
 
     `positions`: (n,3).
     """
-    faces, size = len(mesh.polygons), _read(mesh.polygons, "loop_total", 1, np.int32)
-    start = _read(mesh.polygons, "loop_start", 1, np.int32)
-    vertex = _read(mesh.loops, "vertex_index", 1, np.int32)
-    edge = _read(mesh.loops, "edge_index", 1, np.int32)
+    faces, size = len(mesh.polygons), read_values(mesh.polygons, "loop_total", np.int32)
+    start = read_values(mesh.polygons, "loop_start", np.int32)
+    vertex = read_values(mesh.loops, "vertex_index", np.int32)
+    edge = read_values(mesh.loops, "edge_index", np.int32)
     face = np.repeat(np.arange(faces), size)
     following = np.arange(len(vertex)) + 1
     following[start + size - 1] = start
@@ -33,13 +32,13 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     is_turned = place[one] != place[other]
     ends = [(one, np.where(is_turned, following[other], other))]
     ends.append((following[one], np.where(is_turned, other, following[other])))
-    material = _read(mesh.polygons, "material_index", 1, np.int32)
+    material = read_values(mesh.polygons, "material_index", np.int32)
     is_joined = material[face[one]] == material[face[other]]
     for name in ("use_seam", "use_edge_sharp"):
-        is_set = _read(mesh.edges, name, 1, bool)[edge]
+        is_set = read_values(mesh.edges, name, bool)[edge]
         is_joined &= ~(is_set[one] | is_set[other])
     for layer in mesh.uv_layers:
-        uv = _read(layer.uv, "vector", 2, np.float32)
+        uv = read_values(layer.uv, "vector", width=2)
         for a, b in ends:
             is_joined &= np.abs(uv[a] - uv[b]).max(axis=1, initial=0.0) < _SAME
     pairs = np.stack([face[one], face[other]], axis=1)[is_joined]
@@ -48,10 +47,3 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
 
 
 _SAME = 1e-5  # between UVs
-
-
-def _read(items: Any, name: str, width: int, kind: Any) -> Any:
-    """Return a property of items as an array, (i,) or (i,width)."""
-    values = np.empty(len(items) * width, kind)
-    items.foreach_get(name, values)
-    return values if width == 1 else values.reshape(-1, width)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..access.checks import mesh_of
 from ..access.copies import remove_copy
+from ..access.triangulation import faces_of_triangles
 from .new_object import link_beside, select_instead
 from .plain_copy import plain_copy
 from .reshaped import result_positions
@@ -82,7 +83,7 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
     """Put the polygons in place of all faces; corners keep the data of those they come from."""
     if "custom_normal" in mesh.attributes:  # of the smooth shape
         mesh.attributes.remove(mesh.attributes["custom_normal"])
-    face_of = _faces_of_triangles(mesh)
+    face_of = faces_of_triangles(mesh).tolist()
     source: dict[Any, tuple[int, int]] = {
         (part, polygons.places[vertex]): (face, vertex)
         for part, face, corners in zip(
@@ -105,7 +106,7 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
                 face = edited.faces.new(verts, old[source[part, loop[0]][0]])
             for corner in face.loops:
                 number, vertex = source[part, corner.vert.index]
-                corner.copy_from(_corner(old[number], vertex))
+                corner.copy_from(next(c for c in old[number].loops if c.vert.index == vertex))
             face.smooth = False
             made[face] = part
         bmesh.ops.delete(edited, geom=[f for f in old if f not in made], context="FACES")
@@ -114,16 +115,6 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
     finally:
         edited.free()
     mesh.update()
-
-
-def _faces_of_triangles(mesh: bpy.types.Mesh) -> list[int]:
-    sizes = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return np.repeat(np.arange(len(sizes)), sizes - 2).tolist()
-
-
-def _corner(face: bmesh.types.BMFace, vertex: int) -> bmesh.types.BMLoop:
-    return next(corner for corner in face.loops if corner.vert.index == vertex)
 
 
 def _marks(edited: bmesh.types.BMesh, part_of: dict[int, int]) -> dict[tuple[int, int], np.ndarray]:
