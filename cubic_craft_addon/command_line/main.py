@@ -18,9 +18,8 @@ from .options.checks import refuse_empty
 from .process.one_line import one_line
 from .process.output_files import written
 from .process.quiet import mute_stdout, terminal
-from .process.threads import thread_variables
 from .process.version import version
-from .process.watched_process import Limits, end_processes, finish, start
+from .process.watched_process import Limits, end_processes, finish, start, thread_variables
 
 
 class Program(NamedTuple):

@@ -9,6 +9,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import mesh_bridge
+from ..environment.modes import MODES
 from ..read.member import assemblies
 from ..run.tasks import Task, plan
 from ..settings.overrides import SettingsOverrides
@@ -55,6 +56,22 @@ class Plan:
         self.problems += filter(None, map(mesh_bridge.cover_problem, objects))
         self.tasks = {task.uid: task for task in tasks}
         self.groups = {tuple(task.uid for task in group): group for group in assemblies(tasks)}
+
+    @property
+    def has_weights_at_hand(self) -> bool:
+        """Whether weights can be read without a copy of the mesh, which would wake Live.
+
+        Where they cannot, all is read anew when Blender reports a change of the mesh.
+        """
+        return not any(
+            task.is_followed_as_seen or (task.is_followed and task.obj.mode not in MODES)
+            for task in self.tasks.values()
+        )
+
+    @property
+    def is_of_edit_mode(self) -> bool:
+        """Whether reading an object has made Blender report its mesh as changed."""
+        return any(task.obj.mode == "EDIT" for task in self.tasks.values())
 
     def pairs(self, meshes: Sequence[LiveMesh]) -> list[tuple[LiveMesh, Task]]:
         """Return each mesh that has a task, with the task."""

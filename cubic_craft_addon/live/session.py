@@ -17,16 +17,7 @@ from ..handles.baked_pose import rebase_edited_handles
 from ..object_properties import object_properties
 from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL
-from . import (
-    cancelled_settings,
-    elsewhere,
-    handlers,
-    meshes,
-    poses,
-    properties,
-    status_bar,
-    wake,
-)
+from . import cancelled_settings, elsewhere, handlers, meshes, poses, properties, status_bar, wake
 from .followed_mesh import FollowedMesh
 from .follower import remove_left
 from .following import Following
@@ -51,26 +42,11 @@ _PATIENCE = 2.0  # seconds for which an artist who has gone on to something else
 class Session:
     """A running Live operator.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Of the window that the operator runs in.
-    objects : list of bpy.types.Object
-        The active one first.
+    `context`: of the window that the operator runs in. `objects`: the active one first. Raises
+    CubicCraftError: none of them can be used; nothing has changed then.
 
-    Raises
-    ------
-    CubicCraftError
-        None of the objects can be used; nothing has changed then.
-
-    Attributes
-    ----------
-    meshes : list of LiveMesh
-    is_dragged : callable
-        Returns whether a handle is being dragged in the viewport.
-    error : str
-        Why it has ended by itself.
-    written : Written
+    Its `meshes` are LiveMesh, `is_dragged` returns whether a handle is being dragged in the
+    viewport, and `error` says why it has ended by itself.
     """
 
     def __init__(self, context: bpy.types.Context, objects: list[bpy.types.Object]):
@@ -315,7 +291,7 @@ class Session:
             self.on(Event.CHANGED)
         if self._following.is_waiting:
             self._follow_originals(now)
-        elif self._may_be_painted and self._may_read_weights():
+        elif self._may_be_painted and self._plan.has_weights_at_hand:
             self._may_be_painted = False
             is_changed |= self._runs.restart_painted(self._plan.groups, self.meshes)
         if is_changed:
@@ -331,21 +307,7 @@ class Session:
         if self._following.work(self._plan.groups, self.meshes, now, is_hurried=is_hurried):
             self._may_be_painted = False
             self._history.record_outside()
-            self._has_written |= self._reads_edit_mode()
-
-    def _may_read_weights(self):
-        """Return whether weights can be read without a copy of the mesh, which would wake Live.
-
-        Where they cannot, all is read anew when Blender reports a change of the mesh.
-        """
-        return not any(
-            task.is_followed_as_seen or (task.is_followed and task.obj.mode not in MODES)
-            for task in self._plan.tasks.values()
-        )
-
-    def _reads_edit_mode(self):
-        """Whether reading an object has made Blender report its mesh as changed."""
-        return any(task.obj.mode == "EDIT" for task in self._plan.tasks.values())
+            self._has_written |= self._plan.is_of_edit_mode
 
     def _is_too_young(self, now):
         """Return whether the runs have yet to be shown; otherwise a drag would show nothing."""
@@ -357,7 +319,7 @@ class Session:
         meshes.suit(self.meshes, self._plan)
         self._runs.restart_changed(self._plan.groups, self.meshes)
         if self.is_following:
-            self._has_written |= self._reads_edit_mode()
+            self._has_written |= self._plan.is_of_edit_mode
 
     def _is_changed_at_rest(self, objects):
         """Check a last time: the confirmed shape must match the settings.

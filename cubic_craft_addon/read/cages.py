@@ -50,10 +50,8 @@ def read_cage(obj: bpy.types.Object) -> Cage | None:
     if options is None or not mesh.polygons:
         return None
     boundary, has_creases = options
-    count, sizes = (
-        len(mesh.vertices),
-        mesh_bridge.read_values(mesh.polygons, "loop_total", np.int32),
-    )
+    sizes = mesh_bridge.read_values(mesh.polygons, "loop_total", np.int32)
+    count = len(mesh.vertices)
     corners = mesh_bridge.corner_vertices(mesh).astype(np.int64)
     edges, stiffness = np.empty((0, 2), np.int64), np.zeros(count)
     sharpness = np.empty(0)

@@ -22,7 +22,7 @@ def hair_left_behind(obj: bpy.types.Object, result: str) -> list[str]:
         for hair in bpy.data.objects
         if isinstance(hair.data, bpy.types.Curves)
         and hair.data.surface == obj
-        and not (result == "SHAPE_KEY" and _is_deformed(hair))
+        and not (result == "SHAPE_KEY" and any(m.type == "NODES" for m in hair.modifiers))
     ]
     if not names:
         return []
@@ -31,7 +31,3 @@ def hair_left_behind(obj: bpy.types.Object, result: str) -> list[str]:
         f'Hair {names[0]}{others} does not follow "{obj.name}": in its Sculpt Mode, choose Curves '
         "> Snap to Deformed Surface"
     ]
-
-
-def _is_deformed(hair: bpy.types.Object) -> bool:
-    return any(modifier.type == "NODES" for modifier in hair.modifiers)

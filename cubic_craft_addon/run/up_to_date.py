@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a cubic shape matches the settings."""
 
-from collections.abc import Iterable
 from dataclasses import fields
 from typing import Any
 
@@ -124,11 +123,9 @@ def _is_same(now: Any, then: Any) -> bool:
 
 
 def _is_near(now: list[float], then: Any) -> bool:
-    if not isinstance(then, list) or len(then) != len(now) or not _are_numbers(then):
+    if not isinstance(then, list) or len(then) != len(now):
+        return False
+    if not all(isinstance(value, int | float) for value in then):
         return False
     size = max(map(abs, (*now, *then)))
     return all(abs(a - b) <= _ROUNDING * size for a, b in zip(now, then, strict=True))
-
-
-def _are_numbers(values: Iterable[Any]) -> bool:
-    return all(isinstance(value, int | float) for value in values)

@@ -93,7 +93,7 @@ def _make(undo: contextlib.ExitStack, obj: bpy.types.Object, options: MapOptions
         low_mesh = _low_mesh(stage, obj, flat, options.triangles)
         undo.callback(bpy.data.meshes.remove, low_mesh)
         low = passing.enter_context(_stand_in(stage, obj, low_mesh))
-        rendered = _rendered_uv(low_mesh)
+        rendered = next((layer.name for layer in low_mesh.uv_layers if layer.active_render), "")
         uv_map = low_poly.choose_uv(stage, low, options.uv, options.resolution, obj.name)
         low_poly.set_hard_edges(low_mesh, uv_map)
         image = bpy.data.images.new(
@@ -207,10 +207,6 @@ def _with_only(mesh: bpy.types.Mesh, uv_map: str) -> bpy.types.Mesh:
     for name in [layer.name for layer in copy.uv_layers if layer.name != uv_map]:
         copy.uv_layers.remove(copy.uv_layers[name])
     return copy
-
-
-def _rendered_uv(mesh: bpy.types.Mesh) -> str:
-    return next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
 
 
 def _keep(image: bpy.types.Image) -> list[str]:

@@ -2,6 +2,7 @@
 """The run of the command, from its options to its exit code."""
 
 import contextlib
+import stat
 import sys
 import time
 from argparse import Namespace
@@ -13,16 +14,17 @@ from typing import Any
 from solver.console.crossing_words import end_words
 from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
+from solver.console.output import check_folder, check_place
 from solver.console.process_memory import peak_gb
 from solver.console.report import DONE, FAILED, LINES, BatchReport, counts_of, in_words
 from solver.console.temporary import replacing, temporary_folder
 
 from .arguments import parse
 from .formats import FORMATS
-from .output_file import check_writable
 from .standard_streams import STANDARD, input_file, write_to_standard_output
 
 PROGRAM = "cubic-craft"
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
 def main() -> int:
@@ -103,7 +105,7 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
     for source, target in jobs:
         _check_output(source, target)
     if options.report:
-        check_writable(options.report)
+        _check_writable(options.report)
         if options.report.suffix.lower() not in (".json", LINES):
             raise InputError(f"--report {options.report}: the name must end in .json or {LINES}")
     return jobs, kinds
@@ -147,9 +149,21 @@ def _check_kinds(source: str, output: str) -> None:
         raise InputError(f"{source}: there is no such file; check the path")
 
 
+def _check_writable(path: Path) -> None:
+    """Raise InputError for a path that cannot be written, before the long work starts."""
+    check_place(str(path), path)
+    if path.is_symlink():
+        raise InputError(f"{path}: this is a link, which is not replaced; give another name")
+    if path.exists() and not path.stat().st_mode & _WRITABLE:
+        raise InputError(f"{path}: this file is write-protected; give another name")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is a device or a pipe; give a file, or - for standard output")
+    check_folder(str(path), path.parent)
+
+
 def _check_output(source: str, output: str) -> None:
     if output != STANDARD:
-        check_writable(Path(output))
+        _check_writable(Path(output))
         if Path(source).resolve() == Path(output).resolve():
             raise InputError(f"{output}: this is the input; give another name")
 

@@ -21,16 +21,12 @@ _CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
 _duties: list[Callable[[], None]] = [remove_temporaries]
 
 
-def _standard_error() -> int:
-    return 2
-
-
 def before_ending(duty: Callable[[], None]) -> None:
     """Have something done, in another thread, before the process ends because it is told to."""
     _duties.append(duty)
 
 
-def end_on_signals(program: str, terminal: Callable[[], int] = _standard_error) -> None:
+def end_on_signals(program: str, terminal: Callable[[], int] = lambda: 2) -> None:
     """From now on end with the exit code 128 + number on SIGINT (so 130 on Ctrl-C) and SIGTERM.
 
     `program`: its name in the line that says so. `terminal`: gives the file descriptor for that

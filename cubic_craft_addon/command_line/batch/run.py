@@ -21,7 +21,6 @@ from ..process.watched_process import Limits, end_processes
 from ..trust.symlinks import refuse_links
 from .plan import Job, decisive, plan, settings_of
 from .sources import find_sources
-from .summary import summary
 from .task import Batch, do
 
 SOME_FAILED = 3
@@ -81,7 +80,7 @@ def run_batch(
         code = 0
     if failed:
         for job in failed if len(files) > SEEN_AT_ONCE else ():
-            bar.warn(f"{one_line(job.label)}: {summary(files[job])}")
+            bar.warn(f"{one_line(job.label)}: {_summary(files[job])}")
         bar.warn(f"{program}: {len(failed)} of {len(files)} files failed")
     return code
 
@@ -109,7 +108,7 @@ def _do_all(
             words = result.pop("words", "").splitlines()
             files[job] = about = {"input": str(job.path), **result}
             label, has_failed = one_line(job.label), about["status"] == FAILED
-            bar.say(f"{len(files)} of {len(jobs)}, {label}: {summary(about)}")
+            bar.say(f"{len(files)} of {len(jobs)}, {label}: {_summary(about)}")
             if options.verbose or not has_failed:
                 for line in words:
                     bar.warn(f"{label}: {line}")
@@ -191,3 +190,28 @@ def _share(jobs: int) -> int | None:
     has_affinity = hasattr(os, "sched_getaffinity")
     count = len(os.sched_getaffinity(0)) if has_affinity else os.cpu_count() or 1
     return max(1, count // jobs)
+
+
+def _summary(about: dict[str, Any]) -> str:
+    """Return one line about a file, without its name, from what `task.do` returns."""
+    if about["status"] == FAILED:
+        return f"failed: {one_line(about['error'])}"
+    if about["status"] == KEPT:
+        return "kept, it was done before"
+    memory = f", {about['peak_gb']:.2f} GB" if about["peak_gb"] else ""
+    return f"{_numbers(about['report'])}, {about['seconds']:.1f} s{memory}"
+
+
+def _numbers(report: dict[str, Any]) -> str:
+    """Return the numbers of all objects of the file together, one after the other per cubeness."""
+    if "frames" in report:
+        first, last = report["frames"]
+        return f"{last - first + 1} frames"
+    objects, texts = report["objects"], []
+    for runs in zip(*(each["runs"] for each in objects), strict=True):
+        end = "converged" if all(run["converged"] for run in runs) else "not converged"
+        texts.append(
+            f"cubeness {runs[0]['cubeness']}: {max(run['iterations'] for run in runs)} iterations, "
+            f"{end}, energy {sum(run['energy']['total'] for run in runs):.4g}"
+        )
+    return f"{sum(each['vertices'] for each in objects)} vertices, {'; '.join(texts)}"

@@ -21,8 +21,7 @@ from ....solver.console.errors import InputError
 from ....solver.console.report import DONE, FAILED, KEPT
 from ....solver.console.temporary import remove_left_behind
 from ...environment.lock import BusyError, Lock
-from ..process.threads import thread_variables
-from ..process.watched_process import Limits, finish, start
+from ..process.watched_process import Limits, finish, start, thread_variables
 from ..trust.places import is_inside, refuse_special
 from .plan import Job
 

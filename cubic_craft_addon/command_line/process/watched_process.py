@@ -19,6 +19,10 @@ IMPATIENCE = 1.0
 """the same for one that takes more and more memory"""
 INTERVAL = 0.2
 """seconds between two looks at a process"""
+_VARIABLES = (
+    *("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
+    *("VECLIB_MAXIMUM_THREADS", "TI_CPU_MAX_NUM_THREADS", "QD_CPU_MAX_NUM_THREADS"),
+)
 _ending = threading.Lock()
 _running: set[subprocess.Popen] = set()
 
@@ -30,6 +34,14 @@ class Limits(NamedTuple):
     """seconds"""
     memory: float | None = None
     """gigabytes, of it and the processes that it starts"""
+
+
+def thread_variables(count: int | None) -> dict[str, str]:
+    """Return what in a process's environment keeps its numerical libraries to so many threads.
+
+    Nothing for None. Cycles has a setting of its own.
+    """
+    return dict.fromkeys(_VARIABLES, str(count)) if count else {}
 
 
 def start(command: list[str], **how: Any) -> subprocess.Popen:
