@@ -15,11 +15,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PACKAGE = "cubic_craft"
-_ROOMS = (
-    ("solver", "**/*.py"),
-    ("library", "__main__.py"),
-    ("library", "command_line/**/*.py"),
-)
+_ROOMS = (("solver", "**/*.py"), ("library", "__main__.py"), ("library", "command_line/**/*.py"))
 _IMPORT = re.compile(r"^(\s*(?:>>> |\.\.\. )?from )solver\b", re.MULTILINE)
 
 

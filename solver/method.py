@@ -41,9 +41,7 @@ class Style:
         choices=FORMS,
     )
     form_sides: int = setting(6, metavar="N", limits=(3, 64), soft=(3, 12), of_forms=WITH_SIDES)(
-        "Sides",
-        "Number of walls or slopes around the Z axis",
-        "of a prism or pyramid",
+        "Sides", "Number of walls or slopes around the Z axis", "of a prism or pyramid"
     )
     form_weights: tuple[float, float, float] = setting(
         (1.0,) * 3, metavar=_XYZ, limits=(0, 10), soft=(0, 2), subtype="XYZ", of_forms=("BOX",)
@@ -100,8 +98,7 @@ class StyleInScene:
         "vertex group that scales the cubeness",
     )
     map_invert: bool = setting(False, is_of_mesh=True)(
-        "Invert",
-        "Invert the influence of the vertex group",
+        "Invert", "Invert the influence of the vertex group"
     )
 
 
@@ -241,9 +238,7 @@ class Computation:
         },
     )
     max_iterations: int = setting(1000, metavar="N", limits=(1, 1_000_000), soft=(1, 5000))(
-        "Max Iterations",
-        "Stop after this many iterations, even if not converged",
-        "",
+        "Max Iterations", "Stop after this many iterations, even if not converged", ""
     )
     tolerance: float = setting(0.001, metavar="T", limits=(1e-12, 1), digits=6)(
         "Tolerance",

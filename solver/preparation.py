@@ -127,11 +127,7 @@ def rest_mesh(
     )
     matrices = skin.with_links(V, rest.links)
     return replace(
-        rest,
-        matrices=matrices,
-        triangles=given,
-        whole=surface.whole,
-        is_of_faces=faces is not None,
+        rest, matrices=matrices, triangles=given, whole=surface.whole, is_of_faces=faces is not None
     )
 
 

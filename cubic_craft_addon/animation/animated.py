@@ -51,10 +51,7 @@ class Animated:
         return len(mesh_bridge.mesh_of(self.new).vertices)
 
     def settings(
-        self,
-        overrides: FrameSettings,
-        share: float = 1.0,
-        start: FrameSettings | None = None,
+        self, overrides: FrameSettings, share: float = 1.0, start: FrameSettings | None = None
     ) -> Settings:
         """Return the settings in this frame, a share of the way from others or the original."""
         owner = self.source if self.source.type == "MESH" else self.new

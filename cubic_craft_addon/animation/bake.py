@@ -80,10 +80,7 @@ class Bake:
     cancel_text = "Stop, and Keep the Frames"
 
     def __init__(
-        self,
-        overrides: FrameSettings,
-        sources: Sequence[bpy.types.Object],
-        options: BakeOptions,
+        self, overrides: FrameSettings, sources: Sequence[bpy.types.Object], options: BakeOptions
     ):
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")

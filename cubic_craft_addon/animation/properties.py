@@ -107,11 +107,7 @@ def register():
     """Add the properties."""
     bpy.utils.register_class(CubicCraftAnimation)
     setattr(bpy.types.Scene, PROPERTY, PointerProperty(type=CubicCraftAnimation))
-    setattr(
-        bpy.types.Object,
-        SOURCE,
-        PointerProperty(type=bpy.types.Object, options={"HIDDEN"}),
-    )
+    setattr(bpy.types.Object, SOURCE, PointerProperty(type=bpy.types.Object, options={"HIDDEN"}))
 
 
 def unregister():

@@ -85,11 +85,7 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
 
 
 def _bake(
-    loaded: Loaded,
-    options: Namespace,
-    bar: ProgressBar,
-    seconds: dict[str, float],
-    begin: float,
+    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float], begin: float
 ) -> None:
     try:
         with _timed("bake", seconds):

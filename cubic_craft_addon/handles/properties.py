@@ -48,10 +48,7 @@ class _MemberProperties:
 class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
     """A handle of an object: a vertex group that is held or follows another object."""
 
-    group: StringProperty(
-        name="Vertex Group",
-        description="Vertex group to hold",
-    )
+    group: StringProperty(name="Vertex Group", description="Vertex group to hold")
     mode: EnumProperty(
         name="Mode",
         description="Whether the vertices stay in place or follow an object",
@@ -89,17 +86,13 @@ class CubicCraftHandle(_MemberProperties, bpy.types.PropertyGroup):
         **_MATRIX,
     )
     baked_pose: FloatVectorProperty(
-        name="Baked Pose",
-        description="The pose when the mesh was written",
-        **_MATRIX,
+        name="Baked Pose", description="The pose when the mesh was written", **_MATRIX
     )
     is_baked: BoolProperty(
-        name="Is Baked",
-        description="The mesh has been written with this handle's pose",
+        name="Is Baked", description="The mesh has been written with this handle's pose"
     )
     is_foreign: BoolProperty(
-        name="Foreign Target",
-        description="The target belonged to another mesh when it was picked",
+        name="Foreign Target", description="The target belonged to another mesh when it was picked"
     )
     uid: IntProperty(
         name="Number",

@@ -103,10 +103,7 @@ _GO_ON_ELSEWHERE = (
         Action.CLEAN_UP,
     ),
 )
-_CUT_OFF = (
-    State.ENDED,
-    (Action.PUT_BACK, Action.WRITE, Action.PUSH_UNDO, Action.CLEAN_UP),
-)
+_CUT_OFF = (State.ENDED, (Action.PUT_BACK, Action.WRITE, Action.PUSH_UNDO, Action.CLEAN_UP))
 _ENDINGS = {
     Event.CANCEL: _GIVE_UP,
     Event.NOTHING_LEFT: _GIVE_UP,
@@ -163,10 +160,7 @@ _TABLE = {
         Event.SAVED: (State.WORKING, _AFTER_SAVE),
         **_ENDINGS,
     },
-    State.SAVING_TO_FINISH: {
-        Event.SAVED: (State.FINISHING, _AFTER_SAVE),
-        **_ENDINGS,
-    },
+    State.SAVING_TO_FINISH: {Event.SAVED: (State.FINISHING, _AFTER_SAVE), **_ENDINGS},
     State.ENDED: {},
 }
 

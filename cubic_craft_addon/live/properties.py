@@ -50,9 +50,7 @@ class CubicCraftLiveProperties(bpy.types.PropertyGroup):
             name: _with_update(pointer_name(name))
             for name in POINTERS
         }
-        | {
-            "preset": preset_property(),
-        }
+        | {"preset": preset_property()}
     )
 
 

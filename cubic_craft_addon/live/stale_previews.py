@@ -78,9 +78,7 @@ def _keep_one(mesh: bpy.types.Mesh, outcome: Any) -> None:
             for name, value in values.items():
                 setattr(object_properties(obj), name, value)
     run = mesh_bridge.LastRun(
-        what_matters(settings_of(objects[0])),
-        **outcome["run"],
-        own_vertices=len(mesh.vertices),
+        what_matters(settings_of(objects[0])), **outcome["run"], own_vertices=len(mesh.vertices)
     )
     mesh_bridge.keep_preview(mesh, asdict(run), start)
 

@@ -25,10 +25,7 @@ def check_cycles() -> None:
 
 
 def bake_normals(
-    studio: Studio,
-    high: bpy.types.Object,
-    low: bpy.types.Object,
-    image: bpy.types.Image,
+    studio: Studio, high: bpy.types.Object, low: bpy.types.Object, image: bpy.types.Image
 ) -> float:
     """Bake the normals of an object to the tangent space of another.
 

@@ -10,11 +10,7 @@ IMAGE = "cubic_craft_normal_image"
 """name of the property of low-poly objects: the map that was baked for them"""
 
 _UVS = (
-    (
-        "AUTO",
-        "Auto",
-        "The UV map of the mesh if no faces overlap in it, otherwise a new one",
-    ),
+    ("AUTO", "Auto", "The UV map of the mesh if no faces overlap in it, otherwise a new one"),
     ("KEEP", "Keep", "The active UV map of the mesh, even if faces overlap in it"),
     ("NEW", "New", "A new UV map, made by Smart UV Project. Those of the mesh are kept too"),
 )

@@ -5,13 +5,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.props import (
-    BoolProperty,
-    CollectionProperty,
-    IntProperty,
-    PointerProperty,
-    StringProperty,
-)
+from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProperty, StringProperty
 
 from ..environment.declared import declared
 from ..form.pictures import items as form_items
@@ -71,9 +65,7 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
 
     preset: preset_property()
     frame: PointerProperty(
-        name="Frame",
-        description="Object whose axes the form uses",
-        type=bpy.types.Object,
+        name="Frame", description="Object whose axes the form uses", type=bpy.types.Object
     )
     form_object: form_property("form_object")
     capture_object: PointerProperty(
@@ -98,8 +90,7 @@ class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup
         options=set(),
     )
     is_target: BoolProperty(
-        name="Target",
-        description="A handle follows this object, or did so before",
+        name="Target", description="A handle follows this object, or did so before"
     )
     is_made_target: BoolProperty(
         name="Made as Target",

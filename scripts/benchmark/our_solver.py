@@ -28,14 +28,7 @@ class TimedRun:
     and the ``curve``: [seconds since the beginning, energy] after each iteration"""
 
 
-def solve(
-    V,
-    F,
-    cubeness,
-    proxy=PAPER,
-    keep_rotation=False,
-    **stop,
-):
+def solve(V, F, cubeness, proxy=PAPER, keep_rotation=False, **stop):
     """Stylize a mesh and return the TimedRun; unless settings are given, as in the paper.
 
     The energy noted after an iteration is that of the shape that its local step looked at, so it

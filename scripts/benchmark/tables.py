@@ -90,10 +90,7 @@ def defaults(case):
     for name, program in _BOTH.items():
         row |= _end(case, program, f"{name}: to our stop")
         row[f"{name}: set-up, s"] = _setup(case, program)
-    return row | {
-        "times as long": times_as_long(case),
-        "ticks per second": ticks_per_second(case),
-    }
+    return row | {"times as long": times_as_long(case), "ticks per second": ticks_per_second(case)}
 
 
 def linked(case):

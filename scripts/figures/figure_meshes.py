@@ -97,11 +97,7 @@ class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
     def __init__(
-        self,
-        folder: Path | None,
-        bar: ProgressBar,
-        verbose: bool,
-        is_rough: bool = False,
+        self, folder: Path | None, bar: ProgressBar, verbose: bool, is_rough: bool = False
     ) -> None:
         self.is_rough = is_rough
         self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}

@@ -34,10 +34,7 @@ TARGETS = {
     "pyramid, 4 sides": {"form": "PYRAMID", "form_sides": 4},
     "prism, 6 sides": {"form": "PRISM", "form_sides": 6},
     "rounded cube": {"form": "ROUNDED"},
-    "five directions": {
-        "form": "FACES",
-        "form_directions": "1 0 1, -1 0 1, 0 1 0, 0 -1 0, 0 0 -1",
-    },
+    "five directions": {"form": "FACES", "form_directions": "1 0 1, -1 0 1, 0 1 0, 0 -1 0, 0 0 -1"},
     "directions of a house": {"form": "DIRECTIONS"},
     "hull of a house": {"form": "OBJECT"},
 }

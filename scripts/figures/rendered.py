@@ -19,17 +19,7 @@ from cubic_craft.cubic_craft_addon.command_line.picture.render import render
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
 from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
 
-from . import (
-    captures,
-    cubeness,
-    forms,
-    handles,
-    low_poly,
-    orientations,
-    rigs,
-    teaser,
-    uv_texture,
-)
+from . import captures, cubeness, forms, handles, low_poly, orientations, rigs, teaser, uv_texture
 from .figure_meshes import FigureMeshes
 
 NOMINAL_WIDTH = 1600

@@ -15,10 +15,7 @@ from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 
 FROM_OBJECTS = ("OBJECT", "DIRECTIONS", "FACES")
 """forms that are what the artist makes of them; their pictures have another color"""
-SETTINGS = {
-    "BOX": {"form_weights": (0.8, 1.0, 0.4)},
-    "PYRAMID": {"form_sides": 4},
-}
+SETTINGS = {"BOX": {"form_weights": (0.8, 1.0, 0.4)}, "PYRAMID": {"form_sides": 4}}
 """where it is not the default that is shown"""
 SMOOTH_BELOW = math.radians(12.0)
 """between two faces; more than between the walls of a cylinder"""

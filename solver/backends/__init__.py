@@ -5,10 +5,4 @@ from .devices import DEVICES, local_step_class, problem_with_engine
 from .engine_choice import engine_name
 from .taichi_runtime import set_cache_folder
 
-__all__ = [
-    "DEVICES",
-    "engine_name",
-    "local_step_class",
-    "problem_with_engine",
-    "set_cache_folder",
-]
+__all__ = ["DEVICES", "engine_name", "local_step_class", "problem_with_engine", "set_cache_folder"]

@@ -20,11 +20,7 @@ vectors = ti.types.ndarray(dtype=vec, ndim=1)
 
 @ti.func
 def row(
-    indptr: ti.template(),
-    indices: ti.template(),
-    data: ti.template(),
-    X: ti.template(),
-    i: ti.i32,
+    indptr: ti.template(), indices: ti.template(), data: ti.template(), X: ti.template(), i: ti.i32
 ):
     """Return row i of the product of a matrix and X."""
     total = vec(0.0)

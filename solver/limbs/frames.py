@@ -14,10 +14,7 @@ from ..stylization import Stylization
 
 
 def pose_frames(
-    V: ArrayLike,
-    F: Faces,
-    orientation: ArrayLike | None = None,
-    proxy: ProxyOptions | None = None,
+    V: ArrayLike, F: Faces, orientation: ArrayLike | None = None, proxy: ProxyOptions | None = None
 ) -> FloatArray:
     """Return the orientations in which the limbs of a mesh keep their direction.
 

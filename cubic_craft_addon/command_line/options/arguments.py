@@ -11,15 +11,7 @@ from typing import Any, NoReturn
 from ....solver.console.errors import InputError
 from ....solver.console.method_options import Adder, add_settings, as_in_paper, defaults
 from ....solver.console.options import FORMS, OneLineParser, number
-from ....solver.method import (
-    Advanced,
-    Computation,
-    Kept,
-    KeptInScene,
-    Method,
-    Style,
-    StyleInScene,
-)
+from ....solver.method import Advanced, Computation, Kept, KeptInScene, Method, Style, StyleInScene
 from .checks import check_batch, check_single
 from .handles_file import read_handles
 from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG

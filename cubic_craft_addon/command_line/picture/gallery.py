@@ -114,11 +114,7 @@ def arrange(
     return gallery
 
 
-def _groups(
-    sculptures: list[Sculpture],
-    options: Namespace,
-    scene: bpy.types.Scene,
-) -> list[Group]:
+def _groups(sculptures: list[Sculpture], options: Namespace, scene: bpy.types.Scene) -> list[Group]:
     versions = [("original", None)]
     versions += [(f"cubeness {value!r}", number) for number, value in enumerate(options.cubeness)]
     turn = Euler([math.radians(angle) for angle in options.turn]).to_matrix().to_4x4()
@@ -146,9 +142,7 @@ def _groups(
 
 
 def _check_seen(
-    sculptures: list[Sculpture],
-    originals: list[bpy.types.Object],
-    copies: list[bpy.types.Object],
+    sculptures: list[Sculpture], originals: list[bpy.types.Object], copies: list[bpy.types.Object]
 ) -> None:
     """Raise InputError if the picture of a copy would be that of the original."""
     users = [user for sculpture in sculptures for user in sculpture.users]

@@ -50,11 +50,7 @@ def _lights(scene: bpy.types.Scene) -> None:
         light.angle = math.radians(size)
         light.color = color
         lamp = bpy.data.objects.new(name, light)
-        lamp.rotation_euler = (
-            math.radians(90.0 - elevation),
-            0.0,
-            math.radians(azimuth),
-        )
+        lamp.rotation_euler = (math.radians(90.0 - elevation), 0.0, math.radians(azimuth))
         scene.collection.objects.link(lamp)
     world = bpy.data.worlds.new("Studio")
     background = _nodes(world)["Background"]
@@ -68,9 +64,7 @@ def _floor(gallery: Gallery) -> None:
     far = 100.0 * max(gallery.width, gallery.height)
     mesh = bpy.data.meshes.new("Floor")
     mesh.from_pydata(
-        [(-far, -far, 0.0), (far, -far, 0.0), (far, far, 0.0), (-far, far, 0.0)],
-        [],
-        [(0, 1, 2, 3)],
+        [(-far, -far, 0.0), (far, -far, 0.0), (far, far, 0.0), (-far, far, 0.0)], [], [(0, 1, 2, 3)]
     )
     material = surface("Floor", FLOOR_NEAR, roughness=0.9)
     mesh.materials.append(material)

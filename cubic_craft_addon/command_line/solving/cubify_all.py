@@ -66,10 +66,7 @@ def cubify_all(loaded: Loaded, options: Namespace, bar: ProgressBar) -> list[Scu
     for obj in loaded.objects:
         by_mesh.setdefault(obj.data.name_full, []).append(obj)
     members = [
-        read_member(
-            users[0],
-            settings_of_object(users[0], handles[users[0].name], options, loaded),
-        )
+        read_member(users[0], settings_of_object(users[0], handles[users[0].name], options, loaded))
         for users in by_mesh.values()
     ]
     # All checks of all objects come first, so that a refusal costs no solve.
@@ -94,10 +91,7 @@ def _solve(problem: MemberProblem, bar: ProgressBar) -> tuple[Solution, ...]:
 
 
 def settings_of_object(
-    obj: bpy.types.Object,
-    handles: tuple[Handle, ...],
-    options: Namespace,
-    loaded: Loaded,
+    obj: bpy.types.Object, handles: tuple[Handle, ...], options: Namespace, loaded: Loaded
 ) -> Settings:
     """Return the Settings for one object; a group that only others have does not concern it."""
     values = settings_from(vars(options), Method)

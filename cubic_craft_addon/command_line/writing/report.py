@@ -29,10 +29,7 @@ OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
 def write_report(
-    path: Path,
-    sculptures: list[Sculpture],
-    options: Namespace,
-    seconds: dict[str, float],
+    path: Path, sculptures: list[Sculpture], options: Namespace, seconds: dict[str, float]
 ) -> None:
     """Write the report as JSON.
 
@@ -49,10 +46,7 @@ def write_report(
 
 
 def write_animation_report(
-    path: Path,
-    animation: dict[str, Any],
-    options: Namespace,
-    seconds: dict[str, float],
+    path: Path, animation: dict[str, Any], options: Namespace, seconds: dict[str, float]
 ) -> None:
     """Write the report of ``--bake`` as JSON.
 

@@ -36,11 +36,7 @@ TO_Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 
 
 def save_meshes(
-    paths: list[Path],
-    sculptures: list[Sculpture],
-    loaded: Loaded,
-    levels: list[int],
-    verbose: bool,
+    paths: list[Path], sculptures: list[Sculpture], loaded: Loaded, levels: list[int], verbose: bool
 ) -> list[str]:
     """Save one file per cubeness, and each level of detail of it.
 

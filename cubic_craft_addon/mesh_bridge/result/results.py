@@ -15,11 +15,7 @@ from ..access.arrays import loose_vertices, mark_moved
 from ..access.attributes import check_names
 from ..access.checks import check_relative_keys, check_writable, mesh_of
 from ..access.rotations import matrices_from_quaternions
-from ..access.rounded_for_storage import (
-    carry_finite,
-    rotations_for_storage,
-    rounded_for_storage,
-)
+from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
 from ..access.shapes import Shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.first_original import first_kept
