@@ -225,7 +225,7 @@ class KeptInScene:
 class Computation:
     """Where it is computed, and when that ends."""
 
-    device: str = setting("AUTO")(
+    device: str = setting("AUTO", keeps_result=True)(
         "Device",
         "Library and hardware to compute with",
         "",

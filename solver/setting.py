@@ -39,6 +39,8 @@ class Setting(NamedTuple):
     """whether it says which vertices are solved, so that it cannot be animated"""
     is_of_mesh: bool = False
     """whether each of several objects keeps its own"""
+    keeps_result: bool = False
+    """whether a result does not become outdated by it"""
     is_strength: bool = False
     """whether it grows from 0 where a film shows how a shape becomes cubic"""
 

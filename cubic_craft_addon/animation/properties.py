@@ -80,6 +80,10 @@ class BakeProperties:
     )
 
 
+def _is_mesh(_properties, obj: bpy.types.Object) -> bool:
+    return obj.type == "MESH"
+
+
 class CubicCraftAnimation(BakeProperties, bpy.types.PropertyGroup):
     """The settings of Cubify Animation, of a scene."""
 
@@ -88,7 +92,7 @@ class CubicCraftAnimation(BakeProperties, bpy.types.PropertyGroup):
         description="Object whose settings Bake Process begins with. If empty, it begins with the"
         " original",
         type=bpy.types.Object,
-        poll=lambda _, obj: obj.type == "MESH",
+        poll=_is_mesh,
         options=set(),
     )
 

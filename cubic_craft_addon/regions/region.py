@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 import bpy
 
 from ...solver.errors import CubicCraftError
+from ...solver.method import Method
 from ...solver.styles.form_names import OF_OBJECT
 from ..form.settings import check_form_object
 from ..mesh_bridge import vertex_group
@@ -18,12 +19,12 @@ class Region:
 
     group: str
     """name of the vertex group; where its weights are less than 1, the region blends into others"""
-    cubeness: float
-    form: str
-    form_sides: int
-    form_weights: tuple[float, float, float]
-    form_object: bpy.types.Object | None
-    orientation: tuple[float, float, float]
+    cubeness: float = Method.cubeness
+    form: str = Method.form
+    form_sides: int = Method.form_sides
+    form_weights: tuple[float, float, float] = Method.form_weights
+    form_object: bpy.types.Object | None = None
+    orientation: tuple[float, float, float] = Method.orientation
 
     @property
     def own(self):
@@ -55,7 +56,7 @@ def _region(obj, number, item):
     return Region(
         group=item.group,
         cubeness=item.cubeness,
-        form=item.form or "CUBE",  # of a newer version
+        form=item.form or Method.form,  # of a newer version
         form_sides=item.form_sides,
         form_weights=tuple(item.form_weights),
         form_object=item.form_object if item.form in OF_OBJECT else None,

@@ -15,10 +15,9 @@ from ..form.normal_capture import has_capture, note_of
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
 from ..settings.properties import settings_of
-from ..settings.values import Settings
+from ..settings.values import SETTINGS, Settings
 
-# The device, what is chosen for each run, and what a new mesh was made of.
-_IGNORED = {"device", "start", "with_modifiers"}
+_IGNORED = {name for name, each in SETTINGS.items() if each.keeps_result}
 _LABELS = {
     "handles": "Handles",
     "regions": "Regions",

@@ -45,13 +45,15 @@ class Output:
             "NEW_OBJECT": "New Object: Make a cubic copy and leave the object unchanged",
         },
     )
-    with_modifiers: bool = setting(False, in_animation=False)(
+    with_modifiers: bool = setting(False, in_animation=False, keeps_result=True)(
         "With Modifiers",
         "Apply the modifiers to the new object, including the pose of an Armature. When off, the"
         " mesh without its modifiers becomes cubic",
     )
     # Who sculpts on a result and then moves a slider wants to keep both.
-    start: Start = setting("EDITS", numbers=(2, 0, 1), in_animation="HERE")(  # noqa: RUF009
+    start: Start = setting(  # noqa: RUF009
+        "EDITS", numbers=(2, 0, 1), in_animation="HERE", keeps_result=True
+    )(
         "Start",
         "What Cubify and Live start from if the mesh was edited by hand since it was cubified",
         choices={

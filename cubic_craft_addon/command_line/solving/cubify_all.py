@@ -116,8 +116,6 @@ def _regions(obj: bpy.types.Object, options: Namespace) -> tuple[Region, ...]:
             cubeness=region.cubeness,
             form=region.form.upper(),
             form_sides=region.sides,
-            form_weights=(1.0, 1.0, 1.0),
-            form_object=None,
             orientation=tuple(math.radians(angle) for angle in options.orientation),
         )
         for region in map(region_of, options.region)
