@@ -9,7 +9,7 @@ from ..cubic_craft_addon.send.normal_map import MapOptions, make_normal_map
 from ..cubic_craft_addon.send.properties import NormalMapProperties, normal_map_properties
 from ..solver import CubicCraftError
 from ._shared.given_or_shared import given_or_shared
-from ._shared.selection import poll_any_usable, poll_object_mode, poll_work, report_all
+from ._shared.selection import poll_any_usable, poll_object_mode, poll_work, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
 
@@ -31,8 +31,7 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
             return False
         obj = panel_object(context)
         if obj is None or mesh_bridge.last_run(obj) is None:
-            cls.poll_message_set("The mesh has no result to bake; cubify it first")
-            return False
+            return refuse(cls, "The mesh has no result to bake; cubify it first")
         return poll_any_usable(cls, [obj])
 
     @reporting

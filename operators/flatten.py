@@ -104,7 +104,6 @@ def _write_ngons(obj, facets, edges):
 def _poll_results(operator_class, context):
     """Return whether a selected mesh has a result and can be changed. It reads no positions."""
     objects = [obj for obj in selected_meshes(context) if mesh_bridge.last_run(obj) is not None]
-    if not objects:
-        operator_class.poll_message_set("The mesh has no result to flatten; cubify it first")
-        return False
-    return poll_any_usable(operator_class, objects)
+    return poll_any_usable(
+        operator_class, objects, "The mesh has no result to flatten; cubify it first"
+    )

@@ -15,7 +15,7 @@ from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.read.object_frame import stretch_and_orientation
 from ..cubic_craft_addon.settings.properties import settings_of
 from ..solver import CubicCraftError
-from ._shared.selection import poll_mesh, report_all
+from ._shared.selection import poll_mesh, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
 
@@ -34,11 +34,9 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
     def poll(cls, context):
         """There is a mesh in Edit Mode."""
         if live.current() is not None:
-            cls.poll_message_set("Confirm or cancel Live first")
-            return False
+            return refuse(cls, "Confirm or cancel Live first")
         if context.mode != "EDIT_MESH":
-            cls.poll_message_set("Switch to Edit Mode and select faces first")
-            return False
+            return refuse(cls, "Switch to Edit Mode and select faces first")
         return poll_mesh(cls, context, ("EDIT_MESH",))
 
     @reporting

@@ -8,7 +8,7 @@ from ..cubic_craft_addon.handles.empty import add_empty
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import live_target
 from ..solver import CubicCraftError
-from ._shared.selection import poll_handle, report_all
+from ._shared.selection import poll_handle, refuse, report_all
 
 
 class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
@@ -29,8 +29,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
             return False
         target = live_target(active_handle(panel_object(context)))
         if target is not None:
-            cls.poll_message_set(f'The handle already follows "{target.name}"')
-            return False
+            return refuse(cls, f'The handle already follows "{target.name}"')
         return True
 
     def execute(self, context):

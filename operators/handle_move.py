@@ -6,7 +6,7 @@ from bpy.props import EnumProperty
 
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ._shared.selection import poll_handle
+from ._shared.selection import poll_handle, refuse
 
 
 class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
@@ -31,8 +31,7 @@ class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
         if not poll_handle(cls, context):
             return False
         if len(object_properties(panel_object(context)).handles) < 2:
-            cls.poll_message_set("There is only one handle")
-            return False
+            return refuse(cls, "There is only one handle")
         return True
 
     def execute(self, context):

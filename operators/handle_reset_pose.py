@@ -9,7 +9,7 @@ from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import followed, reset
 from ..cubic_craft_addon.object_properties import object_properties
 from ..solver.pieces.handle_pose import IDENTITY
-from ._shared.selection import poll_mesh
+from ._shared.selection import poll_mesh, refuse
 
 
 class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
@@ -30,8 +30,7 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
             return False
         obj = panel_object(context)
         if not _posed(obj) and not any(True for _ in followed(obj)):
-            cls.poll_message_set("No handle is posed or follows anything")
-            return False
+            return refuse(cls, "No handle is posed or follows anything")
         return True
 
     def execute(self, context):

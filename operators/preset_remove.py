@@ -6,7 +6,7 @@ import bpy
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.presets import files
 from ..cubic_craft_addon.presets.selector import preset_of
-from ._shared.selection import panel_mesh, poll_panel_mesh
+from ._shared.selection import panel_mesh, poll_panel_mesh, refuse
 from ._shared.unexpected_errors import reporting
 
 
@@ -25,10 +25,9 @@ class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
             return False
         preset = preset_of(live.shared_properties(panel_mesh(context)))
         if preset is None or preset.is_included:
-            cls.poll_message_set(
-                "Choose one of your own presets first; included presets cannot be removed"
+            return refuse(
+                cls, "Choose one of your own presets first; included presets cannot be removed"
             )
-            return False
         return True
 
     def invoke(self, context, event):

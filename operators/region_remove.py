@@ -6,7 +6,7 @@ import bpy
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.regions.active import active_region
-from ._shared.selection import poll_mesh
+from ._shared.selection import poll_mesh, refuse
 
 
 class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
@@ -26,8 +26,7 @@ class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
         if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
             return False
         if active_region(panel_object(context)) is None:
-            cls.poll_message_set("Add a region first")
-            return False
+            return refuse(cls, "Add a region first")
         return True
 
     def execute(self, context):

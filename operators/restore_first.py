@@ -27,10 +27,7 @@ class CUBIC_CRAFT_OT_restore_first(bpy.types.Operator):
         if not poll_meshes(cls, context):
             return False
         objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_first(obj.data)]
-        if not objects:
-            cls.poll_message_set("No original was replaced; Restore brings it back")
-            return False
-        return poll_any_usable(cls, objects)
+        return poll_any_usable(cls, objects, "No original was replaced; Restore brings it back")
 
     @reporting
     def execute(self, context):

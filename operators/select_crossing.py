@@ -28,10 +28,7 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
         if not poll_meshes(cls, context):
             return False
         objects = _results(context)
-        if not objects:
-            cls.poll_message_set("The mesh has no result; cubify it first")
-            return False
-        return poll_any_usable(cls, objects)
+        return poll_any_usable(cls, objects, "The mesh has no result; cubify it first")
 
     @reporting
     def execute(self, context):

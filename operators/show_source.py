@@ -5,7 +5,7 @@ import bpy
 
 from ..cubic_craft_addon import hidden_source
 from ..cubic_craft_addon.handles.owner import panel_object
-from ._shared.selection import poll_work, report_all
+from ._shared.selection import poll_work, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
 
@@ -27,8 +27,7 @@ class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
             return False
         if any(map(hidden_source.hidden_source, _objects(context))):
             return True
-        cls.poll_message_set("Nothing is hidden behind the selected objects")
-        return False
+        return refuse(cls, "Nothing is hidden behind the selected objects")
 
     @reporting
     def execute(self, context):

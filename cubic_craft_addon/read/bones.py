@@ -11,6 +11,7 @@ from ...solver.pieces.bones import SAME, BonePlaces, Bones, Weights, moved
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.whole import Whole
 from .. import mesh_bridge
+from .reflections import matrix_between
 
 _DIGITS = 5  # of the places of bones, so that moving mesh and rig together changes no bit
 
@@ -23,7 +24,7 @@ def bone_places(obj: bpy.types.Object, rigged: bpy.types.Object | None = None) -
     """
     rigged = rigged or obj
     rig = _rig(rigged)
-    into = rig and _into(rigged, rig)
+    into = rig and matrix_between(rig, rigged)
     if rig is None or into is None:
         return None
     names = {group.name for group in obj.vertex_groups}
@@ -88,7 +89,7 @@ def read_posed_bones(
 def read_pose(obj: bpy.types.Object, places: BonePlaces) -> tuple[float, ...] | None:
     """Return the present pose of the bones of an object, see `Bones`, or None."""
     rig = _rig(obj)
-    into = rig and _into(obj, rig)
+    into = rig and matrix_between(rig, obj)
     if rig is None or into is None:
         return None
     pose = rig.evaluated_get(bpy.context.evaluated_depsgraph_get()).pose
@@ -129,17 +130,6 @@ def _rig(obj):
 def _armature(rig):
     assert isinstance(rig.data, bpy.types.Armature)
     return rig.data
-
-
-def _into(obj, rig):
-    """Return the matrix (4,4) from the rig's coordinates to the object's, None for none."""
-    own = np.array(obj.matrix_world, dtype=np.float64)
-    other = np.array(rig.matrix_world, dtype=np.float64)
-    if not (np.isfinite(own).all() and np.isfinite(other).all()):
-        return None
-    if abs(np.linalg.det(own)) < 1e-30 or abs(np.linalg.det(other)) < 1e-30:
-        return None
-    return np.linalg.inv(own) @ other
 
 
 def _rounded(ends):

@@ -20,19 +20,18 @@ def modifier_reflections(obj: bpy.types.Object) -> tuple[Reflection, ...]:
         tolerance = modifier.merge_threshold if modifier.use_mirror_merge else 0.0
         flags: Any = modifier  # its vectors of flags can be indexed, which bpy's stubs cannot say
         numbers = [a for a in range(3) if flags.use_axis[a] and not flags.use_bisect_axis[a]]
-        place = _plane_object(obj, modifier)
+        other = modifier.mirror_object
+        place = np.eye(4) if other is None else matrix_between(other, obj)
         if place is None:
             return ()
         return tuple(flip(axis).placed(place, tolerance) for axis in numbers)
     return ()
 
 
-def _plane_object(obj, modifier):
-    """Return the matrix (4,4) from the modifier's coordinates to the object's, None for none."""
-    if modifier.mirror_object is None:
-        return np.eye(4)
-    own = np.array(obj.matrix_world, dtype=np.float64)
-    other = np.array(modifier.mirror_object.matrix_world, dtype=np.float64)
+def matrix_between(start: bpy.types.Object, end: bpy.types.Object) -> np.ndarray | None:
+    """Return the matrix (4,4) from the coordinates of an object to another's, None for none."""
+    own = np.array(end.matrix_world, dtype=np.float64)
+    other = np.array(start.matrix_world, dtype=np.float64)
     if not (np.isfinite(own).all() and np.isfinite(other).all()):
         return None
     if min(abs(np.linalg.det(own)), abs(np.linalg.det(other))) < 1e-30:

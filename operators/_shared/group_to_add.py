@@ -8,7 +8,7 @@ import bpy
 from ...cubic_craft_addon.handles.owner import panel_object
 from ...cubic_craft_addon.mesh_bridge import vertex_group
 from ...solver.errors import CubicCraftError
-from .selection import poll_mesh
+from .selection import poll_mesh, refuse
 
 
 def poll_groups(operator_class, context, other):
@@ -16,8 +16,7 @@ def poll_groups(operator_class, context, other):
     if not poll_mesh(operator_class, context, ("OBJECT", "PAINT_WEIGHT")):
         return False
     if not panel_object(context).vertex_groups:
-        operator_class.poll_message_set(f"The mesh has no vertex group; add one, or use {other}")
-        return False
+        return refuse(operator_class, f"The mesh has no vertex group; add one, or use {other}")
     return True
 
 

@@ -18,10 +18,9 @@ def poll_originals(operator_class, context):
     It is cheap because it runs at every redraw.
     """
     objects = [obj for obj in selected_meshes(context) if mesh_bridge.has_traces(obj.data)]
-    if not objects:
-        operator_class.poll_message_set("The mesh has its original shape; cubify it first")
-        return False
-    return poll_any_usable(operator_class, objects)
+    return poll_any_usable(
+        operator_class, objects, "The mesh has its original shape; cubify it first"
+    )
 
 
 def for_each_original(operator, context, action, done, is_meant=mesh_bridge.has_traces):

@@ -29,12 +29,17 @@ def selected_meshes(context):
     return sorted(objects, key=lambda obj: obj != active)
 
 
+def refuse(operator_class, why):
+    """Set what a button says while it is gray, and return false, as its `poll` does."""
+    operator_class.poll_message_set(why)
+    return False
+
+
 def poll_idle(operator_class):
     """Return whether no Cubify runs, whose meshes must not be changed."""
     if job.current() is None:
         return True
-    operator_class.poll_message_set("Cubify is running; press Esc to cancel it")
-    return False
+    return refuse(operator_class, "Cubify is running; press Esc to cancel it")
 
 
 def panel_mesh(context) -> Any:
@@ -48,8 +53,7 @@ def poll_panel_mesh(operator_class, context):
     if not poll_idle(operator_class):
         return False
     if panel_mesh(context) is None:
-        operator_class.poll_message_set("Select a mesh object first")
-        return False
+        return refuse(operator_class, "Select a mesh object first")
     return True
 
 
@@ -59,17 +63,15 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
         return False
     if context.mode not in modes:
         is_edited = "OBJECT" not in modes
-        operator_class.poll_message_set(
-            "Select vertices in Edit Mode first" if is_edited else "Switch to Object Mode first"
+        return refuse(
+            operator_class,
+            "Select vertices in Edit Mode first" if is_edited else "Switch to Object Mode first",
         )
-        return False
     obj = panel_object(context)
     if obj is None:
-        operator_class.poll_message_set("Make a mesh object active first")
-        return False
+        return refuse(operator_class, "Make a mesh object active first")
     if not obj.is_editable:
-        operator_class.poll_message_set("The object is linked from another file; make it local")
-        return False
+        return refuse(operator_class, "The object is linked from another file; make it local")
     return True
 
 
@@ -78,8 +80,7 @@ def poll_handle(operator_class, context):
     if not poll_mesh(operator_class, context):
         return False
     if active_handle(panel_object(context)) is None:
-        operator_class.poll_message_set("Add a handle first")
-        return False
+        return refuse(operator_class, "Add a handle first")
     return True
 
 
@@ -112,8 +113,7 @@ def poll_meshes(operator_class, context):
     if not selected_meshes(context):
         active = context.active_object
         why = mesh_bridge.why_no_mesh(active) if active is not None else ""
-        operator_class.poll_message_set(why or "Select a mesh object first")
-        return False
+        return refuse(operator_class, why or "Select a mesh object first")
     return True
 
 
@@ -122,11 +122,9 @@ def poll_work(operator_class, context):
     if not poll_idle(operator_class):
         return False
     if live.current() is not None:
-        operator_class.poll_message_set("Confirm or cancel Live first")
-        return False
+        return refuse(operator_class, "Confirm or cancel Live first")
     if not is_mode_usable(context):
-        operator_class.poll_message_set(MESSAGE)
-        return False
+        return refuse(operator_class, MESSAGE)
     return True
 
 
@@ -134,8 +132,7 @@ def poll_object_mode(operator_class, context):
     """Return whether it is Object Mode, not one of those in which Cubify works too."""
     if context.mode == "OBJECT":
         return True
-    operator_class.poll_message_set(MESSAGE)
-    return False
+    return refuse(operator_class, MESSAGE)
 
 
 def poll_usable(operator_class, context):
@@ -152,14 +149,16 @@ def _poll_requirements(operator_class):
     try:
         check_known_requirements()
     except CubicCraftError as error:
-        operator_class.poll_message_set(str(error))
-        return False
+        return refuse(operator_class, str(error))
     return True
 
 
-def poll_any_usable(operator_class, objects):
-    """Return whether one of the objects can be used, and set the message of the first if not."""
-    problems = []
+def poll_any_usable(operator_class, objects, without=""):
+    """Return whether one of the objects can be used, and set the message of the first if not.
+
+    `without`: the message if there are none.
+    """
+    problems = [] if objects else [without]
     for obj in objects:
         try:
             mesh_bridge.check_usable(obj)
@@ -167,8 +166,7 @@ def poll_any_usable(operator_class, objects):
             problems.append(str(error))
         else:
             return True
-    operator_class.poll_message_set(problems[0])
-    return False
+    return refuse(operator_class, problems[0])
 
 
 def report_all(operator, done, problems):

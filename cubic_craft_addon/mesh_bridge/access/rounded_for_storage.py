@@ -8,7 +8,7 @@ import numpy as np
 
 from ....solver.errors import CubicCraftError
 from .free_normals import turned
-from .rotations import quaternions_from_matrices
+from .rotations import matrices_from_quaternions, quaternions_from_matrices
 from .shapes import Shapes, carry
 
 
@@ -44,6 +44,18 @@ def rotations_for_storage(
     quaternions = quaternions_from_matrices(rotations)
     quaternions[loose] = (1, 0, 0, 0)
     return quaternions
+
+
+def matrices_for_storage(
+    mesh: bpy.types.Mesh, rotations: np.ndarray | None, loose: np.ndarray
+) -> np.ndarray:
+    """Return the rotations (n,3,3) as they are stored; those of None turn nothing.
+
+    Parameters and errors are those of `rotations_for_storage`.
+    """
+    if rotations is None:
+        return np.broadcast_to(np.eye(3), (len(loose), 3, 3))
+    return matrices_from_quaternions(rotations_for_storage(mesh, rotations, loose))
 
 
 def carry_finite(

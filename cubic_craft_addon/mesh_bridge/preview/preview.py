@@ -17,8 +17,7 @@ from ..access.arrays import loose_vertices
 from ..access.attributes import LIVE, check_names
 from ..access.checks import check_writable
 from ..access.note import check_note, read_note
-from ..access.rotations import matrices_from_quaternions
-from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
+from ..access.rounded_for_storage import carry_finite, matrices_for_storage, rounded_for_storage
 from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
@@ -83,7 +82,8 @@ class Preview:
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh) | {"outcome": outcome}
         base = rounded_for_storage(mesh, positions, self._original.base, self._loose)
-        matrices = self._matrices(mesh, rotations)
+        turns = rotations if self.needs_rotations else None
+        matrices = matrices_for_storage(mesh, turns, self._loose)
         base = with_strokes(mesh, base, self._strokes, matrices)
         shown = self._with_keys(mesh, base, matrices)
         finished = marked(part, shown)
@@ -117,12 +117,6 @@ class Preview:
             return False
         self._shown = present.base
         return True
-
-    def _matrices(self, mesh: bpy.types.Mesh, rotations: np.ndarray | None) -> np.ndarray:
-        """Return what offsets are turned by, (n,3,3), as they will be stored."""
-        if rotations is None or not self.needs_rotations:
-            return np.broadcast_to(np.eye(3), (len(self._loose), 3, 3))
-        return matrices_from_quaternions(rotations_for_storage(mesh, rotations, self._loose))
 
     def _with_keys(self, mesh: bpy.types.Mesh, base: np.ndarray, matrices: np.ndarray) -> Shapes:
         """Add all shape keys to the base to be shown."""

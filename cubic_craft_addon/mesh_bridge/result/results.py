@@ -15,7 +15,12 @@ from ..access.arrays import loose_vertices, mark_moved
 from ..access.attributes import check_names
 from ..access.checks import check_relative_keys, check_writable, mesh_of
 from ..access.rotations import matrices_from_quaternions
-from ..access.rounded_for_storage import carry_finite, rotations_for_storage, rounded_for_storage
+from ..access.rounded_for_storage import (
+    carry_finite,
+    matrices_for_storage,
+    rotations_for_storage,
+    rounded_for_storage,
+)
 from ..access.shapes import Shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.first_original import first_kept
@@ -99,7 +104,7 @@ def write_shape_key(
     loose = loose_vertices(mesh)
     strokes = read_strokes(mesh, start)
     positions = rounded_for_storage(mesh, positions, original.base, loose)
-    positions = with_strokes(mesh, positions, strokes, _matrices(mesh, rotations, loose))
+    positions = with_strokes(mesh, positions, strokes, matrices_for_storage(mesh, rotations, loose))
     _write_key(obj, original, positions, strokes, run, first_kept(mesh, start, original))
 
 
@@ -129,14 +134,7 @@ def positions_with_strokes(
         return positions
     loose = loose_vertices(mesh)
     points = rounded_for_storage(mesh, positions, original_positions(mesh, start), loose)
-    return with_strokes(mesh, points, strokes, _matrices(mesh, rotations, loose))
-
-
-def _matrices(mesh: bpy.types.Mesh, rotations: np.ndarray | None, loose: np.ndarray) -> np.ndarray:
-    """Return the rotations (n,3,3) as they are stored; those of None turn nothing."""
-    if rotations is None:
-        return np.broadcast_to(np.eye(3), (len(loose), 3, 3))
-    return matrices_from_quaternions(rotations_for_storage(mesh, rotations, loose))
+    return with_strokes(mesh, points, strokes, matrices_for_storage(mesh, rotations, loose))
 
 
 def _check_for_key(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
