@@ -49,7 +49,7 @@ def setting(default: Any, numbers: Sequence[int] = (), **about: Any) -> Callable
     """Return what makes the field of a dataclass, which is a setting, from its words.
 
     `numbers`: of the choices, if they are not their places. `about`: other fields of a `Setting`.
-    Returns callable, takes the label, the text, the help if there is an option, and ``choices``: as
+    What it returns takes the label, the text, the help if there is an option, and ``choices``: as
     `Setting` has them, or a dict of identifiers and "label: text".
     """
 

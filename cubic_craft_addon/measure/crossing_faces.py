@@ -20,9 +20,9 @@ from ..read.rest_place import world_at_rest
 def crossing_faces(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, np.ndarray]:
     """Find the faces of results that cross others of them, as the objects are placed now.
 
-    `objects`: objects with results, none of which share a mesh. Returns dict of object to (k,) int,
-    of each object with such faces their numbers, in ascending order. Raises CubicCraftError: a
-    result or its original cannot be read.
+    `objects`: objects with results, none of which share a mesh. Returns for each object with such
+    faces their numbers (k,) int, in ascending order. Raises CubicCraftError: a result or its
+    original cannot be read.
     """
     objects = list(objects)
     shapes = [_shapes(obj) for obj in objects]

@@ -19,7 +19,7 @@ def room_for_text(context: bpy.types.Context, taken: float = 0.0) -> float:
     """Return how wide a line of text in the panel may be.
 
     `context`: of a panel that is being drawn. `taken`: width of the other items in the line, in
-    widths of an icon. Returns float, in the pixels of `width_of`.
+    widths of an icon. It is in the pixels of `width_of`.
     """
     view = context.region.view2d  # the artist may have zoomed the sidebar
     width = view.region_to_view(context.region.width, 0)[0] - view.region_to_view(0, 0)[0]

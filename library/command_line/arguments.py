@@ -41,8 +41,8 @@ failed, 130 interrupted.
 def parse(arguments: list[str]) -> argparse.Namespace:
     """Read the command line.
 
-    Returns argparse.Namespace, one attribute per option, and the ``inputs`` (str) and the
-    ``output``; what ``--paper`` stands for is set. Raises InputError: an option cannot be used.
+    Returns one attribute per option, and the ``inputs`` (str) and the ``output``; what ``--paper``
+    stands for is set. Raises InputError: an option cannot be used.
     """
     options = _parser().parse_intermixed_args(arguments)
     *options.inputs, options.output = options.paths

@@ -24,9 +24,9 @@ FIRST_TICKS = 5
 def side_by_side(path, cubeness, runs):
     """Run both settings in alternation, each to its own stop.
 
-    Returns dict, the runs of each, by name, with the number of vertices that are ``solved``, which
-    is not that of the mesh where it is refined or welded; and ``bounds``: by name, the energy at
-    rest and the lowest. Each of the settings has an energy of its own.
+    Returns a dict: the runs of each, by name, with the number of vertices that are ``solved``,
+    which is not that of the mesh where it is refined or welded; and ``bounds``: by name, the energy
+    at rest and the lowest. Each of the settings has an energy of its own.
     """
     V, F = read(path)
     load_kernels()

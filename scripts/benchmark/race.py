@@ -11,8 +11,9 @@ from .our_solver import energy_of, load_kernels, solve
 def race(path, cubeness, best, runs, pymeshlab_runs):
     """Run everything on one mesh; `best` is the lowest energy known so far, or None.
 
-    Returns dict, the ``rest`` energy and the ``best``, now known; ``ours`` and ``pymeshlab``, lists
-    of runs with ``seconds`` and the judged ``energy`` of the end, ours with all `TimedRun.figures`.
+    Returns a dict: the ``rest`` energy and the ``best``, now known; ``ours`` and ``pymeshlab``,
+    lists of runs with ``seconds`` and the judged ``energy`` of the end, ours with all
+    `TimedRun.figures`.
     """
     V, F = read(path)
     load_kernels()

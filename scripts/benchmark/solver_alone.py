@@ -36,7 +36,7 @@ def ten_iterations(source, runs):
 def one_size(path, runs):
     """Run one mesh to our own stop.
 
-    Returns dict, ``rest`` energy; ``ours``, a list of runs as in `race`; and the figures of
+    Returns a dict: the ``rest`` energy; ``ours``, a list of runs as in `race`; and the figures of
     `peak_memory` of the first run.
     """
     load_kernels()

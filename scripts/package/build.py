@@ -23,8 +23,8 @@ def build_package(package, plain, output, is_upload=False):
 
     `package`: what is wanted. `plain`: Path, the zip of the extension without wheels. `output`:
     Path, folder of the zips. `is_upload`: bool, whether the version is that for the extensions
-    platform. Returns Path, the zip. Raises SystemExit: Blender's tool refuses it, or it is too
-    large for the extensions platform.
+    platform. Returns the path of the zip. Raises SystemExit: Blender's tool refuses it, or it is
+    too large for the extensions platform.
     """
     with tempfile.TemporaryDirectory(prefix="cubic_craft_package_") as folder:
         source = Path(folder)

@@ -32,12 +32,12 @@ class _HelpAll(argparse.Action):
 def parse(arguments: list[str], program: str = "headless_render.py") -> argparse.Namespace:
     """Read the command line and check everything that can be checked without Blender.
 
-    `program`: how it is started, for --help. Returns argparse.Namespace, one attribute per option;
-    what ``--paper`` stands for is set, and ``handles`` is a list of `GivenHandle`. For one file
-    ``output_folder`` is None; ``output``, ``save_mesh`` and ``report`` are paths or None, and
-    ``input`` is a path or None for the monkey. Else it is the folder of a batch; ``inputs`` are
-    files and folders, and ``save_mesh`` is None or how the names shall end. Raises InputError: an
-    option, the input or an output path cannot be used.
+    `program`: how it is started, for --help. Returns one attribute per option; what ``--paper``
+    stands for is set, and ``handles`` is a list of `GivenHandle`. For one file ``output_folder`` is
+    None; ``output``, ``save_mesh`` and ``report`` are paths or None, and ``input`` is a path or
+    None for the monkey. Else it is the folder of a batch; ``inputs`` are files and folders, and
+    ``save_mesh`` is None or how the names shall end. Raises InputError: an option, the input or an
+    output path cannot be used.
     """
     options = _parser(program).parse_args(arguments)
     if options.options:

@@ -62,8 +62,8 @@ def start(command: list[str], **how: Any) -> subprocess.Popen:
 def finish(process: subprocess.Popen, limits: Limits) -> tuple[str, float | None]:
     """Wait for the end of a process.
 
-    Returns tuple, in words the limit that it has exceeded, if any; and the most gigabytes that it
-    was seen to have had in memory, if known.
+    Returns in words the limit that it has exceeded, if any; and the most gigabytes that it was seen
+    to have had in memory, if known.
     """
     begin, exceeded, peak = time.monotonic(), "", None
     while process.returncode is None:

@@ -18,8 +18,8 @@ _MARGIN = 16.0  # the sums of many roundings spread like the square root of thei
 def offset_sums(points: np.ndarray, base: np.ndarray) -> list[float]:
     """Sum up the offsets of a shape key from its base.
 
-    `points`, `base`: (n,3) float32. Returns list of the number of vertices, the largest coordinate,
-    and 4 sums in the unit of the coordinates.
+    `points`, `base`: (n,3) float32. Returns the number of vertices, the largest coordinate, and 4
+    sums in the unit of the coordinates.
     """
     offsets = np.ravel(points).astype(np.float64) - np.ravel(base)
     largest = max(np.abs(points).max(initial=0.0), np.abs(base).max(initial=0.0))

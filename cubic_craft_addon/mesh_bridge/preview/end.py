@@ -72,7 +72,7 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
 def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
     """End the preview on every mesh of the file except some.
 
-    Returns names of the meshes that had one.
+    Returns the names of the meshes that had one.
     """
     meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
     return [mesh.name for mesh in meshes if end_preview(mesh)]
