@@ -6,11 +6,7 @@ from rich_mesh import cubic_like, points_of, position_of
 from snapshot import STORED, differences, snapshot_object, unchanged
 
 # Our key in a snapshot, and that there are keys at all.
-OUR_KEY = (
-    *STORED,
-    "*shape_keys/blocks/Cubic/*",
-    "*shape_keys/order",
-)
+OUR_KEY = (*STORED, "*shape_keys/blocks/Cubic/*", "*shape_keys/order")
 NEW_KEYS = (*OUR_KEY, "*shape_keys/*", "*rna/shape_keys", "*rna/active_shape_key")
 
 

@@ -280,10 +280,7 @@ HOSTILE = {
     "coincident sheets": lambda rng: contact_shapes.joined(*[shapes.sheet()] * 3),
     "coincident blobs": lambda rng: contact_shapes.joined(*[shapes.blob(2)] * 2),
     "broken": lambda rng: shapes.broken(),
-    "noise": lambda rng: (
-        shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)),
-        shapes.blob(2)[1],
-    ),
+    "noise": lambda rng: (shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)), shapes.blob(2)[1]),
     "flat": lambda rng: (shapes.blob(2)[0] * [1, 1, 0], shapes.blob(2)[1]),
     "a point": lambda rng: (np.zeros((6, 3)), np.arange(6).reshape(2, 3)),
     "far apart": lambda rng: contact_shapes.joined(

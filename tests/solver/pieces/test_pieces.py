@@ -179,10 +179,7 @@ OF_PIECE = {
     "map below 0": ({"map_weights": -1}, "map_weights must be finite and not negative"),
     "text": ({"detail_weights": "x"}, "detail_weights must be real numbers, not text"),
     "shares alone": ({"region_shares": HALVES}, "region_shares needs regions, a list of styles"),
-    "regions alone": (
-        {"regions": [Style(1)]},
-        r"regions need region_shares, .* \(42, 2",
-    ),
+    "regions alone": ({"regions": [Style(1)]}, r"regions need region_shares, .* \(42, 2"),
     "a region": ({"regions": Style(1)}, "regions must be a list, even of one"),
     "shares": (
         {"regions": [Style(1)], "region_shares": HALVES[:, 0]},
