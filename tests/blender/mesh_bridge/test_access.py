@@ -1,8 +1,79 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+"""What is read of a mesh: rotations, weights of vertex groups, and triangles."""
+
+import importlib
+
 import bpy
 import numpy as np
 import pytest
+from mathutils import Quaternion
 from rich_mesh import cubic_like, set_position
+
+
+@pytest.fixture
+def rotations(bridge):
+    return importlib.import_module(f"{bridge.__name__}.access.rotations")
+
+
+def test_there_and_back(rotations):
+    matrices = cubic_like(np.zeros((500, 3)))[1]
+    quaternions = rotations.quaternions_from_matrices(matrices)
+    assert quaternions.dtype == np.float32
+    back = rotations.matrices_from_quaternions(quaternions)
+    np.testing.assert_allclose(back, matrices, atol=5e-7)
+    np.testing.assert_allclose(back @ back.transpose(0, 2, 1), [np.eye(3)] * 500, atol=1e-15)
+
+
+def test_as_blender_reads_them(rotations):
+    matrix = cubic_like(np.zeros((1, 3)))[1][0]
+    quaternion = Quaternion(rotations.quaternions_from_matrices(matrix[None])[0])
+    np.testing.assert_allclose(np.array(quaternion.to_matrix()), matrix, atol=1e-6)
+
+
+def test_half_turns(rotations):
+    """Where the real part vanishes, and with it the simple formula."""
+    turns = np.array([np.diag(d) for d in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1))], float)
+    quaternions = rotations.quaternions_from_matrices(turns)
+    assert np.array_equal(quaternions, np.eye(4)[1:])
+    assert np.array_equal(rotations.matrices_from_quaternions(quaternions), turns)
+
+
+def test_identity_is_exact(rotations):
+    quaternions = rotations.quaternions_from_matrices(np.eye(3)[None])
+    assert quaternions.tolist() == [[1, 0, 0, 0]]
+    assert np.array_equal(rotations.matrices_from_quaternions(quaternions)[0], np.eye(3))
+
+
+@pytest.fixture
+def cube():
+    bpy.ops.mesh.primitive_cube_add()
+    return bpy.context.object
+
+
+def test_weights(bridge, cube):
+    for name in ("Other", "Map"):
+        cube.vertex_groups.new(name=name).add([0, 2], 0.75, "REPLACE")
+    cube.vertex_groups["Other"].add([3, 5], 0.5, "REPLACE")
+    cube.vertex_groups["Map"].add([2, 5], 0.25, "REPLACE")
+    cube.vertex_groups["Map"].add([6], 0.0, "REPLACE")
+    weights = bridge.group_weights(cube, "Map")
+    assert weights.dtype == np.float64
+    assert weights.tolist() == [0.75, 0, 0.25, 0, 0, 0.25, 0, 0]
+    both = bridge.weights_of_groups(cube, ("Other", "Map"))
+    assert both["Map"].tolist() == weights.tolist()
+    assert both["Other"].tolist() == [0.75, 0, 0.75, 0.5, 0, 0.5, 0, 0]
+
+
+def test_empty_group(bridge, cube):
+    cube.vertex_groups.new(name="Map")
+    assert bridge.group_weights(cube, "Map").tolist() == [0] * 8
+
+
+@pytest.mark.parametrize("name", ["Missing", "map", ""])
+def test_missing_group(bridge, error, cube, name):
+    cube.vertex_groups.new(name="Map")
+    with pytest.raises(error, match=f'"Cube" has no vertex group "{name}"; pick another'):
+        bridge.group_weights(cube, name)
 
 
 def mesh_of(points, faces):
