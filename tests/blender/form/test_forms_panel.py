@@ -86,12 +86,6 @@ def test_a_driver_and_keyframes_use_the_numbers():
     )
 
 
-def test_a_form_is_the_same_in_a_file_that_is_opened_again(reopen):
-    name = add_monkey().name
-    bpy.context.object.cubic_craft.form = "RHOMBIC"
-    assert reopen(name).cubic_craft.form == "RHOMBIC"
-
-
 def test_pictures_go_with_the_extension_and_come_again(extension, live, pictures):
     items, open_collections = pictures.items, set()
     for _ in range(3):

@@ -60,16 +60,6 @@ def test_all_else_stays_bit_identical(result, keys):
     assert differences(before, snapshot_object(obj), SETTINGS) == []
 
 
-def test_cubify_again_starts_from_the_original():
-    obj = add_monkey()
-    cubify(cubeness=0.9)
-    cubify(cubeness=0.2)
-    twice = position_of(obj.data)
-    other = add_monkey()
-    cubify(cubeness=0.2)
-    assert position_of(other.data).tobytes() == twice.tobytes()
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_cubify_after_apply_starts_from_the_original(turn):
     """As if the transform had been applied first; but for squares that are cut the other way."""
@@ -286,15 +276,6 @@ def test_rotation_says_whether_the_shape_may_turn():
         U, _, Vt = np.linalg.svd(A.T @ B)
         turns[rotation] = np.linalg.norm(U @ Vt - np.eye(3))
     assert turns["KEEP"] < 0.3 * turns["FREE"]
-
-
-@pytest.mark.parametrize("add", [add_monkey, add_triangles])
-def test_the_rotation_is_kept_by_default(add):
-    obj = add()
-    cubify(rotation="KEEP")
-    kept = position_of(obj.data)
-    cubify()
-    np.testing.assert_array_equal(position_of(obj.data), kept)
 
 
 def test_numpy_and_taichi_give_the_same_shape():

@@ -24,19 +24,6 @@ def test_world_orientation_equals_turning_the_cube_against_the_object():
     np.testing.assert_allclose(position_of(obj.data), by_world, atol=1e-4)
 
 
-def test_the_angles_are_relative_to_the_world_unless_told_otherwise():
-    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
-    assert obj.cubic_craft.space == "WORLD"
-    cubify(orientation=(0.0, 0.0, 0.4))
-    shape = position_of(obj.data)
-    bpy.ops.cubic_craft.restore()
-    cubify(space="WORLD", orientation=(0.0, 0.0, 0.4))
-    assert position_of(obj.data).tobytes() == shape.tobytes()
-    bpy.ops.cubic_craft.restore()
-    cubify(space="OBJECT", orientation=(0.0, 0.0, 0.4))
-    assert np.abs(position_of(obj.data) - shape).max() > 1e-2
-
-
 RIGHT = math.pi / 2
 
 

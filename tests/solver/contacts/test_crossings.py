@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 import shapes
-from contact_shapes import joined
-from proxy_shapes import uv_sphere
+from proxy_shapes import joined, uv_sphere
 from scipy.sparse.csgraph import shortest_path
 
 from solver.contacts import push

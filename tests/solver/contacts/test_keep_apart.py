@@ -5,6 +5,7 @@ import contact_shapes
 import numpy as np
 import pytest
 import shapes
+from proxy_shapes import joined
 
 from solver import (
     PAPER,
@@ -214,7 +215,7 @@ def test_loose_vertices_do_not_move():
 def test_mirrored_halves_stay_mirror_images():
     V, F = contact_shapes.hand()
     linear, offset = np.diag([-1.0, 1, 1]), np.array([-0.5, 0, 0])
-    V, F = contact_shapes.joined((V, F), (V @ linear + offset, F[:, ::-1]))
+    V, F = joined((V, F), (V @ linear + offset, F[:, ::-1]))
     mirror = Mirror(partners(V, V @ linear + offset, 1e-6), linear, offset)
     assert mirror.count == len(V)
     both = Run(stylization(V, F, options=COARSE, mirrors=[mirror]))
@@ -245,7 +246,7 @@ def test_held_groups_keep_their_place():
 
 def test_a_pose_has_its_own_contacts():
     V, F = contact_shapes.hand()
-    posed = V @ contact_shapes.turned(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
+    posed = V @ shapes.rotation(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
     setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).posed(posed)
     result = run(Stylization(setup, 0.4, options=SolverOptions(device="numpy", keep_rotation=True)))
     assert result.crossings == len(new_crossings(posed, result.positions, F)) == 0
@@ -266,7 +267,7 @@ def test_links_that_are_none_change_nothing():
 
 def test_what_crosses_at_rest_may_cross():
     V, F = shapes.sphere(3)
-    V, F = contact_shapes.joined((V, F), (0.4 * V + [0.0, 0.1, 1.0], F))
+    V, F = joined((V, F), (0.4 * V + [0.0, 0.1, 1.0], F))
     assert len(crossings(V, F))
     result = run(stylization(V, F, 0.6))
     assert result.converged
@@ -277,13 +278,13 @@ HOSTILE = {
     "soup": lambda rng: (rng.random((300, 3)), np.arange(300).reshape(-1, 3)),
     "tangle": lambda rng: (rng.random((60, 3)), rng.integers(0, 60, (200, 3))),
     "each face twice": lambda rng: (shapes.blob(2)[0], np.tile(shapes.blob(2)[1], (2, 1))),
-    "coincident sheets": lambda rng: contact_shapes.joined(*[shapes.sheet()] * 3),
-    "coincident blobs": lambda rng: contact_shapes.joined(*[shapes.blob(2)] * 2),
+    "coincident sheets": lambda rng: joined(*[shapes.sheet()] * 3),
+    "coincident blobs": lambda rng: joined(*[shapes.blob(2)] * 2),
     "broken": lambda rng: shapes.broken(),
     "noise": lambda rng: (shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)), shapes.blob(2)[1]),
     "flat": lambda rng: (shapes.blob(2)[0] * [1, 1, 0], shapes.blob(2)[1]),
     "a point": lambda rng: (np.zeros((6, 3)), np.arange(6).reshape(2, 3)),
-    "far apart": lambda rng: contact_shapes.joined(
+    "far apart": lambda rng: joined(
         shapes.blob(1), (1e-6 * shapes.blob(1)[0] + 1.5, shapes.blob(1)[1])
     ),
 }

@@ -7,6 +7,7 @@ import numpy as np
 import proxy_shapes
 import pytest
 import shapes
+from facing import AXES, share_facing
 from named_forms import POLYTOPES
 from shapes import sheet
 
@@ -35,7 +36,6 @@ from solver.styles.forms import prism
 KEPT = SolverOptions(keep_rotation=True, device="numpy")
 PLAIN = SolverOptions(keep_rotation=True, device="numpy", is_accelerated=False)
 ROUND = ("cylinder", "cone", "slab", "pillar")
-CUBE = np.concatenate([np.eye(3), -np.eye(3)])
 
 
 def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
@@ -45,13 +45,6 @@ def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
         state.step()
     state.finish()
     return state
-
-
-def facing(U, F, directions, degrees):
-    """Return the share of the area that faces one of the directions."""
-    areas, normals = triangle_areas_and_normals(U, F)
-    is_facing = (normals @ directions.T).max(axis=1) > np.cos(np.radians(degrees))
-    return areas[is_facing].sum() / areas.sum()
 
 
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions(refine=False)], ids=["paper", "links"])
@@ -96,7 +89,7 @@ def test_a_ball_gets_the_sides_of_its_form(name):
     form = POLYTOPES[name]()
     directions = form.normals
     shares = [
-        facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
+        share_facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
         for crispness in (0.0, 1.0)
     ]
     least = {"tetrahedron": 0.7, "pyramid": 0.79}.get(name, 0.88)
@@ -155,9 +148,9 @@ def test_no_flat_side_of_a_rounded_box_becomes_less_flat(crispness):
     """The cushion of the complaint: sides that are flat at rest, with round edges."""
     V, F = shapes.sphere(4)
     V = np.clip(4.0 * V, -1.0, 1.0) * [1.0, 0.7, 0.4] + 0.2 * V
-    before = facing(V, F, CUBE, 6)
+    before = share_facing(V, F, AXES, 6)
     U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=crispness).positions
-    assert facing(U, F, CUBE, 6) > before
+    assert share_facing(U, F, AXES, 6) > before
 
 
 def test_crispness_0_changes_nothing():
@@ -294,7 +287,7 @@ def test_frames_keep_their_sides():
         frame = Stylization(setup.posed(V @ turn.T), Style(0.6, crispness=1.0), options=KEPT)
         result = sequence.solve(frame)
         sides.append(sequence.state.facing)
-        assert facing(result.positions, F, CUBE, 8) > 0.74
+        assert share_facing(result.positions, F, AXES, 8) > 0.74
     changes = np.diff(np.array(sides), axis=0).any(axis=2).sum(axis=0)
     assert np.mean(changes > 1) < 0.02
 

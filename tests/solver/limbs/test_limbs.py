@@ -11,6 +11,7 @@ import proxy_shapes
 import pytest
 import scipy.sparse as sp
 import shapes
+from facing import angle_to_axes
 from proxy_shapes import uv_sphere
 
 from solver import (
@@ -48,13 +49,6 @@ def along_z(V):
 
 def angle_between(a, b):
     return np.degrees(np.arccos(np.clip(a @ b, -1.0, 1.0)))
-
-
-def angle_to_axes(V, F):
-    normal = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    area = np.linalg.norm(normal, axis=1)
-    largest = np.abs(normal).max(axis=1) / np.maximum(area, 1e-300)
-    return np.degrees(np.average(np.arccos(np.minimum(largest, 1.0)), weights=area))
 
 
 @pytest.mark.parametrize("degrees", [10, 30, 45, 60])

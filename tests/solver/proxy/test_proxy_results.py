@@ -8,6 +8,7 @@ import proxy_shapes
 import pytest
 import shapes
 from devices import by_device
+from facing import angle_to_axes
 
 from solver import (
     PAPER,
@@ -24,14 +25,6 @@ from solver import (
 
 KEPT = {"proxy": ProxyOptions(), "keep_rotation": True, "crispness": 0.0}
 Q = shapes.rotation(30, 20, 40)
-
-
-def angle_to_axes(V, F):
-    """Return the mean angle of the normals to the nearest axis, by area."""
-    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    area = np.linalg.norm(n, axis=1)
-    largest = np.abs(n).max(axis=1) / np.where(area > 0, area, 1)
-    return np.average(np.arccos(np.clip(largest, 0, 1)), weights=area)
 
 
 @pytest.mark.thorough(6)
@@ -156,14 +149,7 @@ def revolved(name, step=0.03, around=64):
     for a, b in pairwise(corners):
         count = max(round(np.linalg.norm(b - a) / step), 1)
         pieces.append(a + (b - a) * np.arange(1, count + 1)[:, None] / count)
-    radius, height = np.concatenate(pieces).T[..., None]
-    angle = np.arange(around) * 2.0 * np.pi / around
-    places = [radius * np.cos(angle), radius * np.sin(angle), height + 0.0 * angle]
-    V = np.stack(places, axis=-1).reshape(-1, 3)
-    ring, k = np.divmod(np.arange(len(V) - around), around)
-    a, b = ring * around + k, ring * around + (k + 1) % around
-    first, second = (a, b, b + around), (a, b + around, a + around)
-    return V, np.concatenate([np.stack(first, axis=1), np.stack(second, axis=1)])
+    return proxy_shapes.revolved(np.concatenate(pieces), around)
 
 
 @pytest.mark.parametrize("name", ["cup", "single wall"])
@@ -194,17 +180,7 @@ def disc(height, radius=1.0, around=96, rings=20):
     """Return a round plate."""
     outline = [(radius * (k + 0.5) / (rings + 0.5), 0.0) for k in range(rings + 1)]
     outline += [(r, height) for r, _ in outline[::-1]]
-    angle = np.arange(around) * 2.0 * np.pi / around
-    V = np.concatenate(
-        [
-            np.stack([r * np.cos(angle), r * np.sin(angle), 0 * angle + z], axis=1)
-            for r, z in outline
-        ]
-    )
-    ring, k = np.divmod(np.arange(len(V) - around), around)
-    a, b = ring * around + k, ring * around + (k + 1) % around
-    first, second = (a, b, b + around), (a, b + around, a + around)
-    return V, np.concatenate([np.stack(first, axis=1), np.stack(second, axis=1)])
+    return proxy_shapes.revolved(outline, around)
 
 
 def squareness(V):
