@@ -65,28 +65,6 @@ def facing_axes(mesh):
     return np.average(np.abs(mesh.face_normals).max(axis=1), weights=mesh.area_faces)
 
 
-def test_a_trimesh_with_pins_and_a_cubeness_per_vertex():
-    mesh = trimesh.Trimesh(V, F, process=False)
-    pinned = np.flatnonzero(mesh.vertices[:, 2] < -0.5)
-    cubeness = np.where(mesh.vertices[:, 0] > 0.0, 0.4, 0.0)  # of a type that notices changes
-    result = stylize(
-        mesh.vertices, mesh.faces, cubeness, read_only(pinned), device="numpy", proxy=PAPER
-    )
-    assert len(pinned) and np.array_equal(result.positions[pinned], V[pinned])
-
-
-@pytest.mark.parametrize("ending", [".ply", ".vtk", ".vtu", ".off"])
-def test_a_meshio_mesh(ending, tmp_path):
-    path = tmp_path / f"blob{ending}"
-    meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(path)
-    mesh = meshio.read(path)
-    result = stylize(mesh.points, mesh.cells_dict["triangle"], 0.4, device="numpy", proxy=PAPER)
-    assert np.array_equal(result.positions, EXPECTED)
-    mesh.points = result.positions
-    mesh.write(tmp_path / f"cubic{ending}")
-    assert np.array_equal(meshio.read(tmp_path / f"cubic{ending}").points, EXPECTED)
-
-
 def test_the_input_is_never_written_to():
     positions, triangles = V.copy(), F.copy()
     rest = rest_mesh(positions, triangles, PAPER)
@@ -95,22 +73,6 @@ def test_the_input_is_never_written_to():
     positions += 1.0
     again = rest_mesh(V, F, PAPER)
     assert np.array_equal(rest.V, again.V), "a rest mesh shares memory with its input"
-
-
-@pytest.mark.parametrize(
-    ("positions", "triangles", "words"),
-    [
-        (V, np.concatenate([F, F], axis=1)[:, :4], "has the vertex 0 twice"),
-        (V[:, :2], F, "positions must have the shape (n, 3)"),
-        (V, F.astype(float), "triangles must be integers"),
-        (V, F + len(V), "triangles refer to vertices"),
-        (V, np.empty((0, 3), int), "no faces"),
-    ],
-)
-def test_arrays_that_make_no_sense_are_refused(positions, triangles, words):
-    with pytest.raises(CubicCraftError) as caught:
-        stylize(positions, triangles, proxy=PAPER)
-    assert words in str(caught.value) and "\n" not in str(caught.value)
 
 
 V, F = blob(2)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selector of the form: its pictures, and items that are those of files."""
 
-import importlib
 import zipfile
 from pathlib import Path
 
@@ -32,8 +31,8 @@ FOLDER = "cubic_craft_addon/assets/forms"
 
 
 @pytest.fixture
-def pictures(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.pictures")
+def pictures(part):
+    return part("form.pictures")
 
 
 def groups(live):

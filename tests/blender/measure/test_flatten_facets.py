@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flatten Facets: exactly planar where it is seen, and everything else stays as it was."""
 
-import importlib
-
 import bmesh
 import bpy
 import numpy as np
@@ -14,8 +12,8 @@ from snapshot import differences, snapshot_object, unchanged
 
 
 @pytest.fixture
-def bridge(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+def bridge(part):
+    return part("mesh_bridge")
 
 
 def test_the_sides_are_planar_and_restore_gives_the_original_bits():
@@ -235,8 +233,8 @@ def test_what_has_lost_its_original_is_refused():
         assert "has no result whose original is known" in refusal()
 
 
-def test_the_panel_offers_it_for_results_only(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.panel")
+def test_the_panel_offers_it_for_results_only(part):
+    panel = part("ui.panel")
 
     class Layout:
         def __init__(self):

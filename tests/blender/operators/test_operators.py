@@ -341,9 +341,9 @@ OF_THE_PROXY = {"keep_pose": False, "detail": 0.125, "keep_apart": False}
 @pytest.mark.parametrize("name", OF_THE_PROXY)
 @pytest.mark.parametrize("way", ["operator", "object", "Live"])
 def test_each_option_of_the_proxy_reaches_the_solver(
-    extension, live, begin, monkeypatch, way, name
+    extension, live, begin, monkeypatch, way, name, part
 ):
-    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    pipeline = part("run.pipeline")
     seen, prepare, value = [], pipeline.prepare, OF_THE_PROXY[name]
 
     def watched(members, *arguments):

@@ -107,8 +107,8 @@ def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror)
 
 
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
-def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
+def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(part, space):
+    overlay = part("form.overlay")
     obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3), location=(5, 6, 7))
     obj.cubic_craft.frame = obj
     bpy.context.view_layer.update()
@@ -126,10 +126,8 @@ def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
     np.testing.assert_allclose(lengths, 2 * np.linalg.norm(axes[0]), rtol=1e-5)
 
 
-def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
-    extension, live, begin, monkeypatch
-):
-    glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.glimpse")
+def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(part, live, begin, monkeypatch):
+    glimpse = part("screen.glimpse")
     obj = add_monkey()
 
     def is_seen_after(change):
@@ -163,8 +161,8 @@ def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
     assert not glimpse.is_seen()
 
 
-def test_the_overlay_leaves_no_handler_behind(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
+def test_the_overlay_leaves_no_handler_behind(extension, part):
+    overlay = part("form.overlay")
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     assert overlay._handle is None
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A result that cannot be seen is said to be so, before the click and after it."""
 
-import importlib
-
 import bpy
 import numpy as np
 import pytest
@@ -73,10 +71,10 @@ COVERS = [_cached, _sequence, _laplacian, _surface, _nodes]
 
 
 @pytest.mark.parametrize("cover", COVERS)
-def test_a_covered_result_is_a_warning(cover, tmp_path, extension):
+def test_a_covered_result_is_a_warning(cover, tmp_path, part):
     obj = add_monkey()
     cover(obj, tmp_path)
-    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+    bridge = part("mesh_bridge")
     assert bridge.covers(obj) == ([] if cover == _nodes else [obj.modifiers[0].name])
     reports = reports_of(lambda: cubify(max_iterations=5)).splitlines()
     said = [text for text in reports if "still shows the old shape" in text]

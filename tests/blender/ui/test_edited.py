@@ -4,8 +4,6 @@
 The row in the panel is tested in a window.
 """
 
-import importlib
-
 import bmesh
 import bpy
 import numpy as np
@@ -17,8 +15,8 @@ from scene import bmesh_of, cubify, reports_of
 
 
 @pytest.fixture
-def edited(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.edited")
+def edited(part):
+    return part("ui.edited")
 
 
 def edit(obj):
