@@ -152,15 +152,6 @@ def test_several_meshes_and_a_shared_one():
     assert position_of(plain.data).tobytes() == before
 
 
-def test_a_new_object_is_flattened_and_the_source_is_not():
-    source = add_ball()
-    before = position_of(source.data).tobytes()
-    cubify(result="NEW_OBJECT")
-    made = bpy.context.object
-    flatten()
-    assert planar_share(made) > PLANAR and position_of(source.data).tobytes() == before
-
-
 def test_the_seam_of_a_mirror_stays_closed():
     obj = add_ball(rotation=(0.0, 0.4, 0.0))
     with edit_mode(obj) as edited:

@@ -85,15 +85,6 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     assert shapes[:2] == shapes[2:]
 
 
-def test_an_edited_mesh_may_start_from_where_it_is():
-    obj = add_monkey()
-    cubify()
-    edited = edit(obj)
-    cubify(start="HERE")
-    bpy.ops.cubic_craft.restore()
-    assert position_of(obj.data).tobytes() == edited.tobytes()
-
-
 @pytest.mark.parametrize("by", ["object", "operator"])
 def test_an_edited_mesh_may_start_from_the_original(by):
     obj = add_monkey()
@@ -214,14 +205,3 @@ def test_a_lost_original_is_named(edited, monkeypatch):
     assert not edited.is_lost(obj.data)
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == shape.tobytes()
-
-
-@pytest.mark.parametrize("number, start", [(0, "HERE"), (1, "ORIGINAL"), (None, "EDITS")])
-def test_what_older_files_say_stays(number, start):
-    """Blender stores the number of a choice."""
-    obj = add_monkey()
-    if number is not None:
-        obj.cubic_craft.start = start
-        choices = obj.cubic_craft.bl_rna.properties["start"].enum_items
-        assert choices[start].value == number
-    assert obj.cubic_craft.start == start
