@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from flat_balls import PLANAR, WIDE, add_ball, flatten, planar_share, world
+from recorder import Recorder
 from rich_mesh import add_rich_monkey, points_of, position_of, set_points
 from scene import add_copy, add_monkey, cubify, edit_mode, reports_of, select
 from snapshot import differences, snapshot_object, unchanged
@@ -224,22 +225,26 @@ def test_what_has_lost_its_original_is_refused():
         assert "has no result whose original is known" in refusal()
 
 
+def test_a_scipy_that_does_not_work_is_named(part, monkeypatch):
+    obj = add_ball()
+    cubify()
+
+    facets = part("measure.facets")
+
+    def check():
+        raise facets.CubicCraftError("SciPy does not work")
+
+    monkeypatch.setattr(facets, "check_requirements", check)
+    with unchanged(obj):
+        assert "SciPy does not work" in refusal()
+
+
 def test_the_panel_offers_it_for_results_only(part):
     panel = part("ui.panel")
 
-    class Layout:
-        def __init__(self):
-            self.operators = []
-
-        def operator(self, name, **_):
-            self.operators.append(name)
-
-        def prop(self, *_, **__):
-            pass
-
     obj = add_ball()
     for is_there in (False, True):
-        layout = Layout()
+        layout = Recorder()
         panel._draw_result(layout, obj)
-        assert layout.operators == (["cubic_craft.flatten"] if is_there else [])
+        assert list(layout.operators) == (["cubic_craft.flatten"] if is_there else [])
         cubify()

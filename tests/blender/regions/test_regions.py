@@ -207,12 +207,14 @@ def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
         ),
     ],
 )
-def test_what_a_region_lacks_is_said(damage, words):
+def test_what_a_region_lacks_is_said(part, damage, words):
     monkey = add_monkey()
     add_group(monkey, "Top", upper)
     region = add_region(monkey, "Top")
     before = bits(monkey)
     damage(monkey, region)
+    with pytest.raises(ValueError, match=words):  # as the panel asks
+        part("regions.region").object_regions(monkey)
     with pytest.raises(RuntimeError, match=words):
         cubify()
     assert bits(monkey) == before

@@ -81,3 +81,12 @@ def test_a_covered_result_is_a_warning(cover, tmp_path, part):
     assert len(said) == 1 and "Cubify What You See" in said[0]
     assert ("one of its modifiers" in said[0]) == (cover == _nodes)
     assert obj.modifiers[0].name in said[0] or cover == _nodes
+
+
+def test_a_pinned_shape_key_covers_it():
+    obj = add_monkey()
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Pinned")
+    obj.active_shape_key_index, obj.show_only_shape_key = 1, True
+    said = reports_of(lambda: cubify(max_iterations=5, result="SHAPE_KEY"))
+    assert "still shows the old shape, which the pinned shape key brings" in said

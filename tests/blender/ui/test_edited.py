@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from mathutils import Matrix
+from recorder import Recorder
 from rich_mesh import position_of
 from scene import bmesh_of, cubify, reports_of
 
@@ -144,25 +145,6 @@ def test_the_first_original_comes_back():
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
 
 
-class Recorder:
-    """A layout that notes what is drawn."""
-
-    def __init__(self):
-        self.texts, self.properties = [], []
-
-    def box(self):
-        return self
-
-    def column(self, **_):
-        return self
-
-    def label(self, *, text, **_):
-        self.texts.append(text)
-
-    def prop(self, _data, name, **_):
-        self.properties.append(name)
-
-
 def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
     monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
     obj = add_monkey()
@@ -170,11 +152,13 @@ def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
     for shape in ("cubic", "edited", "with strokes"):
         layout = Recorder()
         edited.draw(bpy.context, layout, obj)
-        assert layout.properties == ([] if shape == "cubic" else ["start"])
+        assert layout.drawn == ([] if shape == "cubic" else ["start"])
         obj.cubic_craft.start = "HERE"
         layout = Recorder()
         edited.draw(bpy.context, layout, obj)
-        is_said = "This shape replaces the original. Restore First brings that" in str(layout.texts)
+        is_said = "This shape replaces the original. Restore First brings that" in str(
+            layout.labels
+        )
         assert is_said == (shape != "cubic")
         obj.cubic_craft.property_unset("start")
         if shape == "cubic":
@@ -196,8 +180,8 @@ def test_a_lost_original_is_named(edited, monkeypatch):
     update()
     layout = Recorder()
     edited.draw(bpy.context, layout, obj)
-    assert "no longer be determined: Cubify starts from here" in layout.texts[0]
-    assert layout.properties == []
+    assert "no longer be determined: Cubify starts from here" in layout.labels[0]
+    assert layout.drawn == []
     shape = position_of(obj.data)
     said = reports_of(lambda: cubify(max_iterations=2))
     assert '"Suzanne" starts from its current shape' in said

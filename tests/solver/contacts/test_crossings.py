@@ -200,6 +200,14 @@ def test_the_best_step_counts_not_the_last(steps):
     assert np.abs(best - seen[-1]).max() > 0.0
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_where_the_rest_shape_says_nothing_the_shorter_way_leads_apart(sign):
+    over = [(1, 1, 0.3 * sign), (2, 1, -0.1 * sign), (1, 2, -0.1 * sign)]
+    V = np.array([*over, (0, 0, 0), (9, 0, 0), (0, 9, 0)], dtype=float)
+    _, lift, _ = push._lifts(V, V, np.array([[0, 1, 2]]), np.array([[3, 4, 5]]))
+    np.testing.assert_allclose(lift, sign * np.array([[0.0, 0.1, 0.1]]), atol=2 * push.MARGIN)
+
+
 def test_many_that_do_not_come_apart_are_given_up_soon(monkeypatch):
     """Of a heap of coins, 4,000 pairs crossed after 15 steps, and after 40."""
     V, F = shapes.blob(2)

@@ -22,7 +22,7 @@ from solver import (
     run,
     stylize,
 )
-from solver.contacts import keep_apart
+from solver.contacts import keep_apart, pairs
 from solver.contacts.crossings import crossings
 from solver.proxy import no_links
 
@@ -177,9 +177,18 @@ def test_a_few_are_pushed_apart_without_a_round(monkeypatch):
 def test_there_is_no_round_where_hardly_anything_can_be_linked(monkeypatch):
     V, F = contact_shapes.hand()
     state = stylization(V, F, options=COARSE)
-    monkeypatch.setattr(keep_apart, "links_against", lambda *_: no_links())
+    real, found = keep_apart.links_against, []
+    monkeypatch.setattr(
+        keep_apart, "links_against", lambda *given: found.append(real(*given)) or no_links()
+    )
     whole, rounds = rounds_of(state)
     assert rounds == 0
+    is_across = ~found[0].coefficients[:, 2:].any(axis=1)
+    i, j = found[0].vertices[is_across, :2].T
+    lengths = np.linalg.norm(state.rest.V[i] - state.rest.V[j], axis=1)
+    stiffness = found[0].weights[is_across, 0] / state.rest.areas[i]
+    relative = stiffness * lengths**2 / pairs.STRENGTH
+    assert relative.min() > 0.45 and relative.max() < 1.05, "some share their strength"
     result = whole.result()
     # some of them inside the hand, where nobody sees them
     assert 40 < result.crossings < len(new_crossings(V, result.positions, F))
