@@ -137,7 +137,7 @@ def test_a_turned_mesh_with_a_turned_form_gives_the_turned_shape(name):
     assert np.abs(other - one @ turn.T).max() < 2e-3 * np.ptp(V)
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @needs_engine
 @pytest.mark.parametrize(
     "name", sorted(set(POLYTOPES) - {"box", "slab", "pillar", "cylinder", "cone"})
