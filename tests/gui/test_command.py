@@ -57,6 +57,7 @@ def test():
 def check_help(folder):
     output, _ = ended(start(folder, "--help"), 0)
     assert "usage: blender -c cubic_craft [INPUT ...] [options]" in output
+    assert "--cubeness" in output and "--tolerance" not in output
     _, errors = ended(start(folder, "none.obj"), 2)
     assert "cubic_craft: error: none.obj: there is no such file; check the path\n" in errors
 

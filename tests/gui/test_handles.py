@@ -38,8 +38,7 @@ def click(operator):
 def cubify(previous):
     yield from click("cubic_craft.cubify")
     yield from gui.wait_until(
-        lambda: (positions() != previous).any() and not gui.running_operators(),
-        what="a new shape",
+        lambda: (positions() != previous).any() and not gui.running_operators(), what="a new shape"
     )
     return positions()
 

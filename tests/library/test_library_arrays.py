@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays as trimesh and meshio hand them out, and others that are common, just work."""
+"""Arrays and meshes as trimesh and meshio hand them out just work, and keep what they have."""
+
+from types import SimpleNamespace
 
 import meshio
 import numpy as np
 import pytest
 import trimesh
 
-from cubic_craft import PAPER, CubicCraftError, rest_mesh, stylize
+from cubic_craft import PAPER, CubicCraftError, rest_mesh, stylize, stylize_mesh
 from scripts.benchmark.shapes import blob
 
 V, F = blob(2)
@@ -63,28 +65,6 @@ def facing_axes(mesh):
     return np.average(np.abs(mesh.face_normals).max(axis=1), weights=mesh.area_faces)
 
 
-def test_a_trimesh_with_pins_and_a_cubeness_per_vertex():
-    mesh = trimesh.Trimesh(V, F, process=False)
-    pinned = np.flatnonzero(mesh.vertices[:, 2] < -0.5)
-    cubeness = np.where(mesh.vertices[:, 0] > 0.0, 0.4, 0.0)  # of a type that notices changes
-    result = stylize(
-        mesh.vertices, mesh.faces, cubeness, read_only(pinned), device="numpy", proxy=PAPER
-    )
-    assert len(pinned) and np.array_equal(result.positions[pinned], V[pinned])
-
-
-@pytest.mark.parametrize("ending", [".ply", ".vtk", ".vtu", ".off"])
-def test_a_meshio_mesh(ending, tmp_path):
-    path = tmp_path / f"blob{ending}"
-    meshio.Mesh(V, [("triangle", F.astype(np.int32))]).write(path)
-    mesh = meshio.read(path)
-    result = stylize(mesh.points, mesh.cells_dict["triangle"], 0.4, device="numpy", proxy=PAPER)
-    assert np.array_equal(result.positions, EXPECTED)
-    mesh.points = result.positions
-    mesh.write(tmp_path / f"cubic{ending}")
-    assert np.array_equal(meshio.read(tmp_path / f"cubic{ending}").points, EXPECTED)
-
-
 def test_the_input_is_never_written_to():
     positions, triangles = V.copy(), F.copy()
     rest = rest_mesh(positions, triangles, PAPER)
@@ -95,17 +75,118 @@ def test_the_input_is_never_written_to():
     assert np.array_equal(rest.V, again.V), "a rest mesh shares memory with its input"
 
 
+V, F = blob(2)
+QUICK = {"device": "numpy", "proxy": PAPER}
+RESULT = stylize(V, F, 0.4, **QUICK)
+NORMALS = V / np.linalg.norm(V, axis=1, keepdims=True)
+
+
+def test_a_trimesh_keeps_all():
+    colors = np.random.default_rng(1).integers(0, 255, (len(V), 4), np.uint8)
+    mesh = trimesh.Trimesh(
+        *(V, F), process=False, vertex_colors=colors, metadata={"name": "blob", "list": [1]}
+    )
+    mesh.vertex_attributes["heat"] = np.arange(len(V))
+    mesh.face_attributes["material"] = np.arange(len(F))
+    normals = mesh.vertex_normals.copy()
+    made = stylize_mesh(mesh, 0.4, **QUICK)
+    assert type(made) is trimesh.Trimesh and made is not mesh
+    assert np.array_equal(made.vertices, RESULT.positions) and np.array_equal(made.faces, F)
+    assert np.array_equal(made.visual.vertex_colors, colors)
+    assert np.array_equal(made.vertex_attributes["heat"], np.arange(len(V)))
+    assert np.array_equal(made.face_attributes["material"], np.arange(len(F)))
+    assert made.metadata == mesh.metadata
+    assert np.array_equal(mesh.vertices, V), "the mesh that was given has changed"
+    anew = trimesh.Trimesh(RESULT.positions, F, process=False).vertex_normals
+    assert np.allclose(made.vertex_normals, anew) and not np.allclose(anew, normals, atol=1e-3)
+
+
+def test_uvs_of_a_trimesh_stay():
+    pytest.importorskip("PIL")  # which trimesh needs for textures
+    uv = np.random.default_rng(2).random((len(V), 2))
+    visual = trimesh.visual.TextureVisuals(uv=uv)
+    made = stylize_mesh(trimesh.Trimesh(V, F, visual=visual, process=False), **QUICK)
+    assert np.array_equal(made.visual.uv, uv)
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_a_meshio_mesh_keeps_all(kind):
+    mesh = meshio.Mesh(
+        V.astype(kind),
+        [("line", [[0, 1]]), ("triangle", F)],
+        point_data={"heat": np.arange(len(V)), "Normals": NORMALS.astype(np.float32)},
+        cell_data={"material": [np.zeros(1), np.arange(len(F))]},
+        field_data={"body": np.array([1, 2])},
+    )
+    made = stylize_mesh(mesh, 0.4, **QUICK)
+    assert type(made) is meshio.Mesh and made.points.dtype == kind
+    assert np.allclose(made.points, RESULT.positions, atol=1e-4 if kind == np.float32 else 0)
+    assert [(block.type, block.data.tolist()) for block in made.cells] == [
+        *(("line", [[0, 1]]), ("triangle", F.tolist()))
+    ]
+    assert np.array_equal(made.cell_data["material"][1], np.arange(len(F)))
+    assert np.array_equal(made.field_data["body"], [1, 2])
+    assert np.array_equal(made.point_data["heat"], np.arange(len(V)))
+    turned = np.einsum("nij,nj->ni", RESULT.rotations, NORMALS)
+    assert np.allclose(made.point_data["Normals"], turned, atol=1e-3)
+    assert np.array_equal(mesh.points, V.astype(kind)) and "Normals" in mesh.point_data
+
+
+def test_quads_and_polygons_of_meshio_are_solved_as_they_are():
+    cells = [("triangle", F[:100]), ("triangle", F[100:]), ("quad", [[0, 1, 2, 3]])]
+    pinned = np.arange(len(V)) < 4  # the corners of the quad
+    made = stylize_mesh(meshio.Mesh(V, cells), 0.4, pinned, **QUICK)
+    assert np.array_equal(made.points[:4], V[:4])
+    assert [len(block.data) for block in made.cells] == [100, len(F) - 100, 1]
+
+
+def test_seams_of_a_texture_stay_closed():
+    V, F = blob(1)
+    half = np.arange(len(F)) % 2 == 0
+    places = np.concatenate([V, V])  # each vertex once more, as UVs would part them
+    faces = np.where(half[:, None], F, F + len(V))
+    made = stylize_mesh(trimesh.Trimesh(places, faces, process=False), 0.4, device="numpy")
+    used = np.isin(np.arange(len(V)), F[half]) & np.isin(np.arange(len(V)), F[~half])
+    assert used.any() and np.array_equal(
+        made.vertices[: len(V)][used], made.vertices[len(V) :][used]
+    )
+
+
+def test_a_scene_is_solved_as_it_stands():
+    scene = trimesh.Scene()
+    mirrored = np.diag([-1.0, 1.0, 2.0, 1.0])
+    mirrored[:3, 3] = 0.0, 1.5, 0.0
+    mesh = trimesh.Trimesh(V, F, process=False)
+    scene.add_geometry(mesh, node_name="one", geom_name="blob")
+    scene.graph.update("two", matrix=mirrored, geometry="blob")
+    scene.add_geometry(trimesh.load_path([[0.0, 0, 0], [1, 0, 0]]), node_name="path")
+    points = np.concatenate([V, trimesh.transform_points(V, mirrored)])
+    result = stylize(points, np.concatenate([F, F[:, ::-1] + len(V)]), 0.4, **QUICK)
+    made = stylize_mesh(scene, 0.4, **QUICK)
+    for node, expected in zip(("one", "two"), result.positions.reshape(2, -1, 3), strict=True):
+        place, name = made.graph[node]
+        assert np.array_equal(place, scene.graph[node][0])
+        found = trimesh.transform_points(made.geometry[name].vertices, place)
+        assert np.allclose(found, expected, atol=1e-9)
+    assert len(made.geometry) == 3 and len(scene.geometry) == 2
+    assert np.array_equal(scene.geometry["blob"].vertices, V)
+    scene.graph.update("two", matrix=np.diag([1.0, 1, 0, 1]), geometry="blob")
+    with pytest.raises(CubicCraftError, match="the node 'two' has a scale of zero"):
+        stylize_mesh(scene, 0.4)
+
+
 @pytest.mark.parametrize(
-    ("positions", "triangles", "words"),
+    ("mesh", "words"),
     [
-        (V, np.concatenate([F, F], axis=1)[:, :4], "has the vertex 0 twice"),
-        (V[:, :2], F, "positions must have the shape (n, 3)"),
-        (V, F.astype(float), "triangles must be integers"),
-        (V, F + len(V), "triangles refer to vertices"),
-        (V, np.empty((0, 3), int), "no faces"),
+        (meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])]), "cells of the type tetra"),
+        (meshio.Mesh(np.eye(4, 3), [("line", [[0, 1]])]), "no faces"),
+        (meshio.Mesh(np.eye(4, 2), [("triangle", [[0, 1, 2]])]), r"shape \(n, 3\)"),
+        ("bunny.obj", "which a str does not"),
+        (SimpleNamespace(vertices=V, faces=F + 1), "triangles refer to vertices"),
+        (trimesh.Scene(), "no faces"),
     ],
 )
-def test_arrays_that_make_no_sense_are_refused(positions, triangles, words):
-    with pytest.raises(CubicCraftError) as caught:
-        stylize(positions, triangles, proxy=PAPER)
-    assert words in str(caught.value) and "\n" not in str(caught.value)
+def test_what_is_no_surface_is_refused(mesh, words):
+    with pytest.raises(CubicCraftError, match=words) as caught:
+        stylize_mesh(mesh, device="numpy")
+    assert "\n" not in str(caught.value)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The notebook of the examples runs as it is stored, and draws what it promises."""
+"""The examples and the notebook run as they are stored, and draw what they promise."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
@@ -68,3 +70,17 @@ def test_the_numbers_say_what_the_text_says(executed):
     assert energy.count("converged") == 2 and counts["accelerated"] < counts["plain"]
     values = [float(word) for word in shares.split()[1::2]]
     assert values == sorted(values) and values[0] < 0.53 and values[-1] > 0.8
+
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "library").glob("*.py"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_example_draws_its_picture(path, tmp_path):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "plot.png"
+    done = subprocess.run(
+        [sys.executable, path, picture], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert picture.stat().st_size > 10_000

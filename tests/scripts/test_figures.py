@@ -2,7 +2,6 @@
 """The figures of the paper, of Blender's own shapes, tiny and rough."""
 
 import os
-import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -62,14 +61,6 @@ def pictures(folder):
     return dict(zip(HEIGHTS, found, strict=True))
 
 
-def meshes_of(scene):
-    """Return [(positions, UVs)] of the meshes in a saved scene, in the order of their names."""
-    target = scene.with_suffix(".pickle")
-    script = Path(__file__).with_name("read_uvs.py")
-    subprocess.run([sys.executable, script, scene, target], check=True, capture_output=True)
-    return pickle.loads(target.read_bytes())
-
-
 @pytest.mark.parametrize("name", HEIGHTS)
 def test_each_picture_has_its_size_and_shows_something(pictures, name):
     picture = pictures[name]
@@ -106,17 +97,6 @@ def test_handles_are_painted(pictures):
     picture = pictures["figure_3_handles"]
     assert (picture[..., RED] > picture[..., GREEN] + 0.2).sum() > 10, "moved handles are orange"
     assert (picture[..., BLUE] > picture[..., RED] + 0.1).sum() > 10, "pinned handles are blue"
-
-
-def test_the_textured_meshes_have_the_same_uvs_bit_for_bit(folder):
-    meshes = meshes_of(folder / "figure_2_uv_texture.blend")
-    assert len(meshes) == 4
-    painted, cubic, *_ = meshes
-    assert np.abs(painted["positions"] - cubic["positions"]).max() > 0.05
-    for mesh in meshes:
-        assert mesh["uvs"] == painted["uvs"]
-        assert len(set(mesh["uvs"])) > 1
-        assert mesh["image"], "the material reads something else than an image"
 
 
 def test_figure_4_is_the_last_screenshot(tmp_path):

@@ -11,14 +11,7 @@ import sys
 import time
 
 import pytest
-from headless import (
-    PATIENCE,
-    SCRIPT,
-    headless,
-    headless_ok,
-    processor_seconds,
-    start_headless,
-)
+from headless import PATIENCE, SCRIPT, headless, headless_ok, processor_seconds, start_headless
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are not sent there")
 

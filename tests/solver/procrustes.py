@@ -13,3 +13,9 @@ def best_rotation(U, V, areas):
     A, B = (X - np.average(X, axis=0, weights=areas) for X in (U, V))
     P, _, Rt = np.linalg.svd((A * areas[:, None]).T @ B)
     return P @ Rt
+
+
+def degrees(V, U):
+    """Return by how much U (n,3) is turned from V (n,3)."""
+    Q = best_rotation(V, U, np.ones(len(V)))
+    return np.degrees(np.arccos(np.clip((np.trace(Q) - 1) / 2, -1, 1)))

@@ -40,6 +40,18 @@ def uv_sphere(segments=16, rings=8):
     return V, np.concatenate(faces)
 
 
+def revolved(outline, around):
+    """Return an outline (radius, height) turned around the vertical axis, open at both ends."""
+    radius, height = np.asarray(outline, float).T[..., None]
+    angle = np.arange(around) * 2.0 * np.pi / around
+    places = [radius * np.cos(angle), radius * np.sin(angle), height + 0.0 * angle]
+    V = np.stack(places, axis=-1).reshape(-1, 3)
+    ring, k = np.divmod(np.arange(len(V) - around), around)
+    a, b = ring * around + k, ring * around + (k + 1) % around
+    first, second = (a, b, b + around), (a, b + around, a + around)
+    return V, np.concatenate([np.stack(first, axis=1), np.stack(second, axis=1)])
+
+
 def joined(*meshes):
     """Return several meshes as one."""
     starts = np.cumsum([0, *(len(V) for V, _ in meshes)])
@@ -87,4 +99,4 @@ def normals_of(V, F):
     sums = np.zeros_like(V)
     for k in range(3):
         np.add.at(sums, F[:, k], face)
-    return sums / np.linalg.norm(sums, axis=1, keepdims=True)
+    return sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), 1e-12)

@@ -6,6 +6,7 @@ import pytest
 import shapes
 from devices import by_device
 from engine_marks import needs_engine
+from facing import AXES, share_facing
 from scipy.spatial.transform import Rotation
 from tight_admm import TIGHT
 
@@ -20,7 +21,6 @@ from solver import (
     rest_mesh,
     run,
     stylize,
-    triangle_areas_and_normals,
 )
 from solver.mesh.rest_measures import areas_and_normals
 from solver.normal_capture import MOST, targets_for
@@ -47,12 +47,6 @@ def to_cube(d):
 
 def like_a_cube(count=3000):
     return NormalCapture(d := directions(count), to_cube(d))
-
-
-def share_along_axes(V, F, angle=12.0):
-    areas, normals = triangle_areas_and_normals(V, F)
-    near = np.abs(normals).max(axis=1) > np.cos(np.radians(angle))
-    return areas[near].sum() / areas.sum()
 
 
 @pytest.mark.parametrize("count", [4, 12, 500, MOST + 5000])
@@ -193,7 +187,7 @@ def test_a_large_mesh_has_it_on_coarser_levels_too(monkeypatch):
     monkeypatch.setattr("solver.global_step.step.FACTORIZED_VERTICES", 0)
     large = stylize(V, F, 0.0, proxy=PAPER, **options)
     assert large.energy.total == pytest.approx(plain.energy.total, rel=1e-2)
-    assert share_along_axes(large.positions, F) > 0.55
+    assert share_facing(large.positions, F, AXES, 12.0) > 0.55
 
 
 @pytest.mark.parametrize("lam", [0.0, 0.8])
@@ -240,8 +234,8 @@ def test_a_ball_becomes_like_the_ball_that_was_captured():
     cubic = stylize(V, F, 2.0, max_iterations=2000, proxy=PAPER).positions
     capture = NormalCapture(areas_and_normals(V, F)[1], areas_and_normals(cubic, F)[1])
     result = stylize(V, F, 0.0, capture=capture, capture_strength=4.0, proxy=PAPER).positions
-    assert share_along_axes(V, F) < 0.3
-    assert share_along_axes(result, F) > 0.8 * share_along_axes(cubic, F) > 0.7
+    assert share_facing(V, F, AXES, 12.0) < 0.3
+    assert share_facing(result, F, AXES, 12.0) > 0.8 * share_facing(cubic, F, AXES, 12.0) > 0.7
 
 
 def test_a_part_that_is_inside_out_faces_as_it_is_seen():
@@ -266,7 +260,7 @@ def test_each_vertex_may_have_its_own_capture_or_none():
     options = SolverOptions(keep_rotation=True, device="numpy")
     state = Stylization(Setup(rest_mesh(three, faces, PAPER)), style, options=options)
     result = run(state).positions.reshape(3, -1, 3)
-    assert share_along_axes(result[0], F) > share_along_axes(result[1], F) + 0.2
+    assert share_facing(result[0], F, AXES, 12.0) > share_facing(result[1], F, AXES, 12.0) + 0.2
     assert np.abs(result[2] - V - [10, 0, 0]).max() < 0.02
 
 

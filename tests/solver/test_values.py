@@ -122,6 +122,7 @@ def test_one_that_has_begun_goes_on_from_its_shape():
 
 def test_held_groups_are_held_where_a_setup_is_read():
     held = setup().with_holds(WEIGHTS)
+    assert "held_groups=1" in repr(held)
     matrix = np.eye(4)
     matrix[2, 3] = 0.2
     results = [

@@ -175,18 +175,6 @@ def test_it_is_one_undo_step_back_into_edit_mode():
     assert obj.cubic_craft.form == "FACES" and obj.cubic_craft.form_directions == picked
 
 
-def test_it_is_in_files_copies_and_new_objects(reopen):
-    obj = add_dodecahedron_faces()
-    pick()
-    picked = obj.cubic_craft.form_directions
-    bpy.ops.object.duplicate()
-    assert bpy.context.object.cubic_craft.form_directions == picked
-    cubify(result="NEW_OBJECT", **OPTIONS)
-    made = bpy.context.object
-    assert made.cubic_craft.form == "FACES" and made.cubic_craft.form_directions == picked
-    assert reopen("Hull").cubic_craft.form_directions == picked
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [

@@ -6,10 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
-from lumps import FLIP_X, add_lump, partner_of
 from mathutils import Euler, Matrix
 from rich_mesh import position_of
-from scene import add_copy, add_empty, add_monkey, add_triangles, cubify, select
+from scene import add_empty, add_monkey, add_triangles, cubify, select
 from solids import add_solid, share_facing
 
 NAMES = (
@@ -129,29 +128,6 @@ def test_live_follows_the_object_while_it_is_edited(live, begin):
     confirm(live, session)
     assert obj.cubic_craft.form == "DODECAHEDRON"
     check_same_as_cubify(obj)
-
-
-@pytest.mark.parametrize("form", ["TETRAHEDRON", "PRISM", "DODECAHEDRON"])
-def test_halves_stay_mirror_images(form):
-    obj = add_lump()
-    partner = partner_of(position_of(obj.data), 1e-6)
-    cubify(form=form, symmetry=(True, False, False), orientation=(0.2, 0.3, 0.1), **OPTIONS)
-    after = position_of(obj.data)
-    np.testing.assert_array_equal(after[partner], after * FLIP_X)
-
-
-def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
-    """Both look alike in the world, where the form is."""
-    one = add_triangles()
-    other = add_copy(one)
-    other.data.transform(Matrix.Diagonal((-1, 1, 1, 1)))
-    other.data.flip_normals()
-    other.scale.x = -1.0
-    bpy.context.view_layer.update()
-    for obj in (one, other):
-        select(obj)
-        cubify(form="TETRAHEDRON", orientation=(0.2, 0.3, 0.4), **OPTIONS)
-    np.testing.assert_allclose(position_of(other.data) * FLIP_X, position_of(one.data), atol=2e-3)
 
 
 @pytest.mark.thorough(3)

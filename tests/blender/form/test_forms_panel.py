@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selector of the form: its pictures, and items that are those of files."""
 
-import importlib
 import zipfile
 from pathlib import Path
 
@@ -32,8 +31,8 @@ FOLDER = "cubic_craft_addon/assets/forms"
 
 
 @pytest.fixture
-def pictures(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.pictures")
+def pictures(part):
+    return part("form.pictures")
 
 
 def groups(live):
@@ -84,12 +83,6 @@ def test_a_driver_and_keyframes_use_the_numbers():
     assert other.evaluated_get(bpy.context.evaluated_depsgraph_get()).cubic_craft.form == (
         "OCTAHEDRON"
     )
-
-
-def test_a_form_is_the_same_in_a_file_that_is_opened_again(reopen):
-    name = add_monkey().name
-    bpy.context.object.cubic_craft.form = "RHOMBIC"
-    assert reopen(name).cubic_craft.form == "RHOMBIC"
 
 
 def test_pictures_go_with_the_extension_and_come_again(extension, live, pictures):

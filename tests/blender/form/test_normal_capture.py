@@ -170,7 +170,7 @@ def test_live_follows_the_ball_while_it_is_edited(live, begin):
 
 
 def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
-    """Both look alike in the world, where the ball is."""
+    """Both look alike in the world, where the ball and the form are."""
     tilted = shape_ball(add_ball("Tilted"), stretch=(1.0, 1.5, 0.7))
     tilted.rotation_euler = (0.3, 0.2, 0.4)
     one = add_triangles()
@@ -181,7 +181,8 @@ def test_a_mirrored_object_has_the_mirrored_shape_of_its_twin():
     bpy.context.view_layer.update()
     for obj in (one, other):
         select(obj)
-        cubify(capture_object=tilted.name, capture_strength=1.0, orientation=(0.2, 0, 0), **OPTIONS)
+        style = {"form": "TETRAHEDRON", "orientation": (0.2, 0.3, 0.4), "capture_strength": 1.0}
+        cubify(capture_object=tilted.name, **style, **OPTIONS)
     np.testing.assert_allclose(position_of(other.data) * FLIP_X, position_of(one.data), atol=2e-3)
 
 

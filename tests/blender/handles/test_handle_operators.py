@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from mathutils import Vector
 from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, pin, pose
+from recorder import Recorder
 from rich_mesh import position_of
 from scene import add_empty, add_monkey, cubify, select
 
@@ -27,6 +28,17 @@ def groups(name="Body"):
 def click(operator, **options):
     """Run an operator as a click on its button does, with its undo step."""
     assert operator("INVOKE_DEFAULT", True, **options) == {"FINISHED"}
+
+
+def test_the_section_has_a_button_for_each(part):
+    obj, _, _ = add_posable()
+    pin(obj, LEFT)
+    pin(obj, RIGHT)
+    layout = Recorder()
+    part("handles.panel").draw(layout, obj)
+    verbs = ("add", "remove", "move", "pin_selection", "reset_pose")
+    assert {f"cubic_craft.handle_{verb}" for verb in verbs} <= set(layout.drawn)
+    assert {"handles", "group", "threshold", "hold_rest"} <= set(layout.drawn)
 
 
 def test_add_takes_the_active_group_then_the_others():

@@ -23,7 +23,12 @@ class Recorder:
     def prop(self, _data, name, **_):
         self.drawn.append(name)
 
-    def template_icon_view(self, _data, name, **_):
+    def template_icon_view(self, _data, name, *_others, **_):
+        self.drawn.append(name)
+
+    prop_search = template_icon_view
+
+    def template_list(self, _kind, _id, _data, name, *_others, **_):
         self.drawn.append(name)
 
     def label(self, text="", **_):

@@ -40,12 +40,7 @@ _ATTRIBUTES = {
 }
 
 # Patterns for `differences`: what is, or follows from, where the vertices are.
-POSITIONS = (
-    "*attributes/position/values",
-    "*rna/texspace*",
-    "*rna/dimensions",
-    "*normals/now",
-)
+POSITIONS = ("*attributes/position/values", "*rna/texspace*", "*rna/dimensions", "*normals/now")
 SHAPE_KEY_POINTS = ("*shape_keys/blocks/*/points",)
 # What CubicCraft keeps on a mesh beside the positions, and the places of other attributes, which
 # shift when one is added.

@@ -74,14 +74,12 @@ def test_another_mode_confirms_it_and_is_there_afterwards(live, begin, mode, is_
     assert bits(twin) == cubic, "not finished as after Enter"
 
 
-def test_a_mode_that_cannot_wait_has_the_shape_so_far(
-    live, begin, one_phase, extension, monkeypatch
-):
+def test_a_mode_that_cannot_wait_has_the_shape_so_far(live, begin, one_phase, part, monkeypatch):
     obj = add_monkey()
     original = bits(obj)
     session = tick_to_sight(begin(obj))
     shown = bits(obj)
-    module = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.session")
+    module = part("live.session")
     monkeypatch.setattr(module, "_PATIENCE", 0.0)
     bpy.ops.object.mode_set(mode="EDIT")
     session.tick(bpy.context)
@@ -258,14 +256,14 @@ def test_a_file_written_behind_its_back_is_as_before_where_a_key_was_to_be_writt
     assert not bpy.ops.cubic_craft.restore.poll()
 
 
-def test_a_preview_that_is_found_in_edit_mode_ends(live, begin, extension, tmp_path, caplog):
+def test_a_preview_that_is_found_in_edit_mode_ends(live, begin, extension, tmp_path, caplog, part):
     """As after an undo while the extension is switched off."""
     session = tick_to_rest(begin(add_monkey(), cubeness=0.7))
     path = str(tmp_path / "behind.blend")
     bpy.data.libraries.write(path, {bpy.context.scene})
     session.on(live.Event.CANCEL)
     original = bits(bpy.data.objects["Suzanne"])
-    stale = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.live.stale_previews")
+    stale = part("live.stale_previews")
     stale.unregister()
     try:
         bpy.ops.wm.open_mainfile(filepath=path)
@@ -381,10 +379,8 @@ def test_another_add_on_that_resets_taichi_does_no_harm(live, begin, one_phase):
     assert bits(obj) == bits(twin)
 
 
-def test_the_cursor_says_that_blender_computes_where_there_is_a_window(extension):
-    waiting = importlib.import_module(
-        f"{extension.__name__}.cubic_craft_addon.live.elsewhere"
-    ).waiting
+def test_the_cursor_says_that_blender_computes_where_there_is_a_window(part):
+    waiting = part("live.elsewhere").waiting
     said = []
     window = SimpleNamespace(cursor_modal_set=said.append, cursor_modal_restore=said.clear)
     for each in (None, window):

@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flatten Facets: exactly planar where it is seen, and everything else stays as it was."""
 
-import importlib
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
 from flat_balls import PLANAR, WIDE, add_ball, flatten, planar_share, world
+from recorder import Recorder
 from rich_mesh import add_rich_monkey, points_of, position_of, set_points
 from scene import add_copy, add_monkey, cubify, edit_mode, reports_of, select
 from snapshot import differences, snapshot_object, unchanged
 
 
 @pytest.fixture
-def bridge(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+def bridge(part):
+    return part("mesh_bridge")
 
 
 def test_the_sides_are_planar_and_restore_gives_the_original_bits():
@@ -154,15 +153,6 @@ def test_several_meshes_and_a_shared_one():
     assert position_of(plain.data).tobytes() == before
 
 
-def test_a_new_object_is_flattened_and_the_source_is_not():
-    source = add_ball()
-    before = position_of(source.data).tobytes()
-    cubify(result="NEW_OBJECT")
-    made = bpy.context.object
-    flatten()
-    assert planar_share(made) > PLANAR and position_of(source.data).tobytes() == before
-
-
 def test_the_seam_of_a_mirror_stays_closed():
     obj = add_ball(rotation=(0.0, 0.4, 0.0))
     with edit_mode(obj) as edited:
@@ -235,22 +225,26 @@ def test_what_has_lost_its_original_is_refused():
         assert "has no result whose original is known" in refusal()
 
 
-def test_the_panel_offers_it_for_results_only(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.panel")
+def test_a_scipy_that_does_not_work_is_named(part, monkeypatch):
+    obj = add_ball()
+    cubify()
 
-    class Layout:
-        def __init__(self):
-            self.operators = []
+    facets = part("measure.facets")
 
-        def operator(self, name, **_):
-            self.operators.append(name)
+    def check():
+        raise facets.CubicCraftError("SciPy does not work")
 
-        def prop(self, *_, **__):
-            pass
+    monkeypatch.setattr(facets, "check_requirements", check)
+    with unchanged(obj):
+        assert "SciPy does not work" in refusal()
+
+
+def test_the_panel_offers_it_for_results_only(part):
+    panel = part("ui.panel")
 
     obj = add_ball()
     for is_there in (False, True):
-        layout = Layout()
+        layout = Recorder()
         panel._draw_result(layout, obj)
-        assert layout.operators == (["cubic_craft.flatten"] if is_there else [])
+        assert list(layout.operators) == (["cubic_craft.flatten"] if is_there else [])
         cubify()

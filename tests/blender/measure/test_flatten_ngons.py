@@ -115,8 +115,7 @@ def offsets_of(key):
 
 
 @pytest.mark.parametrize(
-    ("edges", "layer"),
-    [("NONE", None), ("CREASES", "crease_edge"), ("BEVEL", "bevel_weight_edge")],
+    ("edges", "layer"), [("NONE", None), ("CREASES", "crease_edge"), ("BEVEL", "bevel_weight_edge")]
 )
 def test_a_crisp_ball_becomes_a_box_with_weights_at_its_edges(edges, layer):
     obj = add_ball()

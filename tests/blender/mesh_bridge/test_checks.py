@@ -7,12 +7,7 @@ import numpy as np
 import pytest
 from faults import places
 from rich_mesh import add_rich_monkey, cubic_like, points_of, set_points, set_position
-from snapshot import differences, snapshot_object, unchanged
-
-
-def test_good_mesh(bridge, monkey):
-    with unchanged(monkey):
-        bridge.check_editable(monkey)
+from snapshot import differences, snapshot_object
 
 
 def test_no_mesh(bridge, error):
@@ -241,12 +236,3 @@ def test_questions_never_fail(bridge, cubify, error, how):
     for check in (bridge.check_usable, bridge.check_editable):
         with pytest.raises(error, match=f'"{obj.name}"|"Monkey"'):
             check(obj)
-
-
-def test_made_local(bridge, cubify, library):
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.make_local(type="SELECT_OBDATA")
-    obj = bpy.context.scene.objects["Suzanne"]
-    bridge.check_editable(obj)
-    cubify(obj)
-    bridge.restore(obj)

@@ -34,18 +34,6 @@ def run_in_edit_mode(obj, rows, *operators):
             run()
 
 
-def test_restore_gives_the_original(bridge, cubify, monkey):
-    mesh = monkey.data
-    monkey.active_shape_key_index = 0
-    with edit_mode(monkey):  # which turns -0 into 0 in shape keys
-        pass
-    with unchanged(monkey):
-        cubify(monkey)
-        move_some(monkey)
-        bridge.restore(monkey)
-    assert not bridge.has_traces(mesh)
-
-
 def test_from_here_replaces_the_original(bridge, cubify, monkey):
     mesh = monkey.data
     cubify(monkey)

@@ -3,7 +3,7 @@
 
 import bpy
 import pytest
-from rich_mesh import add_rich_monkey, cubic_like, position_of
+from rich_mesh import cubic_like, position_of
 from snapshot import differences, snapshot_mesh, snapshot_object
 
 NAMES = (
@@ -58,16 +58,6 @@ def test_preview_under_groups_of_its_names(bridge, monkey):
     preview.show(monkey.data, *cubic_like(bridge.read_positions(monkey.data)))
     assert bridge.end_preview(monkey.data)
     assert differences(before, snapshot_mesh(monkey.data)) == []
-
-
-def test_groups_get_another_name_when_a_file_is_opened(extension, bridge, cubify, tmp_path):
-    obj = add_rich_monkey(keys=False)
-    cubify(obj)
-    obj.vertex_groups[0].name = "cubic_craft_original"
-    path = str(tmp_path / "clash.blend")
-    bpy.data.libraries.write(path, {bpy.context.scene}, fake_user=True)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert bpy.data.objects["Suzanne"].vertex_groups[0].name == NUMBERED
 
 
 def test_settings_follow_a_group_to_its_other_name(bridge, cubify, plain_monkey):

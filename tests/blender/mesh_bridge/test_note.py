@@ -52,6 +52,7 @@ def test_property_of_others_under_our_name_is_never_touched(bridge, error, keyed
         lambda: bridge.write_mesh(mesh, positions, rotations),
         lambda: bridge.write_shape_key(keyed_monkey, positions),
         lambda: bridge.write_new_object(keyed_monkey, positions, rotations),
+        lambda: bridge.Preview(mesh),
     ):
         with pytest.raises(error, match=f'"Monkey" has a custom property "{NOTE}".*rename'):
             call()
@@ -67,16 +68,6 @@ def test_valid_note_is_not_in_the_way(bridge, cubify, keyed_monkey):
     assert bridge.has_traces(keyed_monkey.data)
     bridge.check_usable(keyed_monkey)
     cubify(keyed_monkey)
-
-
-@pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
-def test_traces_come_and_go(bridge, cubify, monkey, result):
-    assert not bridge.has_traces(monkey.data)
-    for remove in (bridge.restore, lambda obj: bridge.discard_original(obj.data)):
-        cubify(monkey, result)
-        assert bridge.has_traces(monkey.data)
-        remove(monkey)
-        assert not bridge.has_traces(monkey.data)
 
 
 LOST = {

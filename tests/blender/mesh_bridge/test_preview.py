@@ -98,15 +98,6 @@ def test_position_that_differs_from_the_basis(bridge, keyed_monkey):
         bridge.end_preview(mesh)
 
 
-def test_property_in_the_way(bridge, error, plain_monkey):
-    plain_monkey.data[NOTE] = "of somebody else"
-    with unchanged(plain_monkey):
-        with pytest.raises(error, match="rename"):
-            bridge.Preview(plain_monkey.data)
-        assert not bridge.has_preview(plain_monkey.data)
-        assert not bridge.end_preview(plain_monkey.data)
-
-
 def test_edit_mode_and_changed_meshes_are_refused(bridge, error, plain_monkey):
     mesh = plain_monkey.data
     base = bridge.read_positions(mesh)

@@ -8,14 +8,7 @@ import pytest
 from previewed import show_some
 from results import COPIED, RESULTS, write
 from rich_mesh import cubic_like, points_of
-from snapshot import (
-    POSITIONS,
-    SHAPE_KEY_POINTS,
-    STORED,
-    differences,
-    snapshot_object,
-    unchanged,
-)
+from snapshot import POSITIONS, SHAPE_KEY_POINTS, STORED, differences, snapshot_object, unchanged
 from world import block_names
 
 

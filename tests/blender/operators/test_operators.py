@@ -60,16 +60,6 @@ def test_all_else_stays_bit_identical(result, keys):
     assert differences(before, snapshot_object(obj), SETTINGS) == []
 
 
-def test_cubify_again_starts_from_the_original():
-    obj = add_monkey()
-    cubify(cubeness=0.9)
-    cubify(cubeness=0.2)
-    twice = position_of(obj.data)
-    other = add_monkey()
-    cubify(cubeness=0.2)
-    assert position_of(other.data).tobytes() == twice.tobytes()
-
-
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_cubify_after_apply_starts_from_the_original(turn):
     """As if the transform had been applied first; but for squares that are cut the other way."""
@@ -288,15 +278,6 @@ def test_rotation_says_whether_the_shape_may_turn():
     assert turns["KEEP"] < 0.3 * turns["FREE"]
 
 
-@pytest.mark.parametrize("add", [add_monkey, add_triangles])
-def test_the_rotation_is_kept_by_default(add):
-    obj = add()
-    cubify(rotation="KEEP")
-    kept = position_of(obj.data)
-    cubify()
-    np.testing.assert_array_equal(position_of(obj.data), kept)
-
-
 def test_numpy_and_taichi_give_the_same_shape():
     obj = add_monkey()
     shapes = []
@@ -360,9 +341,9 @@ OF_THE_PROXY = {"keep_pose": False, "detail": 0.125, "keep_apart": False}
 @pytest.mark.parametrize("name", OF_THE_PROXY)
 @pytest.mark.parametrize("way", ["operator", "object", "Live"])
 def test_each_option_of_the_proxy_reaches_the_solver(
-    extension, live, begin, monkeypatch, way, name
+    extension, live, begin, monkeypatch, way, name, part
 ):
-    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    pipeline = part("run.pipeline")
     seen, prepare, value = [], pipeline.prepare, OF_THE_PROXY[name]
 
     def watched(members, *arguments):

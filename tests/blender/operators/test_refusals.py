@@ -116,11 +116,11 @@ def test_what_is_missing_with_its_file_is_said_to_be_missing(tmp_path):
             cubify()
 
 
-def test_absolute_shape_keys_are_refused_before_anything_is_solved(extension, monkeypatch, capfd):
+def test_absolute_shape_keys_are_refused_before_anything_is_solved(part, monkeypatch, capfd):
     obj = add_rich_monkey(keys=True)
     obj.data.shape_keys.use_relative = False
     select(obj)
-    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    pipeline = part("run.pipeline")
     monkeypatch.setattr(pipeline, "start", None)
     with unchanged(obj, READ), pytest.raises(RuntimeError, match="has absolute shape keys"):
         cubify(result="SHAPE_KEY")
@@ -150,11 +150,11 @@ def test_hair_that_does_not_follow_is_named(capfd, result, is_deformed, is_behin
     assert (f'Hair "Fur" does not follow "{obj.name}"' in said) == is_behind
 
 
-def test_an_exception_in_the_solver_changes_nothing(extension, monkeypatch):
+def test_an_exception_in_the_solver_changes_nothing(part, monkeypatch):
     obj, other = add_rich_monkey(keys=True), add_monkey("Other")
     select(other, obj)
     before = [snapshot_object(o) for o in (obj, other)]
-    pipeline = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.run.pipeline")
+    pipeline = part("run.pipeline")
     original = pipeline.start
     calls = []
 

@@ -24,19 +24,6 @@ def test_world_orientation_equals_turning_the_cube_against_the_object():
     np.testing.assert_allclose(position_of(obj.data), by_world, atol=1e-4)
 
 
-def test_the_angles_are_relative_to_the_world_unless_told_otherwise():
-    obj = add_monkey(rotation=(0.3, 0.2, 0.5))
-    assert obj.cubic_craft.space == "WORLD"
-    cubify(orientation=(0.0, 0.0, 0.4))
-    shape = position_of(obj.data)
-    bpy.ops.cubic_craft.restore()
-    cubify(space="WORLD", orientation=(0.0, 0.0, 0.4))
-    assert position_of(obj.data).tobytes() == shape.tobytes()
-    bpy.ops.cubic_craft.restore()
-    cubify(space="OBJECT", orientation=(0.0, 0.0, 0.4))
-    assert np.abs(position_of(obj.data) - shape).max() > 1e-2
-
-
 RIGHT = math.pi / 2
 
 
@@ -120,8 +107,8 @@ def test_auto_orient_finds_a_turned_box_in_every_space(extension, space, mirror)
 
 
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "FRAME"])
-def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
+def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(part, space):
+    overlay = part("form.overlay")
     obj = add_turned_box(space, rotation=(0.1, 0.7, 0.3), location=(5, 6, 7))
     obj.cubic_craft.frame = obj
     bpy.context.view_layer.update()
@@ -139,10 +126,8 @@ def test_the_overlay_shows_the_sides_of_the_cube_in_the_world(extension, space):
     np.testing.assert_allclose(lengths, 2 * np.linalg.norm(axes[0]), rtol=1e-5)
 
 
-def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
-    extension, live, begin, monkeypatch
-):
-    glimpse = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.glimpse")
+def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(part, live, begin, monkeypatch):
+    glimpse = part("screen.glimpse")
     obj = add_monkey()
 
     def is_seen_after(change):
@@ -176,8 +161,8 @@ def test_the_cube_is_seen_for_a_moment_when_an_angle_is_changed(
     assert not glimpse.is_seen()
 
 
-def test_the_overlay_leaves_no_handler_behind(extension):
-    overlay = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.form.overlay")
+def test_the_overlay_leaves_no_handler_behind(extension, part):
+    overlay = part("form.overlay")
     bpy.ops.preferences.addon_disable(module=extension.__name__)
     assert overlay._handle is None
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)

@@ -49,16 +49,6 @@ def evaluated(obj):
     return V, borders
 
 
-def test_halves_end_as_mirror_images_bit_for_bit():
-    obj = add_monkey()
-    V = position_of(obj.data)
-    cubify(symmetry=(True, False, False))
-    after = position_of(obj.data)
-    assert np.abs(after - V).max() > 0.1
-    assert (in_order(after) == in_order(after * FLIP_X)).all()
-    assert "507 of 507 match" in obj.cubic_craft.status
-
-
 def test_objects_that_are_solved_together_share_a_plane():
     head, *eyes = add_monkey(), add_ball("Left"), add_ball("Right")
     for eye, x in zip(eyes, (0.4, -0.4), strict=True):

@@ -128,20 +128,6 @@ def test_the_form_of_a_region_is_mirrored_by_a_modifier():
     np.testing.assert_allclose(position_of(other.data), position_of(one.data), atol=1e-6)
 
 
-def test_objects_that_are_solved_together_may_have_different_regions():
-    one, other = add_ball(3, "One"), add_ball(3, "Other")
-    other.location.x = 1.9
-    for obj, form in ((one, "PYRAMID"), (other, "ICOSAHEDRON")):
-        add_group(obj, "Top", blended)
-        add_region(obj, "Top", form=form)
-    select(one, other)
-    before = [bits(one), bits(other)]
-    cubify(**OPTIONS)
-    assert bits(one) != before[0] and bits(other) != before[1]
-    bpy.ops.cubic_craft.restore()
-    assert [bits(one), bits(other)] == before
-
-
 def test_shares_never_add_up_to_more_than_all(extension):
     """Where weights do, they are scaled, so the order of the regions does not matter."""
     obj = add_ball(1)
@@ -221,12 +207,14 @@ def test_the_angles_are_those_to_the_form_of_the_region(part, with_modifier):
         ),
     ],
 )
-def test_what_a_region_lacks_is_said(damage, words):
+def test_what_a_region_lacks_is_said(part, damage, words):
     monkey = add_monkey()
     add_group(monkey, "Top", upper)
     region = add_region(monkey, "Top")
     before = bits(monkey)
     damage(monkey, region)
+    with pytest.raises(ValueError, match=words):  # as the panel asks
+        part("regions.region").object_regions(monkey)
     with pytest.raises(RuntimeError, match=words):
         cubify()
     assert bits(monkey) == before
@@ -344,13 +332,3 @@ def test_a_region_from_the_selection():
     index = monkey.vertex_groups[region.group].index
     members = [v.index for v in monkey.data.vertices if any(g.group == index for g in v.groups)]
     assert members == [v.index for v in monkey.data.vertices if v.co.z > 0.3]
-
-
-def test_regions_are_saved_and_copied(reopen):
-    monkey = add_monkey("Kept")
-    add_group(monkey, "Top", upper)
-    add_region(monkey, "Top", form="PRISM", form_sides=7)
-    regions = reopen("Kept").cubic_craft.regions
-    assert (regions[0].group, regions[0].form, regions[0].form_sides) == ("Top", "PRISM", 7)
-    copy = add_copy(bpy.data.objects["Kept"])
-    assert copy.cubic_craft.regions[0].form == "PRISM"

@@ -176,35 +176,25 @@ def test_live_follows_the_modifier(live, begin):
     assert bits(obj) == bits(twin)
 
 
-FALL_BACKS = {
-    "simple": {"subdivision_type": "SIMPLE"},
-    "level 0": {"levels": 0},
-    "hidden": {"show_viewport": False},
+AS_THEY_ARE = {
+    "simple": (None, {"subdivision_type": "SIMPLE"}),
+    "level 0": (None, {"levels": 0}),
+    "hidden": (None, {"show_viewport": False}),
+    "no finer copy": (None, {}),
+    **{first: (first, {}) for first in ("BEVEL", "SOLIDIFY", "ARRAY")},  # which change the faces
 }
 
 
-@pytest.mark.parametrize("options", FALL_BACKS.values(), ids=FALL_BACKS)
-def test_what_is_not_smooth_is_solved_as_it_is(options):
-    plain, obj = add_sphere(), under_subdivision(add_sphere(), **options)
-    select(plain, obj)
-    finely()
-    assert bits(plain) == bits(obj)
-
-
-@pytest.mark.parametrize("kind", ["BEVEL", "SOLIDIFY", "ARRAY"])
-def test_a_modifier_that_changes_the_faces_first_is_left_alone(kind):
+@pytest.mark.thorough(5)
+@pytest.mark.parametrize("how", AS_THEY_ARE)
+def test_what_is_not_smooth_or_changed_before_is_solved_as_it_is(how):
+    first, options = AS_THEY_ARE[how]
     plain, obj = add_sphere(), add_sphere()
-    obj.modifiers.new("First", kind)
-    under_subdivision(obj)
+    if first:
+        obj.modifiers.new("First", first)
+    under_subdivision(obj, **options)
     select(plain, obj)
-    finely()
-    assert bits(plain) == bits(obj)
-
-
-def test_without_a_finer_copy_the_cage_itself_is_solved():
-    plain, obj = add_sphere(), under_subdivision(add_sphere())
-    select(plain, obj)
-    cubify(refine="OFF")
+    cubify(refine="OFF" if how == "no finer copy" else "AUTO", max_iterations=1000)
     assert bits(plain) == bits(obj)
 
 

@@ -28,8 +28,8 @@ def changes(extension):
 
 
 @pytest.fixture
-def last_run(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge").last_run
+def last_run(part):
+    return part("mesh_bridge").last_run
 
 
 def copy_of(obj, *, linked):

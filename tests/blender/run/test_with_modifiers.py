@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is seen becomes cubic: modifiers, texts, curves, surfaces and metaballs, in a new object."""
 
-import importlib
-
 import bpy
 import numpy as np
 import pytest
@@ -148,9 +146,9 @@ def test_of_an_earlier_result_nothing_is_brought_along():
     check_new(obj, original)
 
 
-def test_what_was_not_written_is_removed(extension):
-    jobs = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.job")
-    choice = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.settings.overrides")
+def test_what_was_not_written_is_removed(part):
+    jobs = part("job")
+    choice = part("settings.overrides")
     obj = add_modifiers(add_monkey())
     watched = jobs.WatchedJob(jobs.Job(choice.SettingsOverrides(SEEN), [obj]))
     watched.advance(0.0)
@@ -164,8 +162,8 @@ def test_what_was_not_written_is_removed(extension):
     assert not bpy.data.objects and len(bpy.data.meshes) == 1
 
 
-def test_the_panel_hints_where_the_mesh_says_little(extension):
-    seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.seen")
+def test_the_panel_hints_where_the_mesh_says_little(part):
+    seen = part("ui.seen")
     obj = add_monkey()
     assert not seen.can_be_seen(obj)
     obj.modifiers.new("Mirror", "MIRROR")  # solved as a whole, see Symmetry
@@ -219,8 +217,8 @@ def test_a_source_without_its_new_object_is_rendered_again(options):
     assert not obj.hide_render
 
 
-def test_what_will_be_rounded_again_is_named_and_helped_first(extension):
-    seen = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.seen")
+def test_what_will_be_rounded_again_is_named_and_helped_first(part):
+    seen = part("ui.seen")
     bpy.ops.mesh.primitive_cube_add()
     cage = bpy.context.object
     cage.modifiers.new("Mirror", "MIRROR")  # solved as a whole: it stays cubic

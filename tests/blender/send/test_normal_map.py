@@ -121,7 +121,7 @@ def test_the_map_has_the_normals_of_the_cubic_mesh(uv):
     assert np.median(with_map) < np.median(without) / LOST
 
 
-def test_the_material_shows_the_map():
+def test_the_material_shows_the_map(part):
     obj = add_detailed()
     skin = bpy.data.materials.new("Skin")
     if bpy.app.version < (5, 0):
@@ -132,6 +132,8 @@ def test_the_material_shows_the_map():
     material = low.material_slots[0].material
     assert material.name == "Skin Low" and obj.material_slots[0].material == skin
     assert "Normal Map" not in skin.node_tree.nodes
+    has_normal_map = part("send.targets").has_normal_map
+    assert has_normal_map(low) and not has_normal_map(obj), "a sent file needs tangents for it"
     (shader,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeBsdfPrincipled"]
     normal = shader.inputs["Normal"].links[0].from_node
     texture = normal.inputs["Color"].links[0].from_node

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A result that cannot be seen is said to be so, before the click and after it."""
 
-import importlib
-
 import bpy
 import numpy as np
 import pytest
@@ -73,13 +71,22 @@ COVERS = [_cached, _sequence, _laplacian, _surface, _nodes]
 
 
 @pytest.mark.parametrize("cover", COVERS)
-def test_a_covered_result_is_a_warning(cover, tmp_path, extension):
+def test_a_covered_result_is_a_warning(cover, tmp_path, part):
     obj = add_monkey()
     cover(obj, tmp_path)
-    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+    bridge = part("mesh_bridge")
     assert bridge.covers(obj) == ([] if cover == _nodes else [obj.modifiers[0].name])
     reports = reports_of(lambda: cubify(max_iterations=5)).splitlines()
     said = [text for text in reports if "still shows the old shape" in text]
     assert len(said) == 1 and "Cubify What You See" in said[0]
     assert ("one of its modifiers" in said[0]) == (cover == _nodes)
     assert obj.modifiers[0].name in said[0] or cover == _nodes
+
+
+def test_a_pinned_shape_key_covers_it():
+    obj = add_monkey()
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Pinned")
+    obj.active_shape_key_index, obj.show_only_shape_key = 1, True
+    said = reports_of(lambda: cubify(max_iterations=5, result="SHAPE_KEY"))
+    assert "still shows the old shape, which the pinned shape key brings" in said

@@ -4,21 +4,20 @@
 The row in the panel is tested in a window.
 """
 
-import importlib
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
 from live_steps import add_monkey, bits, confirm, tick_to_rest
 from mathutils import Matrix
+from recorder import Recorder
 from rich_mesh import position_of
 from scene import bmesh_of, cubify, reports_of
 
 
 @pytest.fixture
-def edited(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.edited")
+def edited(part):
+    return part("ui.edited")
 
 
 def edit(obj):
@@ -87,15 +86,6 @@ def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):
     assert shapes[:2] == shapes[2:]
 
 
-def test_an_edited_mesh_may_start_from_where_it_is():
-    obj = add_monkey()
-    cubify()
-    edited = edit(obj)
-    cubify(start="HERE")
-    bpy.ops.cubic_craft.restore()
-    assert position_of(obj.data).tobytes() == edited.tobytes()
-
-
 @pytest.mark.parametrize("by", ["object", "operator"])
 def test_an_edited_mesh_may_start_from_the_original(by):
     obj = add_monkey()
@@ -155,25 +145,6 @@ def test_the_first_original_comes_back():
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
 
 
-class Recorder:
-    """A layout that notes what is drawn."""
-
-    def __init__(self):
-        self.texts, self.properties = [], []
-
-    def box(self):
-        return self
-
-    def column(self, **_):
-        return self
-
-    def label(self, *, text, **_):
-        self.texts.append(text)
-
-    def prop(self, _data, name, **_):
-        self.properties.append(name)
-
-
 def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
     monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
     obj = add_monkey()
@@ -181,11 +152,13 @@ def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
     for shape in ("cubic", "edited", "with strokes"):
         layout = Recorder()
         edited.draw(bpy.context, layout, obj)
-        assert layout.properties == ([] if shape == "cubic" else ["start"])
+        assert layout.drawn == ([] if shape == "cubic" else ["start"])
         obj.cubic_craft.start = "HERE"
         layout = Recorder()
         edited.draw(bpy.context, layout, obj)
-        is_said = "This shape replaces the original. Restore First brings that" in str(layout.texts)
+        is_said = "This shape replaces the original. Restore First brings that" in str(
+            layout.labels
+        )
         assert is_said == (shape != "cubic")
         obj.cubic_craft.property_unset("start")
         if shape == "cubic":
@@ -207,8 +180,8 @@ def test_a_lost_original_is_named(edited, monkeypatch):
     update()
     layout = Recorder()
     edited.draw(bpy.context, layout, obj)
-    assert "no longer be determined: Cubify starts from here" in layout.texts[0]
-    assert layout.properties == []
+    assert "no longer be determined: Cubify starts from here" in layout.labels[0]
+    assert layout.drawn == []
     shape = position_of(obj.data)
     said = reports_of(lambda: cubify(max_iterations=2))
     assert '"Suzanne" starts from its current shape' in said
@@ -216,14 +189,3 @@ def test_a_lost_original_is_named(edited, monkeypatch):
     assert not edited.is_lost(obj.data)
     bpy.ops.cubic_craft.restore()
     assert position_of(obj.data).tobytes() == shape.tobytes()
-
-
-@pytest.mark.parametrize("number, start", [(0, "HERE"), (1, "ORIGINAL"), (None, "EDITS")])
-def test_what_older_files_say_stays(number, start):
-    """Blender stores the number of a choice."""
-    obj = add_monkey()
-    if number is not None:
-        obj.cubic_craft.start = start
-        choices = obj.cubic_craft.bl_rna.properties["start"].enum_items
-        assert choices[start].value == number
-    assert obj.cubic_craft.start == start

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's search and Quick Favorites find what is in menus; all is in Object > Cubic Craft."""
 
-import importlib
-
 import bpy
 import pytest
 from recorder import Recorder
@@ -12,8 +10,8 @@ NAME = "VIEW3D_MT_object_cubic_craft"
 
 
 @pytest.fixture
-def menus(extension):
-    return importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.menus")
+def menus(part):
+    return part("ui.menus")
 
 
 def _drawn(draw, owner):

@@ -12,8 +12,8 @@ from scene import add_monkey
 
 
 @pytest.fixture
-def problem(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.panel")
+def problem(part):
+    panel = part("ui.panel")
     return lambda obj: panel._problem(bpy.context, obj)
 
 
@@ -53,10 +53,8 @@ def test_a_mesh_without_faces_is_named(problem):
         ("WEIGHT_PAINT", True),
     ],
 )
-def test_in_other_modes_the_way_out_takes_the_place_of_a_message(
-    extension, problem, mode, is_usable
-):
-    modes = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.environment.modes")
+def test_in_other_modes_the_way_out_takes_the_place_of_a_message(part, problem, mode, is_usable):
+    modes = part("environment.modes")
     obj = add_monkey()
     bpy.ops.object.mode_set(mode=mode)
     try:
@@ -91,8 +89,8 @@ def test_what_is_wrong_with_a_handle_is_named(problem):
     assert problem(obj) == ""
 
 
-def test_texts_fit_the_room_that_there_is(extension):
-    text_fit = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.screen.text_fit")
+def test_texts_fit_the_room_that_there_is(part):
+    text_fit = part("screen.text_fit")
     text = '"Suzanne" has no vertex group "Ears"; pick another one'
     wide = text_fit.width_of(text)
     assert text_fit.wrapped(text, wide) == [text]
@@ -106,9 +104,9 @@ def test_texts_fit_the_room_that_there_is(extension):
         assert text_fit.longest_that_fits((text, text[:20], "Ears"), room) == fits
 
 
-def test_the_line_below_the_buttons_says_what_matters_most(extension):
-    panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.ui.status_panel")
-    bridge = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.mesh_bridge")
+def test_the_line_below_the_buttons_says_what_matters_most(part):
+    panel = part("ui.status_panel")
+    bridge = part("mesh_bridge")
     run = bridge.LastRun(
         settings={"cubeness": 0.4},
         vertices=12345,

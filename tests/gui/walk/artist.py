@@ -4,15 +4,7 @@
 import bpy
 import guidrive as gui
 
-from .actions import (
-    MOST_OBJECTS,
-    MOST_VERTICES,
-    action,
-    active,
-    active_mesh,
-    call,
-    meshes_in_view,
-)
+from .actions import MOST_OBJECTS, MOST_VERTICES, action, active, active_mesh, call, meshes_in_view
 
 _PRIMITIVES = (
     ("mesh.primitive_monkey_add", {}),

@@ -140,15 +140,6 @@ def test_where_nothing_is_left_free_it_starts_from_rest(large, device):
     np.testing.assert_array_equal(result.positions[pinned], V[pinned])
 
 
-def test_without_the_package_it_starts_from_rest(large, device, monkeypatch):
-    V, F = shapes.blob()
-    from_rest = stylize(V, F, 0.4, device=device, proxy=PAPER)
-    large()
-    monkeypatch.setattr("solver.coarse_to_fine.contraction.optional_package", lambda name: None)
-    again = stylize(V, F, 0.4, device=device, proxy=PAPER)
-    np.testing.assert_array_equal(again.positions, from_rest.positions)
-
-
 def test_small_meshes_and_the_plain_iteration_start_from_rest(large):
     setup = Setup(rest_mesh(*shapes.blob(), proxy=PAPER))
     assert Run(Stylization(setup, 0.4, options=SolverOptions(device="numpy")))._coarse is None

@@ -2,6 +2,8 @@
 """Shapes whose surfaces come near each other without crossing. All return V (n,3) and F (m,3)."""
 
 import numpy as np
+from proxy_shapes import joined, normals_of
+from shapes import rotation, sheet
 
 from tests.art import art_parts
 
@@ -57,7 +59,7 @@ def hand(fingers=4, gap=0.003, count=5):
     is_filled[slits, np.searchsorted(y, 0.75) :] = False
     V, F = triangulated(art_parts.blocks(x, y, z, is_filled))
     V[:, 2] += 0.25 * np.sin(1.2 * V[:, 1]) * (1 - 0.3 * V[:, 0])
-    return V @ turned(20, 10, 12).T, F
+    return V @ rotation(20, 10, 12).T, F
 
 
 def lips(gap=0.004, count=24):
@@ -69,7 +71,7 @@ def lips(gap=0.004, count=24):
     is_wide = np.abs(0.5 * (grid[1:] + grid[:-1])) < 0.6
     is_filled[np.ix_(is_wide, grid[1:] < -0.4, [mouth])] = False
     V, F = triangulated(art_parts.blocks(grid, grid, z, is_filled))
-    return round_of(V) @ turned(15, 5, 10).T, F
+    return round_of(V) @ rotation(15, 5, 10).T, F
 
 
 def spring(turns=6, sides=10, per_turn=36, gap=0.06):
@@ -97,25 +99,11 @@ def layers(count=4, gap=0.01, side=24):
     """Return wavy sheets that lie over each other, a gap of their size apart."""
     sheets = []
     for k in range(count):
-        x, y = np.meshgrid(np.linspace(0, 1, side), np.linspace(0, 1, side), indexing="ij")
+        V, F = sheet(side)
+        x, y, _ = V.T
         z = 0.15 * np.sin(7 * x + 0.3) * np.cos(5 * y) + gap * k
-        V = np.stack([x + 0.003 * k, y, z], axis=-1).reshape(-1, 3)
-        i = np.arange(side * side).reshape(side, side)
-        a, b, c, d = (
-            i[:-1, :-1].ravel(),
-            i[1:, :-1].ravel(),
-            i[1:, 1:].ravel(),
-            i[:-1, 1:].ravel(),
-        )
-        sheets.append((V, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])))
+        sheets.append((np.column_stack([x + 0.003 * k, y, z]), F))
     return joined(*sheets)
-
-
-def joined(*meshes):
-    """Return several meshes as one."""
-    starts = np.cumsum([0, *(len(V) for V, _ in meshes)])
-    F = [F + start for (_, F), start in zip(meshes, starts, strict=False)]
-    return np.concatenate([V for V, _ in meshes]), np.concatenate(F)
 
 
 def round_of(V):
@@ -123,26 +111,6 @@ def round_of(V):
     radius = np.linalg.norm(V, axis=1, keepdims=True)
     size = np.abs(V).max(axis=1, keepdims=True)
     return V * (0.3 + 0.7 * size / np.maximum(radius, 1e-9))
-
-
-def turned(x, y, z):
-    """Return the rotation about x, then y, then z, by degrees."""
-    result = np.eye(3)
-    for axis, degrees in enumerate((x, y, z)):
-        a, (i, j) = np.radians(degrees), ((1, 2), (2, 0), (0, 1))[axis]
-        one = np.eye(3)
-        one[[i, i, j, j], [i, j, i, j]] = np.cos(a), -np.sin(a), np.sin(a), np.cos(a)
-        result = one @ result
-    return result
-
-
-def normals_of(V, F):
-    """Return unit vertex normals."""
-    face = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    sums = np.zeros_like(V)
-    for k in range(3):
-        np.add.at(sums, F[:, k], face)
-    return sums / np.maximum(np.linalg.norm(sums, axis=1), 1e-12)[:, None]
 
 
 def surface(field, low, high, step, rounds=3):

@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles that cross: all of them are found, and nothing else."""
+"""Crossings: all are found and nothing else, which of them are seen, and how they come apart."""
 
 import numpy as np
 import pytest
 import shapes
+from proxy_shapes import joined, uv_sphere
+from scipy.sparse.csgraph import shortest_path
 
+from solver.contacts import push
 from solver.contacts.crossings import CrossingTriangles, Watched, crossings
+from solver.contacts.gaps import NEAR_EDGES, Gaps, graph_of
+from solver.contacts.shown import shown
 from solver.mesh import overlaps
+from solver.mesh.rest_measures import areas_and_normals
 
 
 def soup(count, size, spread=0.3, seed=0):
@@ -129,3 +135,120 @@ def test_of_many_that_lie_on_top_of_each_other_no_pair_is_compared(monkeypatch):
     monkeypatch.setattr(overlaps, "MOST", 100)
     V, F = soup(1, 0.5)
     assert len(crossings(V, np.repeat(F, 500, axis=0))) == 0
+
+
+def fold(degrees, size=25):
+    """Return a flat sheet of edge 0.5 that is folded in its middle to an angle."""
+    V, F = shapes.sheet(size)
+    x, y = 0.5 * V[:, 0] - 0.25, 0.5 * V[:, 1]
+    half = np.radians(degrees / 2)
+    return np.stack([np.abs(x) * np.cos(half), y, x * np.sin(half)], axis=1), F
+
+
+def test_no_link_leads_to_a_vertex_nearby_on_the_surface():
+    V, F = fold(30.0)
+    i, j = Gaps(V, areas_and_normals(V, F)[1], F).partners(np.arange(len(V)))
+    edges = shortest_path(graph_of(F, len(V)), unweighted=True)[i, j]
+    assert len(i) > 100 and edges.min() > NEAR_EDGES
+    assert (V[i, 2] * V[j, 2] < 0.0).all(), "from one side of the fold to the other"
+
+
+def test_what_is_asked_again_is_answered_as_before_without_a_search(monkeypatch):
+    V, F = fold(30.0)
+    gaps = Gaps(V, areas_and_normals(V, F)[1], F)
+    some = np.arange(0, len(V), 3)
+    gaps.partners(some)
+    i, j = gaps.partners(np.arange(len(V)))
+    anew = Gaps(V, areas_and_normals(V, F)[1], F).partners(np.arange(len(V)))
+    np.testing.assert_array_equal((i, j), anew)
+    searches = []
+    monkeypatch.setattr(gaps, "_across", lambda *asked: searches.append(asked))
+    np.testing.assert_array_equal(gaps.partners(some), (i[np.isin(i, some)], j[np.isin(i, some)]))
+    assert not searches
+
+
+@pytest.fixture
+def steps(monkeypatch):
+    """Return positions after each step, of which the second has fewer crossings than the others."""
+    V, F = shapes.blob(1)
+    pairs = np.array([[0, 40], [1, 41], [2, 42]])
+    left = iter([pairs[:2], pairs[:1], *[pairs] * push.STEPS])
+
+    class Watched:
+        def __init__(self, *_):
+            pass
+
+        def crossings(self, _):
+            return next(left)
+
+    monkeypatch.setattr(push, "Watched", Watched)
+    seen = []
+
+    def impose(U):
+        U += 1e-4 * (len(seen) + 1)
+        seen.append(U.copy())
+
+    counts, is_free = lambda pairs: np.ones(len(pairs), bool), np.ones(len(V), bool)
+    best = push.pushed(V, V + 0.0, F, pairs, counts, is_free, impose)
+    return seen, best
+
+
+def test_the_best_step_counts_not_the_last(steps):
+    seen, best = steps
+    assert len(seen) == push.STEPS
+    np.testing.assert_array_equal(best, seen[1])
+    assert np.abs(best - seen[-1]).max() > 0.0
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_where_the_rest_shape_says_nothing_the_shorter_way_leads_apart(sign):
+    over = [(1, 1, 0.3 * sign), (2, 1, -0.1 * sign), (1, 2, -0.1 * sign)]
+    V = np.array([*over, (0, 0, 0), (9, 0, 0), (0, 9, 0)], dtype=float)
+    _, lift, _ = push._lifts(V, V, np.array([[0, 1, 2]]), np.array([[3, 4, 5]]))
+    np.testing.assert_allclose(lift, sign * np.array([[0.0, 0.1, 0.1]]), atol=2 * push.MARGIN)
+
+
+def test_many_that_do_not_come_apart_are_given_up_soon(monkeypatch):
+    """Of a heap of coins, 4,000 pairs crossed after 15 steps, and after 40."""
+    V, F = shapes.blob(2)
+    pairs = np.array([[k, k + 160] for k in range(push.MANY + 20)])
+    steps = []
+
+    class Watched:
+        def __init__(self, *_):
+            pass
+
+        def crossings(self, _):
+            steps.append(len(pairs))
+            return pairs
+
+    monkeypatch.setattr(push, "Watched", Watched)
+    counts, is_free = lambda pairs: np.ones(len(pairs), bool), np.ones(len(V), bool)
+    push.pushed(V, V + 0.0, F, pairs, counts, is_free, lambda _: None)
+    assert len(steps) == push.PATIENCE
+
+
+def cross(at):
+    """Return two small triangles that cross each other at a place."""
+    V = np.array([[-1.0, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0.1, 1], [0, -1, 1]])
+    return 0.1 * V + at, np.array([[0, 1, 2], [3, 4, 5]])
+
+
+def test_what_is_inside_is_not_seen():
+    V, F = joined(uv_sphere(24, 12), cross([0.1, 0.2, 0.0]), cross([2.0, 0.3, 0.1]))
+    pairs = crossings(V, F)
+    count = len(uv_sphere(24, 12)[1])
+    assert pairs.tolist() == [[count, count + 1], [count + 2, count + 3]]
+    assert shown(V, F, pairs).tolist() == [False, True]
+
+
+def test_a_line_on_the_outside_is_seen():
+    """Where two balls go into each other, a line goes around both."""
+    V, F = uv_sphere(24, 12)
+    V, F = joined((V, F), (V * 0.9 + [0.7, 0.05, 0.02], F))
+    assert shown(V, F, crossings(V, F)).all()
+
+
+def test_nothing_crosses():
+    V, F = uv_sphere(8, 4)
+    assert shown(V, F, np.empty((0, 2), int)).shape == (0,)

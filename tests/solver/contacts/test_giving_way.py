@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from contact_shapes import joined
-from proxy_shapes import uv_sphere
+from facing import angle_to_axes
+from proxy_shapes import joined, uv_sphere
 
 from solver import ProxyOptions, stylize
 from solver.contacts.riding import riding
@@ -53,13 +53,7 @@ def strands(count=COUNT):
     return V.reshape(-1, 3), F.reshape(-1, 3)
 
 
-def angle_to_axes(U, F):
-    normal = np.cross(U[F[:, 1]] - U[F[:, 0]], U[F[:, 2]] - U[F[:, 0]])
-    size = np.linalg.norm(normal, axis=1)
-    cosine = np.abs(normal).max(axis=1) / np.maximum(size, 1e-12)
-    return np.degrees(np.average(np.arccos(np.minimum(cosine, 1.0)), weights=size))
-
-
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("make, crispness", [(hair, 0.0), (hair, 0.9), (strands, 0.9)])
 def test_a_head_becomes_as_cubic_as_without_keep_apart(make, crispness):
     head = uv_sphere(32, 16)

@@ -5,6 +5,7 @@ import contact_shapes
 import numpy as np
 import pytest
 import shapes
+from proxy_shapes import joined
 
 from solver import (
     PAPER,
@@ -21,7 +22,7 @@ from solver import (
     run,
     stylize,
 )
-from solver.contacts import keep_apart
+from solver.contacts import keep_apart, pairs
 from solver.contacts.crossings import crossings
 from solver.proxy import no_links
 
@@ -176,9 +177,18 @@ def test_a_few_are_pushed_apart_without_a_round(monkeypatch):
 def test_there_is_no_round_where_hardly_anything_can_be_linked(monkeypatch):
     V, F = contact_shapes.hand()
     state = stylization(V, F, options=COARSE)
-    monkeypatch.setattr(keep_apart, "links_against", lambda *_: no_links())
+    real, found = keep_apart.links_against, []
+    monkeypatch.setattr(
+        keep_apart, "links_against", lambda *given: found.append(real(*given)) or no_links()
+    )
     whole, rounds = rounds_of(state)
     assert rounds == 0
+    is_across = ~found[0].coefficients[:, 2:].any(axis=1)
+    i, j = found[0].vertices[is_across, :2].T
+    lengths = np.linalg.norm(state.rest.V[i] - state.rest.V[j], axis=1)
+    stiffness = found[0].weights[is_across, 0] / state.rest.areas[i]
+    relative = stiffness * lengths**2 / pairs.STRENGTH
+    assert relative.min() > 0.45 and relative.max() < 1.05, "some share their strength"
     result = whole.result()
     # some of them inside the hand, where nobody sees them
     assert 40 < result.crossings < len(new_crossings(V, result.positions, F))
@@ -214,7 +224,7 @@ def test_loose_vertices_do_not_move():
 def test_mirrored_halves_stay_mirror_images():
     V, F = contact_shapes.hand()
     linear, offset = np.diag([-1.0, 1, 1]), np.array([-0.5, 0, 0])
-    V, F = contact_shapes.joined((V, F), (V @ linear + offset, F[:, ::-1]))
+    V, F = joined((V, F), (V @ linear + offset, F[:, ::-1]))
     mirror = Mirror(partners(V, V @ linear + offset, 1e-6), linear, offset)
     assert mirror.count == len(V)
     both = Run(stylization(V, F, options=COARSE, mirrors=[mirror]))
@@ -245,7 +255,7 @@ def test_held_groups_keep_their_place():
 
 def test_a_pose_has_its_own_contacts():
     V, F = contact_shapes.hand()
-    posed = V @ contact_shapes.turned(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
+    posed = V @ shapes.rotation(0, 30, 0).T + [0.0, 0.0, 0.1] * V[:, 1:2]
     setup = Setup(rest_mesh(V, F, ProxyOptions(**COARSE))).posed(posed)
     result = run(Stylization(setup, 0.4, options=SolverOptions(device="numpy", keep_rotation=True)))
     assert result.crossings == len(new_crossings(posed, result.positions, F)) == 0
@@ -266,7 +276,7 @@ def test_links_that_are_none_change_nothing():
 
 def test_what_crosses_at_rest_may_cross():
     V, F = shapes.sphere(3)
-    V, F = contact_shapes.joined((V, F), (0.4 * V + [0.0, 0.1, 1.0], F))
+    V, F = joined((V, F), (0.4 * V + [0.0, 0.1, 1.0], F))
     assert len(crossings(V, F))
     result = run(stylization(V, F, 0.6))
     assert result.converged
@@ -277,16 +287,13 @@ HOSTILE = {
     "soup": lambda rng: (rng.random((300, 3)), np.arange(300).reshape(-1, 3)),
     "tangle": lambda rng: (rng.random((60, 3)), rng.integers(0, 60, (200, 3))),
     "each face twice": lambda rng: (shapes.blob(2)[0], np.tile(shapes.blob(2)[1], (2, 1))),
-    "coincident sheets": lambda rng: contact_shapes.joined(*[shapes.sheet()] * 3),
-    "coincident blobs": lambda rng: contact_shapes.joined(*[shapes.blob(2)] * 2),
+    "coincident sheets": lambda rng: joined(*[shapes.sheet()] * 3),
+    "coincident blobs": lambda rng: joined(*[shapes.blob(2)] * 2),
     "broken": lambda rng: shapes.broken(),
-    "noise": lambda rng: (
-        shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)),
-        shapes.blob(2)[1],
-    ),
+    "noise": lambda rng: (shapes.blob(2)[0] + 0.2 * rng.normal(size=(162, 3)), shapes.blob(2)[1]),
     "flat": lambda rng: (shapes.blob(2)[0] * [1, 1, 0], shapes.blob(2)[1]),
     "a point": lambda rng: (np.zeros((6, 3)), np.arange(6).reshape(2, 3)),
-    "far apart": lambda rng: contact_shapes.joined(
+    "far apart": lambda rng: joined(
         shapes.blob(1), (1e-6 * shapes.blob(1)[0] + 1.5, shapes.blob(1)[1])
     ),
 }

@@ -6,7 +6,7 @@ import proxy_shapes
 import pytest
 import shapes
 from devices import by_device
-from procrustes import best_rotation
+from procrustes import degrees
 
 from solver import ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
 from solver.limbs.covering import COVERING
@@ -14,18 +14,12 @@ from solver.limbs.covering import COVERING
 
 def solid(*outline, sides=20):
     """Return the closed solid of revolution of an outline (radius, height)."""
-    angles = 2 * np.pi * np.arange(sides) / sides
-    around = np.stack([np.cos(angles), np.sin(angles), np.ones(sides)], axis=1)
-    rings = [around * [radius, radius, height] for radius, height in outline]
-    V = np.concatenate([*rings, [[0, 0, outline[0][1]], [0, 0, outline[-1][1]]]])
-    i = np.arange(sides)
-    j, last = (i + 1) % sides, sides * (len(outline) - 1)
-    faces = [np.stack([j, i, 0 * i + len(V) - 2], 1)]
-    for k in range(0, last, sides):
-        faces += [np.stack([k + i, k + j, k + sides + j], 1)]
-        faces += [np.stack([k + i, k + sides + j, k + sides + i], 1)]
-    faces.append(np.stack([last + i, last + j, 0 * i + len(V) - 1], 1))
-    return V, np.concatenate(faces)
+    V, F = proxy_shapes.revolved(outline, sides)
+    i, last, n = np.arange(sides), len(V) - sides, len(V)
+    j = (i + 1) % sides
+    lids = [np.stack([j, i, 0 * i + n], 1), np.stack([last + i, last + j, 0 * i + n + 1], 1)]
+    ends = [[0, 0, outline[0][1]], [0, 0, outline[-1][1]]]
+    return np.concatenate([V, ends]), np.concatenate([F, *lids])
 
 
 def lamp():
@@ -36,12 +30,6 @@ def lamp():
         solid((0.1, 2.32), (0.3, 2.45), (0.35, 2.65), (0.3, 2.85), (0.1, 2.98)),
         solid((0.5, 2.95), (0.1, 3.25)),
     )
-
-
-def degrees(V, U):
-    """Return by how much U (n,3) is turned from V (n,3)."""
-    Q = best_rotation(V, U, np.ones(len(V)))
-    return np.degrees(np.arccos(np.clip((np.trace(Q) - 1) / 2, -1, 1)))
 
 
 def leaning(mesh, cubeness):

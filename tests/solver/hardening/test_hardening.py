@@ -7,7 +7,9 @@ import numpy as np
 import proxy_shapes
 import pytest
 import shapes
+from facing import AXES, share_facing
 from named_forms import POLYTOPES
+from shapes import sheet
 
 from solver import (
     PAPER,
@@ -26,13 +28,14 @@ from solver import (
     stylize,
     triangle_areas_and_normals,
 )
+from solver.hardening.borders import straightening
 from solver.hardening.sides import NO_SIDE
+from solver.mesh.face_graph import FaceGraph
 from solver.styles.forms import prism
 
 KEPT = SolverOptions(keep_rotation=True, device="numpy")
 PLAIN = SolverOptions(keep_rotation=True, device="numpy", is_accelerated=False)
 ROUND = ("cylinder", "cone", "slab", "pillar")
-CUBE = np.concatenate([np.eye(3), -np.eye(3)])
 
 
 def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
@@ -42,13 +45,6 @@ def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
         state.step()
     state.finish()
     return state
-
-
-def facing(U, F, directions, degrees):
-    """Return the share of the area that faces one of the directions."""
-    areas, normals = triangle_areas_and_normals(U, F)
-    is_facing = (normals @ directions.T).max(axis=1) > np.cos(np.radians(degrees))
-    return areas[is_facing].sum() / areas.sum()
 
 
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions(refine=False)], ids=["paper", "links"])
@@ -93,7 +89,7 @@ def test_a_ball_gets_the_sides_of_its_form(name):
     form = POLYTOPES[name]()
     directions = form.normals
     shares = [
-        facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
+        share_facing(run(state(form, crispness, V, F)).positions, F, directions, 6)
         for crispness in (0.0, 1.0)
     ]
     least = {"tetrahedron": 0.7, "pyramid": 0.79}.get(name, 0.88)
@@ -152,9 +148,9 @@ def test_no_flat_side_of_a_rounded_box_becomes_less_flat(crispness):
     """The cushion of the complaint: sides that are flat at rest, with round edges."""
     V, F = shapes.sphere(4)
     V = np.clip(4.0 * V, -1.0, 1.0) * [1.0, 0.7, 0.4] + 0.2 * V
-    before = facing(V, F, CUBE, 6)
+    before = share_facing(V, F, AXES, 6)
     U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=crispness).positions
-    assert facing(U, F, CUBE, 6) > before
+    assert share_facing(U, F, AXES, 6) > before
 
 
 def test_crispness_0_changes_nothing():
@@ -291,7 +287,7 @@ def test_frames_keep_their_sides():
         frame = Stylization(setup.posed(V @ turn.T), Style(0.6, crispness=1.0), options=KEPT)
         result = sequence.solve(frame)
         sides.append(sequence.state.facing)
-        assert facing(result.positions, F, CUBE, 8) > 0.74
+        assert share_facing(result.positions, F, AXES, 8) > 0.74
     changes = np.diff(np.array(sides), axis=0).any(axis=2).sum(axis=0)
     assert np.mean(changes > 1) < 0.02
 
@@ -325,3 +321,64 @@ def test_a_flat_roof_between_two_sides_is_not_bent():
     for roof in ([1, 8, 9, 3], [5, 7, 9, 8]):
         X = U[roof] - U[roof].mean(axis=0)
         assert np.linalg.svd(X)[1][2] < 0.02
+
+
+SLANT = 0.4
+"""of the border of a roof, against the edges of its triangles"""
+
+
+def roof(n=24, noise=0.1):
+    """Return a roof whose ridge lies aslant on its grid, and the side of each triangle.
+
+    Vertices along the ridge are off it by up to so much of an edge.
+    """
+    V, F = sheet(n + 1)
+    V = V * [1.0, 1.0, 0.0]
+    across = V[F].mean(axis=1) @ [1.0, -SLANT, 0.0] - 0.5 + SLANT / 2
+    side = (across > 0.0).astype(np.int64)
+    is_ridge = np.zeros(len(V), dtype=bool)
+    is_ridge[np.intersect1d(F[side == 0], F[side == 1])] = True
+    height = np.abs(V @ [1.0, -SLANT, 0.0] - 0.5 + SLANT / 2)
+    V[:, 2] = -np.where(is_ridge, 0.0, height)
+    shift = np.random.default_rng(1).uniform(-noise, noise, (len(V), 3)) / n
+    V[is_ridge] += shift[is_ridge]
+    return V, F, side, is_ridge
+
+
+def directions_of(side):
+    lean = np.array([[-1.0, SLANT, 0.0], [1.0, -SLANT, 0.0]]) + [0.0, 0.0, 1.0]
+    return (lean / np.linalg.norm(lean, axis=1, keepdims=True))[side]
+
+
+def bends(V, is_ridge):
+    """Return how far each vertex of the ridge is from the middle of those beside it."""
+    ridge = V[is_ridge][np.argsort(V[is_ridge] @ [SLANT, 1.0, 0.0])]
+    return np.linalg.norm(ridge[1:-1] - 0.5 * (ridge[2:] + ridge[:-2]), axis=1)
+
+
+@pytest.mark.parametrize("fixed", [(), (300, 301)])
+def test_only_the_border_moves_and_becomes_straight(fixed):
+    V, F, side, is_ridge = roof()
+    moves = straightening(V, F, FaceGraph(V, F), side, directions_of(side), np.array(fixed, int))
+    assert not moves[~is_ridge].any() and not moves[list(fixed)].any()
+    assert moves[is_ridge].any()
+    before, after = bends(V, is_ridge), bends(V + moves, is_ridge)
+    assert after.mean() < 0.6 * before.mean()
+    areas = np.cross(*(V + moves)[F].swapaxes(0, 1)[1:] - (V + moves)[F[:, 0]])
+    assert (np.einsum("mj,mj->m", areas, directions_of(side)) > 0.0).all()
+
+
+def test_what_has_no_side_stays():
+    V, F, side, _ = roof()
+    side[side == 1] = -1
+    graph = FaceGraph(V, F)
+    assert not straightening(V, F, graph, side, directions_of(side), np.empty(0, int)).any()
+
+
+def test_a_run_straightens_what_it_has_made_flat():
+    V, F, _, _ = roof(8)
+    style = Style(0.6, crispness=1.0)
+    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), style, options=SolverOptions()))
+    run.complete()
+    hardening = run.stylization.hardening
+    assert hardening.moves.shape == run.stylization.positions.shape

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Limbs: what is one, which way it lies, and that it keeps its direction."""
 
+import tracemalloc
 from dataclasses import replace
 
 import limb_shapes
@@ -10,6 +11,8 @@ import proxy_shapes
 import pytest
 import scipy.sparse as sp
 import shapes
+from facing import angle_to_axes
+from proxy_shapes import uv_sphere
 
 from solver import (
     Mirror,
@@ -46,13 +49,6 @@ def along_z(V):
 
 def angle_between(a, b):
     return np.degrees(np.arccos(np.clip(a @ b, -1.0, 1.0)))
-
-
-def angle_to_axes(V, F):
-    normal = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    area = np.linalg.norm(normal, axis=1)
-    largest = np.abs(normal).max(axis=1) / np.maximum(area, 1e-300)
-    return np.degrees(np.average(np.arccos(np.minimum(largest, 1.0)), weights=area))
 
 
 @pytest.mark.parametrize("degrees", [10, 30, 45, 60])
@@ -254,3 +250,77 @@ def test_the_rim_of_a_shell_is_no_limb(share, wall, is_shell):
     thickness = np.where(is_limb, 0.03, wall)
     found = without_shells(limbs, V, np.zeros(100, int), np.full(100, 0.01), thickness)
     assert found.shares.sum() == (0.0 if is_shell else limbs.shares.sum())
+
+
+def bars(count):
+    """Return the RestMesh of bars side by side, each turned another way."""
+    z = np.linspace(-1.5, 1.5, 24)
+    V, F = limb_shapes.tube(np.outer(z, [0.0, 0.0, 1.0]), 0.2, 12)
+    angles = np.random.default_rng(2).uniform(-60, 60, (count, 3))
+    places = [[4.0 * (k % 16), 4.0 * (k // 16), 0.0] for k in range(count)]
+    turned = ((V @ shapes.rotation(*a).T + at, F) for a, at in zip(angles, places, strict=True))
+    return rest_mesh(*proxy_shapes.joined(*turned), ProxyOptions())
+
+
+def peak_of_limbs(rest):
+    """Return the Limbs of a RestMesh, and the most bytes at once while they are found."""
+    tracemalloc.start()
+    limbs = rest.limbs
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return limbs, peak
+
+
+def test_of_many_bars_each_lies_along_itself_in_memory_that_grows_with_their_number():
+    few, peak_of_few = peak_of_limbs(bars(32))
+    rest = bars(128)
+    limbs, peak = peak_of_limbs(rest)
+    assert peak < 6.0 * peak_of_few  # with distances between all, it was 9 times
+    assert len(limbs) == 4 * len(few) == 128
+    of_vertex = np.asarray(limbs.shares.argmax(axis=1)).ravel()
+    for k in range(128):
+        rows = np.flatnonzero(rest.topology.part == k)
+        found = np.bincount(of_vertex[rows]).argmax()
+        direction = np.linalg.eigh(np.cov(rest.V[rows].T))[1][:, 2]
+        assert abs(limbs.directions[found] @ direction) > 0.999
+
+
+SIDES, RINGS = 16, 24
+
+
+def horn(degrees, length):
+    """Return a horn that leans and whose one side runs along it, its direction, and its head."""
+    a = np.radians(degrees)
+    d = np.array([0.8 * np.sin(a), 0.6 * np.sin(a), np.cos(a)])
+    x = np.cross(d, [0.3, 0.2, 0.9])
+    x /= np.linalg.norm(x)
+    y = np.cross(d, x)
+    t, angle = np.meshgrid(np.linspace(0, 1, RINGS), 2 * np.pi * np.arange(SIDES) / SIDES)
+    t, angle = t.T[..., None], angle.T[..., None]
+    radius, middle = 0.2 - 0.18 * t, (0.5 + length * t) * d - 0.162 * t * y
+    V = (middle + radius * (np.cos(angle) * x + np.sin(angle) * y)).reshape(-1, 3)
+    V = np.concatenate([V, [0.5 * d], middle[-1]])
+    i = np.arange(SIDES * RINGS).reshape(RINGS, SIDES)
+    p, q = i[:-1].ravel(), np.roll(i, -1, axis=1)[:-1].ravel()
+    first, second = np.roll(i[0], -1), np.roll(i[-1], -1)
+    F = [
+        np.stack([p, q, q + SIDES], 1),
+        np.stack([p, q + SIDES, p + SIDES], 1),
+        np.stack([np.full(SIDES, len(V) - 2), first, i[0]], 1),
+        np.stack([np.full(SIDES, len(V) - 1), i[-1], second], 1),
+    ]
+    head, of_head = uv_sphere(32, 16)
+    return np.concatenate([V, 0.7 * head]), np.concatenate([*F, of_head + len(V)])
+
+
+def direction(V):
+    middles = V[: SIDES * RINGS].reshape(RINGS, SIDES, 3).mean(axis=1)[RINGS // 4 :]
+    return np.linalg.svd(middles - middles.mean(axis=0))[2][0]
+
+
+@pytest.mark.parametrize(("degrees", "length"), [(20, 0.8), (35, 0.8), (45, 0.6)])
+def test_a_horn_keeps_its_direction(degrees, length):
+    V, F = horn(degrees, length)
+    result = stylize(V, F, proxy=ProxyOptions(), keep_rotation=True)
+    cosine = abs(direction(V) @ direction(result.positions))
+    assert np.degrees(np.arccos(min(cosine, 1.0))) < 5.0

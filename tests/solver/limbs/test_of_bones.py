@@ -9,15 +9,7 @@ import pytest
 import shapes
 from scipy.sparse import csr_matrix
 
-from solver import (
-    Pose,
-    ProxyOptions,
-    Setup,
-    SolverOptions,
-    Stylization,
-    limbs_of_bones,
-    rest_mesh,
-)
+from solver import Pose, ProxyOptions, Setup, SolverOptions, Stylization, limbs_of_bones, rest_mesh
 from solver.limbs import KnownLimbs, Limbs, turns
 
 X, Y, Z = np.eye(3)

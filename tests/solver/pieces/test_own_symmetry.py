@@ -55,45 +55,30 @@ def test_it_is_symmetric_about_the_axes_about_which_it_is():
     assert np.abs(axes_of()).tolist() == [[1.0, 0.0, 0.0]]
 
 
-@pytest.mark.parametrize(
-    "why",
-    [
-        "aslant",
-        "sheared",
-        "beside",
-        "form",
-        "turned",
-        "moved",
-        "pinned",
-        "map",
-        "detail",
-        "asked",
-        "one ear",
-    ],
-)
+EARS = ears()[0]
+RIGHT = EARS[:, 0] > 0.5
+NOT_SYMMETRIC = {
+    "aslant": {"V": EARS @ rotation(z=0.3)},
+    "sheared": {"matrix": np.array([[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])},
+    "beside": {"V": EARS + [0.5, 0.0, 0.0]},
+    "form": {"style": Style(0.4, rotation(x=0.7, z=0.3), form=tetrahedron())},
+    "turned": {"style": Style(0.4, rotation(z=0.3))},
+    "moved": {
+        "handles": [HandlePose(matrix=tuple(np.diag([1.0, 1, 2, 1]).ravel()))],
+        "handle_of": np.where(EARS[:, 2] > 0.9, 0, -1),
+    },
+    "pinned": {"handles": [HandlePose()], "handle_of": np.where(RIGHT, 0, -1)},
+    "map": {"map_weights": np.where(RIGHT, 0.5, 1.0)},
+    "detail": {"detail_weights": np.where(RIGHT, 0.5, 1.0)},
+    "asked": {"symmetry": (False, True, False)},
+    "one ear": {"V": np.where((EARS[:, 2:] > 0.8) & RIGHT[:, None], 0.9 * EARS, EARS)},
+}
+
+
+@pytest.mark.parametrize("why", NOT_SYMMETRIC)
 def test_it_is_not_where_something_is_not_symmetric(why):
-    V, _ = ears()
-    right = V[:, 0] > 0.5
-    options = {
-        "aslant": {"V": V @ rotation(z=0.3)},
-        "sheared": {
-            "matrix": np.array([[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
-        },
-        "beside": {"V": V + [0.5, 0.0, 0.0]},
-        "form": {"style": Style(0.4, rotation(x=0.7, z=0.3), form=tetrahedron())},
-        "turned": {"style": Style(0.4, rotation(z=0.3))},
-        "moved": {
-            "handles": [HandlePose(matrix=tuple(np.diag([1.0, 1, 2, 1]).ravel()))],
-            "handle_of": np.where(V[:, 2] > 0.9, 0, -1),
-        },
-        "pinned": {"handles": [HandlePose()], "handle_of": np.where(right, 0, -1)},
-        "map": {"map_weights": np.where(right, 0.5, 1.0)},
-        "detail": {"detail_weights": np.where(right, 0.5, 1.0)},
-        "asked": {"symmetry": (False, True, False)},
-        "one ear": {"V": np.where((V[:, 2:] > 0.8) & right[:, None], 0.9 * V, V)},
-    }[why]
     asked = [[0.0, 1.0, 0.0]] if why == "asked" else []
-    assert np.abs(axes_of(**options)).tolist() == asked
+    assert np.abs(axes_of(**NOT_SYMMETRIC[why])).tolist() == asked
 
 
 def test_it_is_told_whether_it_is_symmetric_at_other_places_too():

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from facing import AXES, share_facing
 from shapes import blob, extent, rotation, sheet, sphere
 
 from solver import (
@@ -46,15 +47,6 @@ def matrix_of(linear=None, offset=(0.0, 0.0, 0.0)):
     return matrix
 
 
-def share_facing(V, F, normals, chosen):
-    """Return the share of the area of chosen triangles that lies within 10 degrees of normals."""
-    a, b, c = (V[F[chosen, k]].astype(float) for k in range(3))
-    n = np.cross(b - a, c - a)
-    area = np.linalg.norm(n, axis=1)
-    cosine = (n / np.maximum(area, 1e-12)[:, None] @ normals.T).max(axis=1)
-    return area[cosine > np.cos(np.radians(10.0))].sum() / area.sum()
-
-
 def test_regions_have_styles_of_their_own():
     V, F = sphere(3)
     is_top = V[:, 2] > 0.0
@@ -63,11 +55,9 @@ def test_regions_have_styles_of_their_own():
     piece = piece_of(V, F, Style(2.0), regions=[gem], region_shares=shares)
     (U,) = solved(piece)
     heights = V[F].mean(axis=1)[:, 2]
-    axes = np.concatenate([np.eye(3), -np.eye(3)])
-    facets = gem.form.normals
-    assert share_facing(U, F, facets, heights > 0.4) > 0.6 > share_facing(U, F, axes, heights > 0.4)
-    assert share_facing(U, F, axes, heights < -0.4) > 0.6
-    assert share_facing(U, F, facets, heights < -0.4) < 0.4
+    top, low, facets = F[heights > 0.4], F[heights < -0.4], gem.form.normals
+    assert share_facing(U, top, facets, 10) > 0.6 > share_facing(U, top, AXES, 10)
+    assert share_facing(U, low, AXES, 10) > 0.6 > 0.4 > share_facing(U, low, facets, 10)
 
 
 def test_a_half_with_its_mirror_is_half_of_the_whole():
@@ -179,10 +169,7 @@ OF_PIECE = {
     "map below 0": ({"map_weights": -1}, "map_weights must be finite and not negative"),
     "text": ({"detail_weights": "x"}, "detail_weights must be real numbers, not text"),
     "shares alone": ({"region_shares": HALVES}, "region_shares needs regions, a list of styles"),
-    "regions alone": (
-        {"regions": [Style(1)]},
-        r"regions need region_shares, .* \(42, 2",
-    ),
+    "regions alone": ({"regions": [Style(1)]}, r"regions need region_shares, .* \(42, 2"),
     "a region": ({"regions": Style(1)}, "regions must be a list, even of one"),
     "shares": (
         {"regions": [Style(1)], "region_shares": HALVES[:, 0]},
@@ -253,8 +240,7 @@ def test_a_handle_that_is_not_there_is_refused(number, named):
     assert piece_of(V, F, handles=[HandlePose()], handle_of=handle_of).is_held.sum() == len(V) - 1
 
 
-DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
-CAPTURE = NormalCapture(DIRECTIONS, DIRECTIONS)
+CAPTURE = NormalCapture(AXES, AXES)
 
 
 @pytest.mark.parametrize(

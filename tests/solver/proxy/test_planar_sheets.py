@@ -5,7 +5,7 @@ import numpy as np
 import proxy_shapes
 import pytest
 import shapes
-from procrustes import best_rotation
+from procrustes import degrees
 
 from solver import ProxyOptions, rest_mesh, stylize
 from solver.proxy.sheets import extrusions, planar_sheets
@@ -115,9 +115,3 @@ def test_a_flag_that_begins_to_wave_stays_a_sheet():
     posed = rest.posed(waving)
     assert rest.is_sheet.any()
     np.testing.assert_array_equal(posed.is_sheet, rest.is_sheet)
-
-
-def degrees(V, U):
-    """Return by how much U (n,3) is turned from V (n,3)."""
-    Q = best_rotation(V, U, np.ones(len(V)))
-    return np.degrees(np.arccos(np.clip((np.trace(Q) - 1) / 2, -1, 1)))

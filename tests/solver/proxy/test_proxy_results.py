@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What artists see: what the proxy is for."""
 
+from itertools import pairwise
+
 import numpy as np
 import proxy_shapes
 import pytest
 import shapes
 from devices import by_device
+from facing import angle_to_axes
 
 from solver import (
     PAPER,
@@ -22,14 +25,6 @@ from solver import (
 
 KEPT = {"proxy": ProxyOptions(), "keep_rotation": True, "crispness": 0.0}
 Q = shapes.rotation(30, 20, 40)
-
-
-def angle_to_axes(V, F):
-    """Return the mean angle of the normals to the nearest axis, by area."""
-    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    area = np.linalg.norm(n, axis=1)
-    largest = np.abs(n).max(axis=1) / np.where(area > 0, area, 1)
-    return np.average(np.arccos(np.clip(largest, 0, 1)), weights=area)
 
 
 @pytest.mark.thorough(6)
@@ -138,3 +133,69 @@ def test_handles_and_orientations_are_carried_through_the_proxy():
     assert result.positions[0].tobytes() == targets[0].tobytes()
     assert result.rotations.shape == (len(V), 3, 3)
     assert state.positions[rest.place[1][0]] == pytest.approx(rest.box.to_unit(targets[0]))
+
+
+OUTLINES = {
+    "cup": [(0.02, 0), (0.35, 0), (0.4, 0.05), (0.45, 1), (0.4, 1), (0.35, 0.08), (0.02, 0.06)],
+    "single wall": [(0.02, 0), (0.35, 0), (0.4, 0.05), (0.45, 0.6)],
+    "post": [(0.02, 0), (0.2, 0), (0.2, 1), (0.02, 1)],
+}
+
+
+def revolved(name, step=0.03, around=64):
+    """Return an outline (radius, height), in short steps, turned around the vertical axis."""
+    corners = np.array(OUTLINES[name], dtype=float)
+    pieces = [corners[:1]]
+    for a, b in pairwise(corners):
+        count = max(round(np.linalg.norm(b - a) / step), 1)
+        pieces.append(a + (b - a) * np.arange(1, count + 1)[:, None] / count)
+    return proxy_shapes.revolved(np.concatenate(pieces), around)
+
+
+@pytest.mark.parametrize("name", ["cup", "single wall"])
+def test_walls_are_linked_across_what_they_enclose(name):
+    V, F = revolved(name)
+    rest = rest_mesh(V, F, ProxyOptions())
+    links = rest.across_cavities
+    i, j = links.vertices[:, 0], links.vertices[:, 1]
+    middle = rest.box.from_unit((rest.V[i] + rest.V[j]) / 2.0)
+    assert len(links) > 40
+    assert np.median(np.linalg.norm(middle[:, :2], axis=1)) < 0.1
+
+
+def test_figures_without_cavities_have_no_such_links():
+    for V, F in (shapes.blob(4), shapes.sphere(4), revolved("post")):
+        assert not len(rest_mesh(V, F, ProxyOptions()).across_cavities)
+
+
+def test_a_narrow_boat_stays_open():
+    """Without the links it keeps 0.65 of its width, with them 0.79."""
+    V, F = revolved("cup", around=96)
+    V = V * [2.2, 0.8, 0.6]
+    U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=0.9).positions
+    assert np.ptp(U[:, 1]) > 0.74 * np.ptp(V[:, 1])
+
+
+def disc(height, radius=1.0, around=96, rings=20):
+    """Return a round plate."""
+    outline = [(radius * (k + 0.5) / (rings + 0.5), 0.0) for k in range(rings + 1)]
+    outline += [(r, height) for r, _ in outline[::-1]]
+    return proxy_shapes.revolved(outline, around)
+
+
+def squareness(V):
+    """Return how much farther the corners are from the middle than the sides; sqrt(2) at most."""
+    radius, angle = np.linalg.norm(V[:, :2], axis=1), np.arctan2(V[:, 1], V[:, 0])
+    quarter = np.abs((angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
+    return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()
+
+
+@pytest.mark.parametrize("height", [0.05, 0.1, 0.3])
+@pytest.mark.parametrize(("crispness", "least"), [(0.0, 1.18), (0.9, 1.24)])
+def test_discs_become_square(height, crispness, least):
+    """Without softer faces, those of 0.05 and 0.1 stay round: 1.02 to 1.04, and 1.04 to 1.16."""
+    V, F = disc(height)
+    U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=crispness).positions
+    assert squareness(V) < 1.01
+    assert squareness(U) > least
+    assert np.ptp(U[:, 2]) == pytest.approx(height, rel=0.35)

@@ -20,15 +20,7 @@ nothing happens. Points are window pixels, from the bottom left.
 
 from .buttons import button_under_mouse, find_button, open_sidebar
 from .events import events
-from .gestures import (
-    click,
-    drag,
-    drag_slider,
-    enter_value,
-    keys,
-    type_text,
-    undo,
-)
+from .gestures import click, drag, drag_slider, enter_value, keys, type_text, undo
 from .pictures import screenshot, smooth_screenshot
 from .pointing import move_mouse, turn_wheel
 from .runner import log, python_errors, run

@@ -1,11 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the page, its summaries and its targets make of given figures."""
+"""The benchmark: how it measures, the energies that it keeps, and what its page says of them."""
 
+import fractions
+import json
+import mmap
+import os
+import sys
+
+import numpy as np
 import pytest
 
-from scripts.benchmark import page, summary
+from scripts.benchmark import defaults, page, shapes, summary
+from scripts.benchmark.best_energies import BOOK, BestEnergies, keep_lower_energies
+from scripts.benchmark.machine import isolated, peak_memory
+from scripts.benchmark.meshes import keep
 from scripts.benchmark.suite import PARTS
 from scripts.benchmark.targets import target, targets
+from solver import ProxyOptions, rest_mesh
 
 MEBIBYTES = {"peak": 300 * 1024**2, "above": 100 * 1024**2}
 NOTHING = {part: [] for part in PARTS} | {"machine": "A machine.", "runs": 3}
@@ -167,3 +178,126 @@ def test_the_defaults_are_judged_by_the_mean_over_all_cases(results):
     assert [row["measured"] for row in found] == ["2.40", "2.40"]
     never = case | {"bounds": {"paper": [2.0, 0.0], "defaults": [2.0, 0.0]}}
     assert targets(NOTHING | {"defaults": [never]})[1]["measured"] == "never"
+
+
+@pytest.fixture
+def book(tmp_path):
+    return tmp_path / "best.json"
+
+
+def test_unknown(book):
+    assert BestEnergies(book).get("bunny", 6172, 0.2) is None
+    assert not book.exists()
+
+
+def test_lower_energies_are_kept(book):
+    best = BestEnergies(book)
+    assert best.offer("bunny", 6172, 0.2, energy=0.6, found_by="a run")
+    assert not best.offer("bunny", 6172, 0.2, energy=0.6, found_by="the same again")
+    assert not best.offer("bunny", 6172, 0.2, energy=0.7, found_by="a worse run")
+    assert best.offer("bunny", 6172, 0.2, energy=0.5, found_by="a better run")
+    assert BestEnergies(book).get("bunny", 6172, 0.2) == 0.5
+    assert "a better run" in book.read_text()
+
+
+def test_size_and_cubeness_are_told_apart(book):
+    best = BestEnergies(book)
+    best.offer("bunny", 6172, 0.2, energy=0.6, found_by="")
+    best.offer("bunny", 1000, 0.2, energy=0.7, found_by="")
+    best.offer("bunny", 6172, 0.4, energy=0.8, found_by="")
+    assert best.get("bunny", 6172, 0.2) == 0.6
+    assert best.get("bunny", 1000, 0.2) == 0.7
+    assert best.get("bunny", 6172, 0.4) == 0.8
+    keys = ["bunny 1000 0.2", "bunny 6172 0.2", "bunny 6172 0.4"]
+    assert list(json.loads(book.read_text())) == keys
+
+
+def test_a_full_run_keeps_what_is_lower_or_new(book):
+    best = BestEnergies(book)
+    best.offer("bunny", 6172, 0.2, energy=0.6, found_by="")
+    best.offer("horse", 48485, 0.2, energy=0.3, found_by="")
+
+    def case(mesh, vertices, energy, known):
+        ours = [{"energy": energy}, {"energy": 0.9}]
+        return {"mesh": mesh, "vertices": vertices, "cubeness": 0.2, "ours": ours, "best": known}
+
+    race = [case("bunny", 6172, 0.5, 0.55), case("horse", 48485, 0.4, 0.3)]
+    keep_lower_energies({"race": race, "scaling": [case("bunny", 1000, 0.5, None)]}, best)
+    assert best.get("bunny", 6172, 0.2) == 0.5
+    assert best.get("horse", 48485, 0.2) == 0.3
+    assert best.get("bunny", 1000, 0.2) == 0.5
+
+
+def test_book_in_the_repository_can_be_read():
+    keys = json.loads(BOOK.read_text())
+    assert keys
+    best = BestEnergies()
+    for key in keys:
+        mesh, vertices, cubeness = key.rsplit(" ", 2)
+        assert best.get(mesh, int(vertices), float(cubeness)) > 0.0
+
+
+@pytest.fixture
+def path(tmp_path):
+    return keep("sphere", tmp_path / "sphere.npz", *shapes.sphere(8, 5)).path
+
+
+@pytest.mark.parametrize(
+    ("mesh", "parts"), [(shapes.character(3), 13), (shapes.dressed_body(3), 2)]
+)
+def test_parts_that_are_made_hang_together(mesh, parts):
+    rest = rest_mesh(*mesh, proxy=ProxyOptions(solidity=0.0))
+    assert rest.topology.part.max() + 1 == parts
+    assert rest.topology.component_count == 1
+
+
+def test_both_settings_side_by_side(path):
+    results = defaults.side_by_side(path, 0.4, runs=2)
+    assert [len(results[name]) for name in defaults.SETTINGS] == [2, 2]
+    paper, ours = (results[name][0] for name in defaults.SETTINGS)
+    assert 0.0 < ours["setup"] < ours["seconds"]
+    assert paper["solved"] == 34
+    assert ours["solved"] > 1000
+    for name, (rest, best) in results["bounds"].items():
+        energies = [energy for _, energy in results[name][0]["curve"]]
+        assert rest == energies[0] > best == min(energies)
+
+
+def test_ticks_go_on_after_the_restart(path):
+    ticks = defaults.ticks(path, 0.4)
+    assert len(ticks) > 1
+    assert min(ticks) > 0.0
+
+
+def test_call_in_another_process():
+    assert isolated(os.getpid) not in (os.getpid(), isolated(os.getpid))
+    with pytest.raises(ZeroDivisionError):
+        isolated(fractions.Fraction, numerator=1, denominator=0)
+
+
+def fill(size):
+    """Use memory that is new: NumPy may be given what other tests have freed."""
+    with mmap.mmap(-1, size) as block:
+        for begin in range(0, size, mmap.PAGESIZE):
+            block[begin] = 1
+
+
+def test_peak_memory_is_that_of_the_block():
+    size = 64 * 1024**2
+    fill(size)
+    with peak_memory() as small:
+        pass
+    with peak_memory() as large:
+        fill(size)
+    assert large["peak"] > large["above"] > size // 2
+    assert sys.platform != "linux" or small["above"] < size // 2, "elsewhere it cannot be reset"
+
+
+@pytest.mark.parametrize("mesh", [shapes.blob(2), shapes.sphere(8, 5)], ids=["blob", "sphere"])
+def test_a_made_shape_is_closed_and_faces_outward(mesh):
+    V, F = mesh
+    edges = {tuple(edge) for k in range(3) for edge in F[:, [k, (k + 1) % 3]].tolist()}
+    assert len(edges) == 3 * len(F)
+    assert all((b, a) in edges for a, b in edges)
+    assert len(V) - len(edges) // 2 + len(F) == 2
+    assert np.einsum("fi,fi->", V[F[:, 0]], np.cross(V[F[:, 1]], V[F[:, 2]])) > 0.0
