@@ -7,13 +7,15 @@ its details: with its edges across c_f, and the heights h of its corners along i
 `spokes_and_rims`, where each triangle counts three times,
 
     E = 3 sum_f [ (1 - b) sum_e w_fe/2 |R_f d_e - d~_e|^2 + b/2 (U t_f - h)' L_f (U t_f - h) ]
-        + links + 3/2 sum_i s_i |u_i - v_i|^2
+        + links + 3/2 sum_i s_i (u_i - v_i)' K_i (u_i - v_i)
 
 The second term, with the larger weight b = `FLATNESS`, asks for the heights alone: a side may
 stretch as it becomes flat. Its stiffness L_f is that of the first, so the matrix of the global step
 is L as before, but for the third term, which holds the shape near the soft one v and keeps its
-volume. Links pull at the rotations of the triangles around their vertices, in equal shares. A
-triangle without a side keeps its shape in the soft one as rigidly as it can.
+volume. K_i is the identity, but for brims, whose flats would hold their outline: they slide along
+themselves, and K_i is the mean of t_f t_f' around a vertex. Links pull at the rotations of the
+triangles around their vertices, in equal shares. A triangle without a side keeps its shape in the
+soft one as rigidly as it can.
 
 With R_f = R0 turned about t_f by an angle, tr(R_f S_f) is x cos + y sin + const, where x and y are
 linear in the positions: the best angle has the cosine x / |(x, y)| and the sine y / |(x, y)|. So
@@ -55,6 +57,8 @@ class Target:
         v, in the unit box.
     hold : (n,) array
         s_i, with the areas of the vertices.
+    slides : (n,) array
+        How far vertices slide along their sides, from 0 to 1.
     """
 
     base: Base
@@ -63,6 +67,7 @@ class Target:
     is_free: BoolArray
     soft: FloatArray
     hold: FloatArray
+    slides: FloatArray
 
 
 class FaceStep:
@@ -94,6 +99,7 @@ class FaceStep:
             (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
         ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
         self._begin_flatness()
+        self._begin_sliding()
 
     def _flat_edges(self):
         """Return the corners (m,3,3) that triangles have at rest: flat but for their details."""
@@ -250,17 +256,33 @@ class FaceStep:
             (heights * pulls).sum(axis=1)
         )
 
+    def _begin_sliding(self):
+        """Take what is left free of each vertex, I - K (n,3,3)."""
+        target = self._target
+        t, areas = target.directions, target.base.graph.areas[:, None, None]
+        along = np.where(target.is_free[:, None, None], 0.0, np.eye(3) - t[:, :, None] * t[:, None])
+        weight = self._corners.sums(np.repeat(areas, 3, axis=1))[:, :, None]
+        sums = self._corners.sums(np.repeat((areas * along).reshape(-1, 1, 9), 3, axis=1))
+        means = sums.reshape(-1, 3, 3) / np.where(weight > 0.0, weight, 1.0)
+        self._free_ways = target.slides[:, None, None] * means
+
+    def _held_back(self, U):
+        """Return s K (u - v) (n,3) at positions U (n,3)."""
+        moved = U - self._held
+        moved = moved - np.einsum("nij,nj->ni", self._free_ways, moved)
+        return self._target.hold[:, None] * moved
+
     def _right_hand_side(self, U, turned):
         x, target = U.T.copy(), self._target
         along = [sum(K @ x[q] for q, K in enumerate(row)) for row in self._along]
         self._flat = np.stack(along, axis=1) + self._lift
-        return turned / 3.0 + self._flat + target.hold[:, None] * self._held
+        held = target.hold[:, None] * U - self._held_back(U)
+        return turned / 3.0 + self._flat + held
 
     def _energies(self, U, gains):
-        target, sum_parts = self._target, self._rest.topology.sum_parts
-        moved = U - self._held
+        sum_parts = self._rest.topology.sum_parts
         of_vertices = (U * (self._whole @ U - self._flat - self._lift)).sum(axis=1)
-        of_vertices += target.hold * (moved * moved).sum(axis=1)
+        of_vertices += ((U - self._held) * self._held_back(U)).sum(axis=1)
         of_faces = self._sums_over_faces(gains) + sum_parts((U * self._steady).sum(axis=1))
         return self._rest_terms - of_faces + 1.5 * sum_parts(of_vertices)
 

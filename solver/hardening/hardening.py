@@ -12,13 +12,14 @@ from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
 from .face_step import Target
+from .rims import FREE, rims_and_flats
 from .sides import NO_SIDE, sides_of
 
 ROUNDS = 12
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
 HOLD = 0.085
 """largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
-THIN = 0.4, 0.8
+THIN = 0.2, 0.4
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
 """of vertices around what has come to cross that stay soft, and as many that are between"""
@@ -145,7 +146,9 @@ def hardening_of(stylization, before=None):
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
     heights = strength * base.heights
-    target = Target(base, heights, directions, side == NO_SIDE, soft, hold_of(rest))
+    rim, plate = (1.0 - style.in_limb) * rims_and_flats(base.graph, solved, F, side, facing)
+    hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
+    target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
     return Hardening(solved, soft, R, crispness, target, side, facing, np.zeros_like(soft))
 
 

@@ -52,6 +52,8 @@ class SolvedStyle(Value):
     """(n,) relative to the details at rest; 1 at pins"""
     is_drawn: BoolArray
     """(n,) bool, where normals are drawn to the form, and to nothing else"""
+    in_limb: FloatArray
+    """(n,) share of each vertex in limbs, from 0 to 1"""
 
     @property
     def is_hardened(self) -> bool:
@@ -118,7 +120,7 @@ def solved_style(
     if captures:
         mu = _at_free(style.capture_strength, "capture_strength", setup, at_pins=0.0)
         mu = mu * rest.normal_counts
-    Q = _along_limbs(orientation, limbs, forms, form_of, setup)
+    Q, in_limb = _along_limbs(orientation, limbs, forms, form_of, setup)
     if keep_rotation and not forms:
         Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
@@ -128,6 +130,7 @@ def solved_style(
         np.where(is_drawn, np.minimum(crispness, 1.0), 0.0),
         _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
         is_drawn,
+        in_limb,
     )
 
 
@@ -166,10 +169,10 @@ def _numbers(of_input, name, count, rest):
 
 
 def _along_limbs(Q, limbs, forms, form_of, setup):
-    """Return the orientations (n,3,3) that limbs turn with them, or Q as it is."""
+    """Return the orientations (n,3,3) that limbs turn with them, or Q as it is, and shares (n,)."""
     rest = setup.rest
     if not rest.options.keep_pose:
-        return Q
+        return Q, np.zeros(len(rest.V))
     if limbs is None:
         found = rest.limbs
     else:
@@ -177,11 +180,12 @@ def _along_limbs(Q, limbs, forms, form_of, setup):
         if not is_known.all():
             found = rest.limbs.replaced(is_known, found)
     if not len(found):
-        return Q
+        return Q, np.zeros(len(rest.V))
     G = turns(found, Q, forms, form_of)
     for mirror in setup.mirrors:
         mirror.impose_rotations(G)
-    return Q @ G
+    is_limb = found.directions.any(axis=1)  # what is hollow is none
+    return Q @ G, np.minimum(found.shares @ is_limb, 1.0)
 
 
 def _at_solved(limbs, rest):

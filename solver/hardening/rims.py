@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Narrow sides: the rim of a brim, a lid or a wheel, which gives the whole its outline.
+
+It has too little area to become straight against what holds the soft shape, and encloses next to no
+volume that would have to be held.
+"""
+
+import numpy as np
+
+from ..mesh.components import components
+
+NARROW = 0.1, 0.3
+"""area over the squared diagonal: a side with less than the first is a rim, one with more than the
+second is none"""
+FREE = 0.02
+"""share of the hold that a rim keeps"""
+LARGER = 3.0
+"""times the area of a rim: the flats on both sides of it"""
+FEWEST = 4
+"""triangles of a side; fewer are frayed"""
+
+
+def rims_and_flats(graph, V, F, side, facing):
+    """Return how far vertices (n,) belong to rims, and how far to these or to flats between them.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    V : (n,3) array
+        Positions of the soft shape.
+    F : (m,3) int array
+    side : (m,) int array
+    facing : (m,3) array
+        As `sides_of` returns them.
+    """
+    is_same = (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
+    pairs = np.stack([graph.one[is_same], graph.other[is_same]], axis=1)
+    count, region = components(np.empty((0, 3), np.int64), len(side), pairs)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    for corner in F.T:
+        np.minimum.at(low, region, V[corner])
+        np.maximum.at(high, region, V[corner])
+    diagonal = np.maximum(((high - low) ** 2).sum(axis=1), 1e-300)
+    width = np.bincount(region, graph.areas, count) / diagonal
+    share = np.clip((width - NARROW[0]) / (NARROW[1] - NARROW[0]), 0.0, 1.0)
+    rim = np.where(np.bincount(region, minlength=count) < FEWEST, 0.0, 1.0 - share)
+    rim, flat = _between_flats(graph, region, rim, facing)
+    at_rims, at_flats = np.zeros((2, len(V)))
+    np.maximum.at(at_rims, F.ravel(), np.repeat(rim[region], 3))
+    np.maximum.at(at_flats, F.ravel(), np.repeat(flat[region], 3))
+    return at_rims, np.maximum(at_rims, at_flats)
+
+
+def _between_flats(graph, region, rim, facing):
+    """Return how far regions (k,) are rims between opposite flats, and how far they are these."""
+    count = len(rim)
+    area = np.bincount(region, graph.areas, count)
+    of_region = np.zeros((count, 3))
+    of_region[region] = facing
+    one, other = region[graph.one], region[graph.other]
+    a, b = np.concatenate([one, other]), np.concatenate([other, one])
+    is_pair = (a != b) & (LARGER * area[a] < area[b]) & (rim[a] > 0.0)
+    a, b = a[is_pair], b[is_pair]
+    most, least = np.zeros((2, count, 3))
+    np.maximum.at(most, a, of_region[b])
+    np.minimum.at(least, a, of_region[b])
+    rim = np.where(((most > 0.9) & (least < -0.9)).any(axis=1), rim, 0.0)
+    flat = np.zeros(count)
+    np.maximum.at(flat, b, rim[a])
+    return rim, flat

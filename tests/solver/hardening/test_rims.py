@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Brims become square: their rims become straight, and their flat gives way."""
+
+from itertools import pairwise
+
+import numpy as np
+import proxy_shapes
+import pytest
+
+from solver import rest_mesh, stylize
+from solver.hardening.rims import rims_and_flats
+
+HAT = [
+    (0.02, 0.0),
+    (0.5, 0.0),
+    (0.98, 0.0),
+    (1.0, 0.02),
+    (1.0, 0.04),
+    (0.98, 0.06),
+    (0.5, 0.08),
+    (0.42, 0.2),
+]
+HAT += [(0.25, 0.7), (0.08, 1.2), (0.02, 1.3)]
+"""radii and heights of a pointed hat with a brim"""
+
+
+def revolved(profile, around=48, spacing=0.06):
+    """Return a closed surface of revolution."""
+    rows = [np.array(profile[:1])]
+    for one, other in pairwise(profile):
+        count = max(1, int(np.hypot(*np.subtract(other, one)) / spacing))
+        rows.append(np.linspace(one, other, count + 1)[1:])
+    radius, height = np.concatenate(rows).T
+    angle = np.arange(around) * 2.0 * np.pi / around
+    rings = [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle))]
+    rings.append(np.repeat(height[:, None], around, axis=1))
+    V = np.stack(rings, axis=2).reshape(-1, 3)
+    ring, k = np.divmod(np.arange(len(V) - around), around)
+    a, b = ring * around + k, ring * around + (k + 1) % around
+    F = [np.stack([a, b, b + around], axis=1), np.stack([a, b + around, a + around], axis=1)]
+    tips, last = [V[:around].mean(axis=0), V[-around:].mean(axis=0)], len(V) - around
+    k, after, tip = np.arange(around), np.roll(np.arange(around), -1), np.full(around, len(V))
+    F += [np.stack([tip, after, k], axis=1), np.stack([tip + 1, last + k, last + after], axis=1)]
+    return np.concatenate([V, tips]), np.concatenate(F)
+
+
+def squareness(V):
+    """Return how much farther the corners are from the middle than the sides; sqrt(2) at most."""
+    radius, angle = np.linalg.norm(V[:, :2], axis=1), np.arctan2(V[:, 1], V[:, 0])
+    quarter = np.abs((angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
+    return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()
+
+
+def test_the_outline_of_a_brim_is_square():
+    """Where its flat and its rim were held like all else, it stayed round: 1.07."""
+    V, F = revolved(HAT)
+    U = stylize(V, F).positions
+    assert squareness(V) < 1.01
+    assert squareness(U) > 1.2
+    assert np.ptp(U[:, 2]) == pytest.approx(np.ptp(V[:, 2]), rel=0.1)
+
+
+@pytest.mark.parametrize(("size", "is_brim"), [((1, 1, 0.05), True), ((0.1, 0.1, 1), False)])
+def test_a_rim_is_narrow_and_between_two_larger_sides(size, is_brim):
+    rest = rest_mesh(*proxy_shapes.box(size))
+    graph = rest.face_graph
+    axis = np.abs(graph.normals).argmax(axis=1)
+    side = 2 * axis + (graph.normals[np.arange(len(axis)), axis] < 0.0)
+    rim, plate = rims_and_flats(graph, rest.V, rest.F, side, graph.normals)
+    is_at_rim = np.zeros(len(rest.V), dtype=bool)
+    is_at_rim[rest.F[axis < 2]] = True
+    assert rim == pytest.approx(float(is_brim) * is_at_rim)
+    assert plate == pytest.approx(float(is_brim))
