@@ -342,6 +342,8 @@ class Run:
 
         While the run is on a coarser mesh, they follow its vertices, with the details at rest.
         """
+        if self._coarse is None:
+            return self.stylization.placed_positions()  # rotations of a hard shape take long
         return self.stylization.placed_positions(self._current()[1])
 
     def placed(self) -> tuple[FloatArray, FloatArray]:

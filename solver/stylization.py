@@ -242,6 +242,29 @@ class Stylization(Stored):
         other.hardening = self.hardening.with_crispness(style, self.rest)
         return other
 
+    def restyled(self, style: Style) -> Stylization:
+        """Return one that goes on from here with the cubeness and the crispness of another style.
+
+        The sides of a hardened one stay as they are; see `follow`.
+        """
+        other = copy(self)
+        other._style = self._style.with_strengths(style, self.setup)
+        if self.hardening is None:
+            other._begin(self.setup, self.positions.copy(), self.rotations.copy())
+            other.is_started = True
+        else:
+            other.hardening = self.hardening.restyled(self._style, other._style, self.rest)
+        return other
+
+    def follow(self, soft: Stylization) -> None:
+        """Go along, hardened, with the soft shape, with the same sides."""
+        assert self.hardening is not None and isinstance(self._local, FaceStep)
+        before = self.hardening.soft
+        self.hardening = self.hardening.followed(soft.positions.copy(), soft.rotations.copy())
+        moves = self.hardening.soft - before
+        self._local.hold_beside(moves)
+        self._motion.put(self._motion.positions + moves)
+
     def softened(self, vertices: IntArray) -> Stylization:
         """Return a hardened one at the same point that is soft at vertices (k,) and around them."""
         assert self.hardening is not None

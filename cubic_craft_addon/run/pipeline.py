@@ -113,6 +113,19 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
 
 
+def restyled(problem: MemberProblem, run: solver.Run) -> solver.Run | None:
+    """Return a Run that goes on from another, of the same setup, with the strengths of a problem.
+
+    None if that has no sides yet, or the problem is to have none.
+    """
+    from ...solver.restyled_run import RestyledRun, has_sides
+
+    style = problem.style
+    if not (np.any(style.crispness) and has_sides(run)):
+        return None
+    return RestyledRun(run, style)
+
+
 def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> solver.Stylization:
     """Return a new Stylization with the settings of the members.
 

@@ -12,12 +12,14 @@ import numpy as np
 
 from ... import solver
 from ..read.member import Member
+from ..regions.region import Region
 from ..settings.values import Settings
 from . import pipeline
 from .countdown import Countdown
 from .pipeline import MemberProblem
 from .tasks import Task, key_of, prepare_all
 
+_STRENGTHS = ("cubeness", "crispness")  # with another, a shape keeps its sides for a while
 _FIRST_SHOWN = 2  # iterations; the first one moves only handles
 
 
@@ -42,6 +44,8 @@ class StepwiseRun:
         self._starts = 0
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
+        self._behind: solver.Run | None = None
+        self._is_restyled = False
         self._key = None
         self._intermediate_moment = None
         self._intermediate = {}
@@ -64,15 +68,17 @@ class StepwiseRun:
         """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
         key = key_of(tasks)
         is_ready = not self._is_held and self._posed is None
-        before = (
-            self._run if is_ready and _but_crispness(key) == _but_crispness(self._key) else None
-        )
+        before = self._run if is_ready else None
+        is_same = _without(key, "crispness") == _without(self._key, "crispness")
+        is_like = _without(key, *_STRENGTHS) == _without(self._key, *_STRENGTHS)
+        known_problem = self.problem
         self.stop()
         self._key = key
         problem, self.problems = prepare_all(tasks, known, earlier)
         if problem is not None:
             self.problem = problem
-            self._start(before)
+            is_like &= known_problem is not None and problem.setup is known_problem.setup
+            self._start(before, is_same=is_same, is_like=is_like)
 
     def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
         """Restart if weights of relevant vertex groups have changed; return whether they have."""
@@ -146,18 +152,30 @@ class StepwiseRun:
             self._start()
             self._is_behind = is_like
 
-    def _start(self, before: solver.Run | None = None):
-        """Start a run, or find the end of one `before` with another crispness only."""
+    def _start(self, before: solver.Run | None = None, *, is_same=False, is_like=False):
+        """Start a run.
+
+        With another crispness only, find the end of the one `before`. If the two are alike, go on
+        from there first, so that a shape that was crisp is while a setting is dragged.
+        """
         assert self.problem is not None
         self._starts += 1
-        settings = pipeline.settings_of_all(self.problem)
         try:
-            self._run = before and before.with_crispness(self.problem.style.crispness)
+            if before is not None and is_same:
+                self._run = before.with_crispness(self.problem.style.crispness)
+            if self._run is None and before is not None and is_like:
+                self._run = pipeline.restyled(self.problem, before)
+                self._is_restyled = self._run is not None
             self._run = self._run or pipeline.start(self.problem)
-            self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
-            self._countdown = Countdown(keeps_apart=self._run.keeps_apart)
+            self._begin_to_count(self._run)
         except solver.CubicCraftError as error:
             self.problems = [*self.problems, str(error)]
+
+    def _begin_to_count(self, run):
+        assert self.problem is not None
+        settings = pipeline.settings_of_all(self.problem)
+        self._progress = solver.Progress(settings.max_iterations, settings.tolerance)
+        self._countdown = Countdown(keeps_apart=run.keeps_apart)
 
     def stop(self) -> None:
         """Stop, without tasks and problems."""
@@ -166,6 +184,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
+        self._behind, self._is_restyled = None, False
         self._posed, self._is_held, self._is_behind = None, False, False
         self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
@@ -204,12 +223,25 @@ class StepwiseRun:
         try:
             if self._run.reason is None:
                 self._run.advance()
+            elif self._is_restyled:
+                self._advance_behind()
             else:
                 solutions = pipeline.solutions_of(self.problem, self._run)
                 uids = [member.uid for member in self.problem.pieces]
                 self._solutions = dict(zip(uids, solutions, strict=True))
         except solver.CubicCraftError as error:
             self._reset([f"{self.problem.name}: {error}"])
+
+    def _advance_behind(self):
+        """Advance the run that Cubify would do; its end replaces what is seen."""
+        assert self.problem is not None
+        if self._behind is None:
+            self._behind = pipeline.start(self.problem)
+            self._begin_to_count(self._behind)
+        else:
+            self._behind.advance()
+            if self._behind.reason is not None:
+                self._run, self._behind, self._is_restyled = self._behind, None, False
 
     @property
     def iterations(self):
@@ -227,10 +259,11 @@ class StepwiseRun:
             progress = self._progress.update(self._run.stylization) if self._is_behind else 0.0
             return ("Following the original", "Following"), progress
         if self._solutions is None:
+            run = self._behind or self._run
             return self._countdown.tell(
-                self._progress.update(self._run.stylization),
+                self._progress.update(run.stylization),
                 time.perf_counter(),
-                is_keeping_apart=self._run.is_keeping_apart,
+                is_keeping_apart=run.is_keeping_apart,
             )
         solution = next(iter(self._solutions.values()))
         return ("Converged" if solution.result.converged else "Not converged",), 1.0
@@ -284,7 +317,10 @@ class StepwiseRun:
 
     @property
     def _state(self):
-        if self._run is None or (self._run.iterations < _FIRST_SHOWN and not self.is_done):
+        if self._run is None:
+            return None
+        is_new = self._run.steps > 0 if self._is_restyled else self._run.iterations >= _FIRST_SHOWN
+        if not (is_new or self.is_done):
             return None  # keep the visible shape until there is a better one
         return self._starts, self._run.steps, self.is_done
 
@@ -307,11 +343,16 @@ class StepwiseRun:
         return self._intermediate.get(uid)
 
 
-def _but_crispness(key):
-    """Return a key without the crispness of the settings in it."""
+def _without(key, *names):
+    """Return a key in which such numbers of the settings, and of regions, are 0."""
+    if isinstance(key, tuple):
+        return tuple(_without(part, *names) for part in key)
+    if not isinstance(key, Settings | Region):
+        return key
+    values: dict[str, Any] = {name: 0.0 for name in names if hasattr(key, name)}
     if isinstance(key, Settings):
-        return replace(key, crispness=0.0)
-    return tuple(map(_but_crispness, key)) if isinstance(key, tuple) else key
+        values["regions"] = _without(key.regions, *names)
+    return replace(key, **values)
 
 
 def _looks_at_weights(task):

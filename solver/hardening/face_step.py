@@ -239,6 +239,10 @@ class FaceStep:
         out, _ = at_vertices(target.directions, target.base.graph.areas, rest.F, len(rest.V))
         self._held = self._held + outward[rest.topology.component][:, None] * out
 
+    def hold_beside(self, moves):
+        """Hold the shape near a soft one whose vertices have moved so far (n,3)."""
+        self._held = self._held + moves
+
     def _begin_flatness(self):
         """Take sum_f b (1 - t_f t_f') L_f, six of its parts, and the pull of heights."""
         target, F = self._target, self._rest.F

@@ -66,6 +66,19 @@ class Hardening:
         """Return the same with the crispness of another SolvedStyle."""
         return replace(self, crispness=_crispness_of(style, rest))
 
+    def restyled(self, before, after, rest):
+        """Return the same as one SolvedStyle becomes another: what was soft stays so."""
+        one, other = (_crispness_of(style, rest) for style in (before, after))
+        ratio = np.where(one > 0.0, other, 0.0) / np.where(one > 0.0, one, 1.0)
+        return replace(self, crispness=ratio * self.crispness)
+
+    def followed(self, solved, R):
+        """Return the same beside another soft shape (n,3), with rotations (n,3,3)."""
+        offsets, soft = self.soft - self.solved, solved
+        if offsets.any():
+            soft = solved + np.einsum("nij,nkj,nk->ni", R, self.rotations, offsets)
+        return replace(self, solved=solved, soft=soft, rotations=R)
+
     def softened(self, rest, vertices):
         """Return the same with vertices (k,), and some around them, as they are in the soft shape.
 

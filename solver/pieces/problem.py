@@ -263,7 +263,17 @@ def join_pieces(
     except CubicCraftError as error:
         raise CubicCraftError(f"{listed([piece.name for piece in pieces])}: {error}") from error
     seconds = time.perf_counter() - begin + sum(piece.seconds for piece in pieces)
-    return Problem(tuple(pieces), setup, is_still, without_holds, holds, seconds, planes)
+    problem = Problem(tuple(pieces), setup, is_still, without_holds, holds, seconds, planes)
+    _keep_floor(problem, earlier)
+    return problem
+
+
+def _keep_floor(problem, earlier):
+    """Give a problem the Floor of one of the same setup: what it has factorized takes long."""
+    for other in earlier:
+        is_as_upright = np.array_equal(*(one.pieces[0].placement.up for one in (problem, other)))
+        if other.setup is problem.setup and is_as_upright and "_floor" in other.__dict__:
+            problem.__dict__["_floor"] = other._floor
 
 
 def _rest(pieces, proxy, earlier):

@@ -4,6 +4,9 @@
 import bpy
 import guidrive as gui
 import live_scene as scene
+import numpy as np
+
+FLAT = np.cos(np.radians(6.0))
 
 
 def cubeness():
@@ -55,6 +58,31 @@ def one_step(original):
     scene.check_bits_of_cubify()
 
 
+def share_flat():
+    """Return the share of the area that faces along an axis of the cube."""
+    mesh = bpy.data.objects[scene.NAME].data
+    areas = np.array([polygon.area for polygon in mesh.polygons])
+    normals = np.array([polygon.normal for polygon in mesh.polygons])
+    return areas[np.abs(normals).max(axis=1) > FLAT].sum() / areas.sum()
+
+
+def stays_crisp(_original):
+    """Drag the slider once the shape is crisp: at no time is a soft one seen."""
+    yield from scene.start_live()
+    yield from scene.wait_idle()
+    slider = yield from scene.cubeness_slider()
+    session, seen, at_rest, before = scene.live().current(), [], share_flat(), scene.positions()
+    tick = session.tick
+    session.tick = lambda context: (tick(context), seen.append(share_flat()))
+    yield from gui.drag_slider(slider, 0.5, 0.6, steps=8)
+    yield from gui.screenshot("live_drag.png")
+    assert scene.positions() != before, "nothing was seen"
+    assert min(seen) > 0.9 * at_rest, f"{min(seen):.2f} of {at_rest:.2f}"
+    yield from scene.wait_idle()
+    yield from gui.screenshot("live_rest.png")
+    yield from scene.end_by("ESC")
+
+
 def cancelled(_original):
     """Click on the cross; whatever is active, the panel stays that of Live, with its buttons."""
     before = scene.positions()
@@ -72,7 +100,7 @@ def test():
     scene.add_monkey(is_refined=True)
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
-    for moment in (a_slider, one_step, cancelled):
+    for moment in (a_slider, one_step, stays_crisp, cancelled):
         gui.log(moment.__name__)
         yield from moment(original)
 

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is seen of a crisp shape while a setting is dragged, and what it comes to."""
+
+import bpy
+import numpy as np
+import pytest
+from flat_balls import add_ball
+from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from rich_mesh import position_of
+
+FLAT = np.cos(np.radians(6.0))
+STILL = 0.1  # of the size: a shape that begins again from the original jumps farther
+
+
+def share_flat(obj):
+    """Return the share of the area that faces along an axis of the cube."""
+    areas = np.array([polygon.area for polygon in obj.data.polygons])
+    normals = np.array([polygon.normal for polygon in obj.data.polygons])
+    return areas[np.abs(normals).max(axis=1) > FLAT].sum() / areas.sum()
+
+
+def drag(live, session, obj, values, ticks=3):
+    """Drag the cubeness; return the flat share of what was seen, and the largest step of it."""
+    shares, steps, before = [], [], position_of(obj.data)
+    for value in values:
+        live.live_properties().cubeness = value
+        for _ in range(ticks):
+            session.tick(bpy.context)
+            bpy.context.view_layer.update()
+            now = position_of(obj.data)
+            shares.append(share_flat(obj))
+            steps.append(np.linalg.norm(now - before, axis=1).max())
+            before = now
+    return min(shares), max(steps) / np.ptp(before, axis=0).max()
+
+
+@pytest.mark.parametrize("crispness", [1.0, 0.5])
+def test_a_crisp_shape_stays_crisp_while_cubeness_is_dragged(live, begin, one_phase, crispness):
+    obj = add_ball()
+    session = tick_to_rest(begin(obj, cubeness=0.4, crispness=crispness))
+    at_rest = share_flat(obj)
+    shape = bits(obj)
+    least, farthest = drag(live, session, obj, np.linspace(0.4, 0.5, 5)[1:], ticks=40)
+    assert bits(obj) != shape, "nothing was seen"
+    assert least > 0.9 * at_rest
+    assert farthest < STILL
+    confirm(live, session)
+    check_same_as_cubify(obj)
+
+
+def test_a_soft_shape_begins_again_from_the_original(live, begin, one_phase):
+    obj = add_ball()
+    session = tick_to_rest(begin(obj, cubeness=0.4, crispness=0.0))
+    run = session.meshes[0].run
+    live.live_properties().cubeness = 0.5
+    session.tick(bpy.context)
+    assert not run._is_restyled and session.meshes[0].iterations <= 1
+    confirm(live, session)
+    check_same_as_cubify(obj)
