@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links across cavities, so that a helmet stays as wide as the head in it.
+"""Links across the outside of a part, so that a helmet stays as wide as the head in it.
 
 They lead from wall to wall as those of `thickness.py` do, by balls on the other side: outside of a
 part that encloses a volume, on either side of an open sheet. What a ball lies in is a cavity if the
 part is seen from the middle of the link in nearly all directions. Between two legs, or beneath a
 chin, it is not; nor do a mouth or an armpit count, which are a small share of their part.
+
+Those are gaps: beside a part that encloses a volume, they are linked less firmly. Else a head sinks
+onto its body as soon as both sides of the neck face up and down, and swallows the chin.
 """
 
 import numpy as np
 
 from .links import links_between
-from .thickness import STRENGTH, facing_pairs, outward_sign
+from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
 
 ENCLOSED = 0.7
 """least share of directions in which the part is seen"""
@@ -18,6 +21,9 @@ LEAST_AREA = 0.05
 """of the part, from which links lead"""
 OF_STRENGTH = 1.5
 """of the links inside: nothing else holds a cavity open"""
+FACING_IN_GAPS = 0.5
+"""least cosine between a link and the normals at both ends: of a neck between two balls, all are
+aslant"""
 SAMPLES = 2000
 """approximate number of vertices to start from, and of points of each part that are looked for"""
 
@@ -25,8 +31,8 @@ _CELLS = 3  # along the edges of a cube, whose cells are the directions
 _AT_ONCE = 500
 
 
-def cavity_links(triangles, normals, areas, part):
-    """Return links of solidity 1 across cavities.
+def links_outside(triangles, normals, areas, part):
+    """Return links of solidity 1 across cavities, and others across gaps.
 
     Parameters
     ----------
@@ -40,21 +46,35 @@ def cavity_links(triangles, normals, areas, part):
     V, outward = triangles.V, outward_sign(triangles, part)[part]
     is_open = outward == 0.0
     sides = [np.where(is_open, 1.0, -outward), np.where(is_open, -1.0, 0.0)]
-    found = [_across(V, side[:, None] * normals, areas, part) for side in sides]
-    i, j, weights = (np.concatenate(values) for values in zip(*found, strict=True))
-    return links_between(i, j, weights)
+    cavities, gaps = [], []
+    for side in sides:
+        away = side[:, None] * normals
+        found = facing_pairs(V, away, areas, part, SAMPLES, 3 * SAMPLES, FACING_IN_GAPS)
+        i, j, weights = found
+        is_cavity = _are_cavities(V, away, areas, part, *found)
+        is_gap = ~is_cavity & ~is_open[i]
+        cavities.append((i[is_cavity], j[is_cavity], OF_STRENGTH * weights[is_cavity]))
+        gaps.append((i[is_gap], j[is_gap], weights[is_gap]))
+    return _joined(cavities), _joined(gaps)
 
 
-def _across(V, normals, areas, part):
-    """Return pairs i, j (k,) and weights (k,) across cavities on the side away from the normals."""
-    i, j, weights = facing_pairs(V, normals, areas, part, SAMPLES, 3 * SAMPLES)
+def _joined(pairs):
+    return links_between(*(np.concatenate(values) for values in zip(*pairs, strict=True)))
+
+
+def _are_cavities(V, normals, areas, part, i, j, weights):
+    """Return which pairs i, j (k,) with weights (k,) lead across a cavity."""
+    are_cavities = np.zeros(len(i), dtype=bool)
+    rows = np.flatnonzero(facing(V, normals, i, j) > FACING)
+    i, j, weights = i[rows], j[rows], weights[rows]
     is_kept = _enclosed((V[i] + V[j]) / 2.0, part[i], V, part) > ENCLOSED
-    i, j, weights = i[is_kept], j[is_kept], weights[is_kept]
+    rows, i, j, weights = rows[is_kept], i[is_kept], j[is_kept], weights[is_kept]
     # a link of this weight stands for so much area, see `facing_pairs`
     area = weights / STRENGTH * ((V[j] - V[i]) ** 2).sum(axis=1)
     total = np.bincount(part, areas)
     is_kept = (np.bincount(part[i], area, len(total)) > LEAST_AREA * total)[part[i]]
-    return i[is_kept], j[is_kept], OF_STRENGTH * weights[is_kept]
+    are_cavities[rows[is_kept]] = True
+    return are_cavities
 
 
 def _enclosed(places, of, V, part):
