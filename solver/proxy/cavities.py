@@ -6,13 +6,16 @@ part that encloses a volume, on either side of an open sheet. What a ball lies i
 part is seen from the middle of the link in nearly all directions. Between two legs, or beneath a
 chin, it is not; nor do a mouth or an armpit count, which are a small share of their part.
 
-Those are gaps: beside a part that encloses a volume, they are linked less firmly. Else a head sinks
-onto its body as soon as both sides of the neck face up and down, and swallows the chin.
+Those are gaps. One that narrows to a crease, as around a neck, is linked less firmly, beside a part
+that encloses a volume. Else a head sinks onto its body as soon as the skin on both sides of the
+neck faces up and down, and swallows the chin. Fingers side by side are not linked to each other:
+handles spread them.
 """
 
 import numpy as np
 
 from .links import links_between
+from .nearest import Nearest
 from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
 
 ENCLOSED = 0.7
@@ -21,11 +24,15 @@ LEAST_AREA = 0.05
 """of the part, from which links lead"""
 OF_STRENGTH = 1.5
 """of the links inside: nothing else holds a cavity open"""
-FACING_IN_GAPS = 0.5
-"""least cosine between a link and the normals at both ends: of a neck between two balls, all are
-aslant"""
+LEAST_FACING = 0.5
+"""cosine between a link across a gap and the normals at its ends; of a neck, all are aslant"""
+NEAR = 0.5
+"""how far the bottom of a gap may be from where its sides would meet, in lengths of the link"""
 SAMPLES = 2000
 """approximate number of vertices to start from, and of points of each part that are looked for"""
+
+LEAST_OPENING = 0.1
+"""of the sum of the normals; between parallel sides, it is 0"""
 
 _CELLS = 3  # along the edges of a cube, whose cells are the directions
 _AT_ONCE = 500
@@ -49,10 +56,11 @@ def links_outside(triangles, normals, areas, part):
     cavities, gaps = [], []
     for side in sides:
         away = side[:, None] * normals
-        found = facing_pairs(V, away, areas, part, SAMPLES, 3 * SAMPLES, FACING_IN_GAPS)
+        found = facing_pairs(V, away, areas, part, SAMPLES, 3 * SAMPLES, LEAST_FACING)
         i, j, weights = found
         is_cavity = _are_cavities(V, away, areas, part, *found)
         is_gap = ~is_cavity & ~is_open[i]
+        is_gap[is_gap] = _narrow(V, away, i[is_gap], j[is_gap])
         cavities.append((i[is_cavity], j[is_cavity], OF_STRENGTH * weights[is_cavity]))
         gaps.append((i[is_gap], j[is_gap], weights[is_gap]))
     return _joined(cavities), _joined(gaps)
@@ -60,6 +68,23 @@ def links_outside(triangles, normals, areas, part):
 
 def _joined(pairs):
     return links_between(*(np.concatenate(values) for values in zip(*pairs, strict=True)))
+
+
+def _narrow(V, normals, i, j):
+    """Return which gaps between i and j (k,) narrow to a crease, where planes there would meet.
+
+    normals : (n,3) array
+        Toward the inside.
+    """
+    middle, chord = (V[i] + V[j]) / 2.0, np.linalg.norm(V[j] - V[i], axis=1)
+    outward = -(normals[i] + normals[j])
+    length = np.maximum(np.linalg.norm(outward, axis=1), LEAST_OPENING)
+    outward /= length[:, None]
+    depth = chord * facing(V, normals, i, j) / length
+    expected = middle - depth[:, None] * outward
+    found = Nearest(V)(expected)
+    is_near = np.linalg.norm(V[found] - expected, axis=1) < NEAR * chord
+    return is_near & (-(normals[found] * outward).sum(axis=1) > LEAST_FACING)
 
 
 def _are_cavities(V, normals, areas, part, i, j, weights):
