@@ -19,7 +19,7 @@ from .mesh.spokes_and_rims import spokes_and_rims
 from .mesh.topology import topology
 from .mesh.triangles import Triangles
 from .proxy import Links, ProxyOptions, no_links, surface_of
-from .proxy.cavities import cavity_links
+from .proxy.cavities import links_outside
 from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
 from .proxy.neighbors import neighbor_links
@@ -105,7 +105,7 @@ def rest_mesh(
             to_neighbors = to_neighbors.weighted(np.where(ends.any(axis=1), LIGHT, 1.0))
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
-        to_other_side, across_cavities = search.result() if search else (None, None)
+        to_other_side, across_cavities, across_gaps = search.result() if search else [None] * 3
     rest = RestMesh(
         input_positions,
         surface.input_map,
@@ -120,6 +120,7 @@ def rest_mesh(
         to_neighbors,
         to_other_side,
         across_cavities,
+        across_gaps,
         proxy,
         C,
         skin,
@@ -131,6 +132,6 @@ def rest_mesh(
     )
 
 
-def links_within(*surface: Any) -> tuple[Links, Links]:
-    """Return the Links to the other side of parts, and across their cavities."""
-    return thickness_links(*surface), cavity_links(*surface)
+def links_within(*surface: Any) -> tuple[Links, Links, Links]:
+    """Return the Links to the other side of parts, across their cavities, and across gaps."""
+    return thickness_links(*surface), *links_outside(*surface)

@@ -77,6 +77,8 @@ class RestMesh(Value):
     """for a solidity of 1; None if they have not been computed"""
     across_cavities: Links | None
     """likewise"""
+    across_gaps: Links | None
+    """likewise"""
     options: ProxyOptions
     cotangents: FloatArray
     """(m,3) weight of the edge opposite each corner of the triangles"""
@@ -176,9 +178,9 @@ class RestMesh(Value):
     @property
     def links(self) -> Links:
         """All links, with their weights."""
-        if self.to_other_side is None or self.across_cavities is None:
-            return self.to_neighbors
-        of_walls = self.to_other_side.joined(self.across_cavities)
+        of_walls = no_links()
+        for links in (self.to_other_side, self.across_cavities, self.across_gaps):
+            of_walls = of_walls if links is None else of_walls.joined(links)
         return self.to_neighbors.joined(of_walls.scaled(self.options.solidity))
 
     def with_options(self, options: ProxyOptions) -> RestMesh | None:
@@ -194,7 +196,8 @@ class RestMesh(Value):
 
             triangles, part = Triangles(self.V, self.F), self.topology.part
             found = links_within(triangles, self.normals, self.areas, part)
-            changed = replace(changed, to_other_side=found[0], across_cavities=found[1])
+            names = ("to_other_side", "across_cavities", "across_gaps")
+            changed = replace(changed, **dict(zip(names, found, strict=True)))
         if options.solidity != now.solidity:
             matrices = changed.skin.with_links(self.V, changed.links)
             changed = replace(changed, matrices=matrices)

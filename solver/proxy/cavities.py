@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links across cavities, so that a helmet stays as wide as the head in it.
+"""Links across the outside of a part, so that a helmet stays as wide as the head in it.
 
 They lead from wall to wall as those of `thickness.py` do, by balls on the other side: outside of a
 part that encloses a volume, on either side of an open sheet. What a ball lies in is a cavity if the
 part is seen from the middle of the link in nearly all directions. Between two legs, or beneath a
 chin, it is not; nor do a mouth or an armpit count, which are a small share of their part.
+
+Those are gaps. One that narrows to a crease, as around a neck, is linked less firmly, beside a part
+that encloses a volume. Else a head sinks onto its body as soon as the skin on both sides of the
+neck faces up and down, and swallows the chin. Fingers side by side are not linked to each other:
+handles spread them.
 """
 
 import numpy as np
 
 from .links import links_between
-from .thickness import STRENGTH, facing_pairs, outward_sign
+from .nearest import Nearest
+from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
 
 ENCLOSED = 0.7
 """least share of directions in which the part is seen"""
@@ -18,15 +24,22 @@ LEAST_AREA = 0.05
 """of the part, from which links lead"""
 OF_STRENGTH = 1.5
 """of the links inside: nothing else holds a cavity open"""
+LEAST_FACING = 0.5
+"""cosine between a link across a gap and the normals at its ends; of a neck, all are aslant"""
+NEAR = 0.5
+"""how far the bottom of a gap may be from where its sides would meet, in lengths of the link"""
 SAMPLES = 2000
 """approximate number of vertices to start from, and of points of each part that are looked for"""
+
+LEAST_OPENING = 0.1
+"""of the sum of the normals; between parallel sides, it is 0"""
 
 _CELLS = 3  # along the edges of a cube, whose cells are the directions
 _AT_ONCE = 500
 
 
-def cavity_links(triangles, normals, areas, part):
-    """Return links of solidity 1 across cavities.
+def links_outside(triangles, normals, areas, part):
+    """Return links of solidity 1 across cavities, and others across gaps.
 
     `triangles`: Triangles. `normals`: (n,3), unit normals, or zero. `areas`: (n,). `part`: (n,)
     int, connected part of each vertex.
@@ -34,21 +47,53 @@ def cavity_links(triangles, normals, areas, part):
     V, outward = triangles.V, outward_sign(triangles, part)[part]
     is_open = outward == 0.0
     sides = [np.where(is_open, 1.0, -outward), np.where(is_open, -1.0, 0.0)]
-    found = [_across(V, side[:, None] * normals, areas, part) for side in sides]
-    i, j, weights = (np.concatenate(values) for values in zip(*found, strict=True))
-    return links_between(i, j, weights)
+    cavities, gaps = [], []
+    for side in sides:
+        away = side[:, None] * normals
+        found = facing_pairs(V, away, areas, part, SAMPLES, 3 * SAMPLES, LEAST_FACING)
+        i, j, weights = found
+        is_cavity = _are_cavities(V, away, areas, part, *found)
+        is_gap = ~is_cavity & ~is_open[i]
+        is_gap[is_gap] = _narrow(V, away, i[is_gap], j[is_gap])
+        cavities.append((i[is_cavity], j[is_cavity], OF_STRENGTH * weights[is_cavity]))
+        gaps.append((i[is_gap], j[is_gap], weights[is_gap]))
+    return _joined(cavities), _joined(gaps)
 
 
-def _across(V, normals, areas, part):
-    """Return pairs i, j (k,) and weights (k,) across cavities on the side away from the normals."""
-    i, j, weights = facing_pairs(V, normals, areas, part, SAMPLES, 3 * SAMPLES)
+def _joined(pairs):
+    return links_between(*(np.concatenate(values) for values in zip(*pairs, strict=True)))
+
+
+def _narrow(V, normals, i, j):
+    """Return which gaps between i and j (k,) narrow to a crease, where planes there would meet.
+
+    normals : (n,3) array
+        Toward the inside.
+    """
+    middle, chord = (V[i] + V[j]) / 2.0, np.linalg.norm(V[j] - V[i], axis=1)
+    outward = -(normals[i] + normals[j])
+    length = np.maximum(np.linalg.norm(outward, axis=1), LEAST_OPENING)
+    outward /= length[:, None]
+    depth = chord * facing(V, normals, i, j) / length
+    expected = middle - depth[:, None] * outward
+    found = Nearest(V)(expected)
+    is_near = np.linalg.norm(V[found] - expected, axis=1) < NEAR * chord
+    return is_near & (-(normals[found] * outward).sum(axis=1) > LEAST_FACING)
+
+
+def _are_cavities(V, normals, areas, part, i, j, weights):
+    """Return which pairs i, j (k,) with weights (k,) lead across a cavity."""
+    are_cavities = np.zeros(len(i), dtype=bool)
+    rows = np.flatnonzero(facing(V, normals, i, j) > FACING)
+    i, j, weights = i[rows], j[rows], weights[rows]
     is_kept = _enclosed((V[i] + V[j]) / 2.0, part[i], V, part) > ENCLOSED
-    i, j, weights = i[is_kept], j[is_kept], weights[is_kept]
+    rows, i, j, weights = rows[is_kept], i[is_kept], j[is_kept], weights[is_kept]
     # a link of this weight stands for so much area, see `facing_pairs`
     area = weights / STRENGTH * ((V[j] - V[i]) ** 2).sum(axis=1)
     total = np.bincount(part, areas)
     is_kept = (np.bincount(part[i], area, len(total)) > LEAST_AREA * total)[part[i]]
-    return i[is_kept], j[is_kept], OF_STRENGTH * weights[is_kept]
+    are_cavities[rows[is_kept]] = True
+    return are_cavities
 
 
 def _enclosed(places, of, V, part):

@@ -37,11 +37,12 @@ MOST_HOLES = 0.25
 """of the area of a part; more is an open sheet. A teapot without its lid is none, a bowl is"""
 MOST_FAULTS = 0.05
 """share of edges with inconsistent triangles, or more than two"""
+FACING = 0.9
+"""least cosine between a link and the normal at either end"""
 
 _ROUNDS = 12
 _MANY = 3  # points for each chosen one; of fewer, both ways cost more than the second alone
 _INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball, all are equally near
-_FACING = 0.9  # cosine between a link and the normal at either end
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
@@ -55,13 +56,14 @@ def thickness_links(triangles, normals, areas, part):
     return links_between(*facing_pairs(triangles.V, outward[:, None] * normals, areas, part))
 
 
-def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS):
+def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least=FACING):
     """Return pairs of vertices on opposite sides of a part, and weights of links between them.
 
     `V`: (n,3), rest positions in the unit box. `normals`: (n,3), unit normals away from the side on
     which the balls are, or zero for none. `areas`: (n,). `part`: (n,) int. `count`: int,
     approximate number of vertices to start from. `most`: int, number of vertices that the balls are
-    measured against. Returns `i`, `j`: (k,) int; `weights`: (k,).
+    measured against. `least`: cosine between a link and the normals at both ends. Returns `i`, `j`:
+    (k,) int; `weights`: (k,).
     """
     is_asked = normals.any(axis=1)
     points = np.flatnonzero(is_asked)
@@ -70,7 +72,7 @@ def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS):
     points = points[:: -(-len(points) // most)]
     spacing, chosen, area = surface_samples(V, normals, areas, part, is_asked, count)
     i, j = _opposite(V, normals, part, chosen, points)
-    is_facing = _are_facing(V, normals, i, j)
+    is_facing = facing(V, normals, i, j) > least
     i, j = i[is_facing], j[is_facing]
     share = np.zeros(len(V))
     share[chosen] = area
@@ -120,11 +122,11 @@ def _shrink(place, normals, chosen, points, end, radius):
             break
 
 
-def _are_facing(V, normals, i, j):
-    """Return where the normals at both ends point away from each other."""
+def facing(V, normals, i, j):
+    """Return the lesser cosine (k,) of how far normals at i and j (k,) face away from each other."""
     d = V[j] - V[i]
-    least = _FACING * np.linalg.norm(d, axis=1)
-    return ((normals[j] * d).sum(axis=1) > least) & (-(normals[i] * d).sum(axis=1) > least)
+    length = np.maximum(np.linalg.norm(d, axis=1), 1e-300)
+    return np.minimum((normals[j] * d).sum(axis=1), -(normals[i] * d).sum(axis=1)) / length
 
 
 def outward_sign(triangles, part):
