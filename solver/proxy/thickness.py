@@ -123,7 +123,7 @@ def _shrink(place, normals, chosen, points, end, radius):
 
 
 def facing(V, normals, i, j):
-    """Return the lesser cosine (k,) of how far normals at i and j (k,) face away from each other."""
+    """Return how far normals at i and j (k,) face away from each other: the lesser cosine (k,)."""
     d = V[j] - V[i]
     length = np.maximum(np.linalg.norm(d, axis=1), 1e-300)
     return np.minimum((normals[j] * d).sum(axis=1), -(normals[i] * d).sum(axis=1)) / length

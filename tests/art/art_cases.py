@@ -43,10 +43,10 @@ def _glb(make, cut):
     return lambda: cut(make())
 
 
-def _fox():
+def _shape(name):
     from figures import shapes  # of scripts/, which is not where everything that has cases can look
 
-    return [shapes.fox()]
+    return [getattr(shapes, name)()]
 
 
 CASES = {
@@ -60,7 +60,8 @@ CASES = {
     # as if they had no limbs, since those become boxes along themselves
     "body_as_a_whole": Case(art_figure.body, options={"keep_pose": False}),
     "skin_as_a_whole": Case(art_character.skin, options={"keep_pose": False}),
-    "fox": Case(_fox),
+    "bear": Case(partial(_shape, "bear")),
+    "fox": Case(partial(_shape, "fox")),
     "painted": Case(art_figure.painted, options={"map_group": "Head"}),
     "painted_soft": Case(partial(art_figure.painted, border=0.1), options={"map_group": "Head"}),
     "monkey_seams": Case(_glb(art_meshes.monkey, art_seams.with_seams)),

@@ -4,6 +4,8 @@
 Cubeness is 0.4 unless a test says otherwise; lengths are shares of the largest side.
 """
 
+from pathlib import Path
+
 import measures
 import numpy as np
 import pytest
@@ -36,6 +38,14 @@ def test_parts_that_touch_stay_together(name):
     assert outcome.drift() <= 0.01
     # a pair a hundredth apart drifts by turning alone; flat sides pull at what they carry
     assert outcome.seat() <= 0.023
+
+
+@pytest.mark.parametrize("cubeness", [0.25, 0.4])
+def test_a_round_head_does_not_sink_onto_a_round_body(monkeypatch, cubeness):
+    """Without links across the neck, 0.84 and 0.88 of the height are left."""
+    monkeypatch.syspath_prepend(Path(__file__).parents[2] / "scripts")
+    outcome = outcome_of("bear", cubeness)
+    assert np.ptp(outcome.U[:, 2]) >= 0.91 * np.ptp(outcome.V[:, 2])
 
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
