@@ -27,6 +27,8 @@ OF_SPACING = 1.0
 """...or of the distance of neighboring links, if that is more"""
 STEP = 1.0
 """longest edge of the graph, in thicknesses, or in distances of links if these are farther apart"""
+OF_EDGES = 1.5
+"""...or than this in edges of the surface: else the rings of a thin wall would not meet"""
 ALIKE = 1.7
 """largest ratio of thicknesses along an edge"""
 REACH = 1.6
@@ -41,6 +43,9 @@ TAPER = 0.25
 """of the thickness per length: what tapers so goes on to its tip, where no ball has an end"""
 FAR = 8.0
 """thicknesses, of the thickest: beyond, distances along the graph are not asked for"""
+SHEET = 1.5
+"""widths: where what belongs to most nodes reaches farther across, they are on lines by chance,
+as on the rings of vertices of a wall"""
 SHORT = 0.8
 """widths: a shorter piece belongs to the next one"""
 WIDEST, THIN, SIDES = 0.75, 0.7, 3
@@ -176,7 +181,8 @@ def skeleton_of(V, skin, links, part, walls=None):
     of_end = np.full(len(V) + 1, -1)
     of_end[ends] = of_link[first % len(i)]
     node = of_end[np.where(source >= 0, source, len(V))]
-    graph = _graph(place, thickness, node[row], node[skin.indices], spacing)
+    least = max(2.0 * spacing, OF_EDGES * np.median(lengths))
+    graph = _graph(place, thickness, node[row], node[skin.indices], least)
     return Skeleton(place, thickness, node, graph, _farthest(V, node, place))
 
 
@@ -205,14 +211,14 @@ def _farthest(V, node, place):
     return found
 
 
-def _graph(place, thickness, one, other, spacing):
+def _graph(place, thickness, one, other, least):
     """Return the graph of nodes that meet at edges of the mesh, from one (e,) to the other (e,)."""
     m = len(place)
     is_pair = (one < other) & (one >= 0)
     one, other = np.divmod(np.unique(one[is_pair] * np.int64(m) + other[is_pair]), m)
     length = np.linalg.norm(place[one] - place[other], axis=1)
     low, high = np.sort([thickness[one], thickness[other]], axis=0)
-    is_kept = (length < STEP * np.maximum(low, 2.0 * spacing)) & (high < ALIKE * low)
+    is_kept = (length < STEP * np.maximum(low, least)) & (high < ALIKE * low)
     one, other, length = one[is_kept], other[is_kept], length[is_kept] + 1e-9
     graph = sp.coo_matrix((length, (one, other)), shape=(m, m)).tocsr()
     return graph + graph.T
@@ -246,6 +252,9 @@ def _measured(skeleton):
         length[k] = max(length[k], np.ptp(skeleton.reach[window[k] > 0.0] @ axis[k]))
     x = np.clip((length / width - NONE) / (FULL - NONE), 0.0, 1.0)
     own = x * x * (3.0 - 2.0 * x)
+    across = np.ptp(skeleton.reach @ axes[:, :, :2], axis=1).max(axis=1)
+    is_wide = window @ (across > SHEET * width) > 0.5 * total[:, 0]
+    own[is_wide] = 0.0
     return axis, (window * own[:, None]).max(axis=0), width, distance
 
 

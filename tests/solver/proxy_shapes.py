@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes that artists have and the paper does not."""
 
+from itertools import pairwise
+
 import numpy as np
 import shapes
 
@@ -40,9 +42,16 @@ def uv_sphere(segments=16, rings=8):
     return V, np.concatenate(faces)
 
 
-def revolved(outline, around):
-    """Return an outline (radius, height) turned around the vertical axis, open at both ends."""
-    radius, height = np.asarray(outline, float).T[..., None]
+def revolved(outline, around, step=np.inf):
+    """Return an outline (radius, height) turned around the vertical axis, open at both ends.
+
+    Its lines are split into steps of about this length.
+    """
+    rows = [np.array(outline[:1], float)]
+    for a, b in pairwise(np.asarray(outline, float)):
+        count = max(round(np.linalg.norm(b - a) / step), 1)
+        rows.append(a + (b - a) * np.arange(1, count + 1)[:, None] / count)
+    radius, height = np.concatenate(rows).T[..., None]
     angle = np.arange(around) * 2.0 * np.pi / around
     places = [radius * np.cos(angle), radius * np.sin(angle), height + 0.0 * angle]
     V = np.stack(places, axis=-1).reshape(-1, 3)

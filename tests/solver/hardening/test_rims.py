@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Brims become square: their rims become straight, and their flat gives way."""
 
-from itertools import pairwise
-
 import numpy as np
 import proxy_shapes
 import pytest
@@ -26,22 +24,11 @@ HAT += [(0.25, 0.7), (0.08, 1.2), (0.02, 1.3)]
 
 def revolved(profile, around=48, spacing=0.06):
     """Return a closed surface of revolution."""
-    rows = [np.array(profile[:1])]
-    for one, other in pairwise(profile):
-        count = max(1, int(np.hypot(*np.subtract(other, one)) / spacing))
-        rows.append(np.linspace(one, other, count + 1)[1:])
-    radius, height = np.concatenate(rows).T
-    angle = np.arange(around) * 2.0 * np.pi / around
-    rings = [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle))]
-    rings.append(np.repeat(height[:, None], around, axis=1))
-    V = np.stack(rings, axis=2).reshape(-1, 3)
-    ring, k = np.divmod(np.arange(len(V) - around), around)
-    a, b = ring * around + k, ring * around + (k + 1) % around
-    F = [np.stack([a, b, b + around], axis=1), np.stack([a, b + around, a + around], axis=1)]
+    V, F = proxy_shapes.revolved(profile, around, spacing)
     tips, last = [V[:around].mean(axis=0), V[-around:].mean(axis=0)], len(V) - around
     k, after, tip = np.arange(around), np.roll(np.arange(around), -1), np.full(around, len(V))
-    F += [np.stack([tip, after, k], axis=1), np.stack([tip + 1, last + k, last + after], axis=1)]
-    return np.concatenate([V, tips]), np.concatenate(F)
+    caps = [np.stack([tip, after, k], axis=1), np.stack([tip + 1, last + k, last + after], axis=1)]
+    return np.concatenate([V, tips]), np.concatenate([F, *caps])
 
 
 def squareness(V):

@@ -239,6 +239,14 @@ def test_toward_a_trunk_the_turn_of_a_limb_becomes_less():
     np.testing.assert_allclose(angles, [20.0, 10.0, 0.0], atol=1e-4)
 
 
+@pytest.mark.parametrize(("step", "around"), [(0.15, 40), (0.3, 24)])
+def test_the_rings_of_a_tin_are_no_limbs(step, around):
+    """Where vertices of both sides are on rings, so are the midpoints: half of it was limbs."""
+    outline = [(0.02, 0), (0.45, 0), (0.45, 1), (0.42, 1), (0.42, 0.03), (0.02, 0.03)]
+    V, F = proxy_shapes.revolved(outline, around, step)
+    assert not rest_mesh(V, F).limbs.shares.nnz
+
+
 @pytest.mark.parametrize(
     ("share", "wall", "is_shell"), [(0.2, 0.02, True), (0.2, 0.1, False), (0.6, 0.02, False)]
 )

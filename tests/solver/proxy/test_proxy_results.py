@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What artists see: what the proxy is for."""
 
-from itertools import pairwise
-
 import numpy as np
 import proxy_shapes
 import pytest
@@ -142,14 +140,8 @@ OUTLINES = {
 }
 
 
-def revolved(name, step=0.03, around=64):
-    """Return an outline (radius, height), in short steps, turned around the vertical axis."""
-    corners = np.array(OUTLINES[name], dtype=float)
-    pieces = [corners[:1]]
-    for a, b in pairwise(corners):
-        count = max(round(np.linalg.norm(b - a) / step), 1)
-        pieces.append(a + (b - a) * np.arange(1, count + 1)[:, None] / count)
-    return proxy_shapes.revolved(np.concatenate(pieces), around)
+def revolved(name, around=64):
+    return proxy_shapes.revolved(OUTLINES[name], around, step=0.03)
 
 
 @pytest.mark.parametrize("name", ["cup", "single wall"])
