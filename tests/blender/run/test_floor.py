@@ -18,7 +18,7 @@ def heights(obj):
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD"])
 def test_the_lowest_point_keeps_its_height(space):
     obj = add_monkey()
-    obj.matrix_world = Matrix.LocRotScale((1, 2, 3), Euler((0.7, 0.4, 0.2)), (1.0, 2.0, 0.5))
+    obj.matrix_world = Matrix.LocRotScale((1, 2, 3), Euler((0.7, 0.9, 0.2)), (1.0, 2.0, 0.5))
     bpy.context.view_layer.update()
     before = heights(obj).min()
     cubify(space=space)
