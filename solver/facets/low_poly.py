@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..aliases import BoolArray, Faces, FloatArray, IntArray
-from ..mesh.components import components
 from ..mesh.face_graph import FaceGraph
 from ..mesh.mesh_checks import check_mesh
 from ..mesh.nearest_on_planes import MOST, nearest_on_planes
@@ -151,5 +150,4 @@ def _parts(graph, region, charts):
     is_same = region[graph.one] == region[graph.other]
     if charts is not None:
         is_same &= charts[graph.one] == charts[graph.other]
-    pairs = np.stack([graph.one[is_same], graph.other[is_same]], axis=1)
-    return components(np.empty((0, 3), np.int64), len(region), pairs)[1]
+    return graph.regions(is_same)[1]

@@ -14,7 +14,6 @@ import numpy as np
 from ..aliases import FloatArray, IntArray
 from ..details import unit
 from ..hardening.sides import CURVED, NEVER, border_shares, smooth_labels, straightened
-from ..mesh.components import components
 
 FEWEST = 6
 """triangles of a region; fewer go to a neighbor if they are no larger than `CLEAR`"""
@@ -101,9 +100,7 @@ def regions_of(V, F, graph, directions, tolerance, counts=None):
 
 def _connected(graph, label):
     """Return numbers (m,) of the connected parts of one label."""
-    is_same = label[graph.one] == label[graph.other]
-    pairs = np.stack([graph.one[is_same], graph.other[is_same]], axis=1)
-    return components(np.empty((0, 3), np.int64), len(label), pairs)[1].astype(np.int64)
+    return graph.regions(label[graph.one] == label[graph.other])[1].astype(np.int64)
 
 
 def _merged(graph, region):

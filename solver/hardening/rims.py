@@ -7,8 +7,6 @@ volume that would have to be held.
 
 import numpy as np
 
-from ..mesh.components import components
-
 NARROW = 0.1, 0.3
 """area over the squared diagonal: a side with less than the first is a rim, one with more than the
 second is none"""
@@ -34,8 +32,7 @@ def rims_and_flats(graph, V, F, side, facing):
         As `sides_of` returns them.
     """
     is_same = (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
-    pairs = np.stack([graph.one[is_same], graph.other[is_same]], axis=1)
-    count, region = components(np.empty((0, 3), np.int64), len(side), pairs)
+    count, region = graph.regions(is_same)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     for corner in F.T:
         np.minimum.at(low, region, V[corner])

@@ -117,13 +117,11 @@ def _groups(graph, whole, form_of):
 
     Connected triangles that lie in one plane are a group, or the pieces of a face.
     """
-    m, one, other = len(form_of), graph.one, graph.other
-    is_flat = np.einsum("kj,kj->k", graph.normals[one], graph.normals[other]) > COPLANAR
-    pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
-    count, flat = components(np.empty((0, 3), np.int64), m, pairs)
+    one, other = graph.normals[graph.one], graph.normals[graph.other]
+    count, flat = graph.regions(np.einsum("kj,kj->k", one, other) > COPLANAR)
     # in a dense mesh, a round side is a chain of triangles that are nearly in one plane
     is_plane = _are_planes(graph, flat, count)[flat]
-    faces = np.arange(m) if whole is None else whole
+    faces = np.arange(len(form_of)) if whole is None else whole
     group = np.where(is_plane, flat, count + faces)
     bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
     if len(bent):  # only those of cages are
@@ -218,8 +216,7 @@ def _leaning(graph, local, side, faced, form_of):
     """Return what the triangles of a side face (m,3): less straight the more it leans."""
     one, other = graph.one, graph.other
     is_same = (side[one] == side[other]) & (form_of[one] == form_of[other]) & (side[one] >= 0)
-    pairs = np.stack([one[is_same], other[is_same]], axis=1)
-    count, region = components(np.empty((0, 3), np.int64), len(side), pairs)
+    count, region = graph.regions(is_same)
     weighted = graph.areas[:, None] * local
     mean = unit(np.stack([np.bincount(region, x, count) for x in weighted.T], axis=1))[region]
     return np.where(side[:, None] >= 0, straightened(mean, faced), 0.0)

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from .components import components
 from .triangles import Triangles
 
 _SHORTEST = 1e-9  # in the unit box, between two centroids
@@ -69,6 +70,11 @@ class FaceGraph:
         """Return the sums (m,) of values (k,) of the pairs of each triangle."""
         m = len(self.areas)
         return np.bincount(self.one, values, m) + np.bincount(self.other, values, m)
+
+    def regions(self, is_joined):
+        """Return the number of regions, and that of each triangle (m,), joined by pairs (k,)."""
+        pairs = np.stack([self.one[is_joined], self.other[is_joined]], axis=1)
+        return components(np.empty((0, 3), np.int64), len(self.areas), pairs)
 
     def is_convex(self, normals):
         """Return over which pairs (k,) a surface with normals (m,3) bends outward."""
