@@ -8,8 +8,10 @@ the whole. The smoothed normals g of the triangles, with areas M, solve
 
     (M + div(k grad)) g = M n,    k = r^2 / 4
 
-where the radius r is that of the details, but not more than half of what the surface is thick
-there, or a limb would average its front and its back.
+where the radius r is that of the details. A thin part has smaller ones than a head, or the bends of
+an arm would count as its details, and keep it from being straight: where the surface is thinner
+than `THICK` of the whole, they are smaller in proportion. Nor is r ever more than half of what it
+is thick there, or a limb would average its front and its back.
 
 What is flat stays flat: edges of the whole shape survive. In further rounds, the flow between two
 triangles is divided by 1 + x^2, where the result of the round before turns by x times `EDGE`
@@ -28,6 +30,8 @@ from .aliases import FloatArray
 
 WEIGHT = 1.75
 """of the cubeness where all normals agree"""
+THICK = 0.4
+"""of the largest extent of the whole, beside which details are a share of it, too"""
 SMALL_PART = 2.0
 """times the size of the details: a smaller part that touches others is itself a detail"""
 EDGE = 0.35
@@ -43,15 +47,17 @@ _MOST_ITERATIONS = 60
 _LEAST_AREA = 1e-12
 
 
-def radii(size, thickness, part_sizes, is_alone):
+def radii(share, whole, thickness, part_sizes, is_alone):
     """Return how far the normals of each vertex are averaged, (n,).
 
-    `size`: (n,), of the details, in the unit box. `thickness`: (n,), of the surface, infinite where
-    it has none. `part_sizes`: (n,), largest extent of the part of each vertex. `is_alone`: (n,)
-    bool, whether the part touches no other.
+    `share`: size of the details relative to the largest extent of the whole, `whole`: (n,), in the
+    unit box. `thickness`: (n,), of the surface, infinite where it has none. `part_sizes`: (n,),
+    largest extent of the part of each vertex. `is_alone`: (n,) bool, whether the part touches no
+    other.
     """
-    is_detail = ~is_alone & (part_sizes <= SMALL_PART * size)
-    return np.where(is_detail, size, np.minimum(size, 0.5 * thickness))
+    is_detail = ~is_alone & (part_sizes <= SMALL_PART * share * whole)
+    of_limb = np.minimum(share / THICK, 0.5) * thickness
+    return np.where(is_detail, share * whole, np.minimum(share * whole, of_limb))
 
 
 def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):

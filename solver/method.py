@@ -115,8 +115,8 @@ class Kept:
     detail: float = setting(0.05, metavar="SIZE", limits=(0, 1), soft=(0, 0.2), paper=0.0)(
         "Detail",
         "Features smaller than this, such as noses and toes, ride along instead of being"
-        " flattened. It is a share of the largest dimension: 0.05 is a twentieth, and 0 flattens"
-        " everything",
+        " flattened. It is a share of the largest dimension: 0.05 is a twentieth, on limbs less,"
+        " and 0 flattens everything",
         "features smaller than this share of the largest extent ride along instead of being"
         " flattened; 0 flattens all",
     )

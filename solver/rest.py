@@ -221,7 +221,8 @@ class RestMesh(Value):
         """(n,) radius over which normals are averaged, so that details have none of their own."""
         parts, component = self.topology.part, self.topology.component
         return details.radii(
-            self.options.detail * extents(self.V, component)[component],
+            self.options.detail,
+            extents(self.V, component)[component],
             self.thickness,
             extents(self.V, parts)[parts],
             np.bincount(parts)[parts] == np.bincount(component)[component],

@@ -50,7 +50,7 @@ def test_a_round_head_does_not_sink_onto_a_round_body(monkeypatch, cubeness):
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
     # Brows and nose become cubic, with every setting by about as much.
-    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.023
+    assert 0.01 < outcome_of("monkey").seat(0.03) <= 0.025
 
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
@@ -62,7 +62,7 @@ def test_a_mesh_that_is_cut_open_does_not_tear(name, whole):
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
 def test_a_mesh_that_is_cut_open_becomes_as_cubic_as_the_whole(name, whole):
-    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.015)
+    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.03)
 
 
 @pytest.mark.thorough(2)

@@ -103,11 +103,13 @@ def test_no_normal_is_averaged_across_the_edges_of_a_box():
     np.testing.assert_allclose(U, V, atol=1e-9)
 
 
-def test_no_further_than_half_of_what_is_thick_but_small_parts_are_details():
-    thickness, sizes = np.array([0.04, 1.0, 0.04, np.inf]), np.array([1.0, 1.0, 0.06, 1.0])
-    is_alone = np.array([True, True, False, True])
-    found = radii(np.full(4, 0.05), thickness, sizes, is_alone)
-    np.testing.assert_allclose(found, [0.02, 0.05, 0.05, 0.05])
+def test_details_of_thin_parts_are_smaller_in_proportion_but_small_parts_are_details():
+    whole, sizes = np.ones(4), np.array([1.0, 1.0, 0.06, 1.0])
+    thickness, is_alone = np.array([0.04, 0.4, 0.04, np.inf]), np.array([True, True, False, True])
+    found = radii(0.05, whole, thickness, sizes, is_alone)
+    np.testing.assert_allclose(found, [0.005, 0.05, 0.05, 0.05])
+    found = radii(0.3, whole, thickness, sizes, is_alone)
+    np.testing.assert_allclose(found, [0.02, 0.2, 0.3, 0.3], err_msg="never over half of it")
 
 
 def test_a_small_part_stays_what_it_is():
