@@ -36,6 +36,8 @@ OF_ROUND = 8
 LEAST_ROUND = 10
 """A round of Keep Apart has at most one in `OF_ROUND` of the iterations before it, or this many if
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
+TRIES = 3
+"""in a row to leave soft what crosses, of which none helps"""
 
 
 class Run:
@@ -288,17 +290,24 @@ class Run:
         else:
             self._phase = self._soften
 
-    def _soften(self, fewest: int | None = None) -> None:
-        """Leave soft what has come to cross, again and again while that helps."""
-        looked = copy(self._apart)
+    def _soften(
+        self, last: KeepApart | None = None, fewest: float = math.inf, tries: int = 0
+    ) -> None:
+        """Leave soft what has come to cross, again and again while that helps.
+
+        What is soft may cross what is still crisp beside it: a try that does not help is followed
+        by others.
+        """
+        looked = copy(last or self._apart)
         assert looked is not None
-        crossing = looked.look(self.stylization)
-        if fewest is None or len(crossing) < fewest:
+        crossing, tries = looked.look(self.stylization), tries + 1
+        if len(crossing) < fewest:
             self._apart, self._before = looked, self.stylization
-            if len(crossing):
-                self.stylization = self.stylization.softened(crossing)
-                self._phase = partial(self._soften, len(crossing))
-                return
+            fewest, tries = len(crossing), 0
+        if len(crossing) and tries < TRIES:
+            self.stylization = self.stylization.softened(crossing)
+            self._phase = partial(self._soften, looked, fewest, tries)
+            return
         self.stylization = self._before
         self._conclude()
 
