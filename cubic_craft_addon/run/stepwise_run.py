@@ -45,7 +45,7 @@ class StepwiseRun:
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
         self._behind: solver.Run | None = None
-        self._is_restyled = False
+        self._is_restyled = self._has_replaced = False
         self._key = None
         self._intermediate_moment = None
         self._intermediate = {}
@@ -184,7 +184,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
-        self._behind, self._is_restyled = None, False
+        self._behind, self._is_restyled, self._has_replaced = None, False, False
         self._posed, self._is_held, self._is_behind = None, False, False
         self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
@@ -241,7 +241,8 @@ class StepwiseRun:
         else:
             self._behind.advance()
             if self._behind.reason is not None:
-                self._run, self._behind, self._is_restyled = self._behind, None, False
+                self._run, self._behind = self._behind, None
+                self._is_restyled, self._has_replaced = False, True
 
     @property
     def iterations(self):
@@ -314,6 +315,11 @@ class StepwiseRun:
     def moment(self):
         """Identifier of the state that can be shown, None if there is none."""
         return None if self._is_behind and not self.is_done else self._state
+
+    @property
+    def has_replaced(self):
+        """Whether the end of another run has taken the place of what was shown."""
+        return self._has_replaced
 
     @property
     def _state(self):
