@@ -67,8 +67,7 @@ class StepwiseRun:
     ) -> None:
         """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
         key = key_of(tasks)
-        is_ready = not self._is_held and self._posed is None
-        before = self._run if is_ready else None
+        before = self._run_to_go_on
         is_same = _without(key, "crispness") == _without(self._key, "crispness")
         is_like = _without(key, *_STRENGTHS) == _without(self._key, *_STRENGTHS)
         known_problem = self.problem
@@ -90,13 +89,15 @@ class StepwiseRun:
         if now is None:
             self._reset(problems)
             return True
-        if len(now.pieces) == len(before.pieces) and all(
-            map(_has_weights_of, now.pieces, before.pieces)
-        ):
+        is_like = len(now.pieces) == len(before.pieces)
+        if is_like and all(map(_has_weights_of, now.pieces, before.pieces)):
             return False
+        is_like = is_like and now.setup is before.setup
+        is_like = is_like and all(map(_has_other_weights_of, now.pieces, before.pieces))
+        run = self._run_to_go_on
         self._reset(problems)
         self.problem = now
-        self._start()
+        self._start(run, is_like=is_like)
         return True
 
     # -- objects that the artist works on meanwhile -----------------------------------------------
@@ -151,6 +152,11 @@ class StepwiseRun:
         if now is not None:
             self._start()
             self._is_behind = is_like
+
+    @property
+    def _run_to_go_on(self):
+        """The run that another one may go on from, None if that is not of the problem."""
+        return None if self._is_held or self._posed is not None else self._run
 
     def _start(self, before: solver.Run | None = None, *, is_same=False, is_like=False):
         """Start a run.
@@ -384,8 +390,14 @@ def _has_vertices_of(now, before):
 
 
 def _has_weights_of(now, before):
+    is_like = np.array_equal(now.map_weights, before.map_weights)
+    return is_like and _has_other_weights_of(now, before)
+
+
+def _has_other_weights_of(now, before):
+    """Return whether at most the cubeness map differs, which is a strength."""
     is_like = now.bones.is_like(before.bones) if now.bones else before.bones is None
     return is_like and all(
         np.array_equal(getattr(now, name), getattr(before, name))
-        for name in ("map_weights", "detail_weights", "region_shares", "handle_of")
+        for name in ("detail_weights", "region_shares", "handle_of")
     )

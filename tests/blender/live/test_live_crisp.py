@@ -48,6 +48,27 @@ def test_a_crisp_shape_stays_crisp_while_cubeness_is_dragged(live, begin, one_ph
     check_same_as_cubify(obj)
 
 
+def test_a_crisp_shape_stays_crisp_while_its_map_is_painted(live, begin, one_phase):
+    obj = add_ball()
+    group = obj.vertex_groups.new(name="Map")
+    everywhere = range(len(obj.data.vertices))
+    group.add(everywhere, 0.8, "REPLACE")
+    session = tick_to_rest(begin(obj, cubeness=0.5, crispness=1.0, map_group="Map"))
+    at_rest, shape, seen = share_flat(obj), bits(obj), []
+    for weight in (0.85, 0.9, 0.95):
+        group.add([v for v in everywhere if obj.data.vertices[v].co.z > 0.0], weight, "REPLACE")
+        session.on_mesh_update()
+        for _ in range(30):
+            session.tick(bpy.context)
+            bpy.context.view_layer.update()
+            seen.append(share_flat(obj))
+        assert session.meshes[0].run._is_restyled
+    assert bits(obj) != shape, "nothing was seen"
+    assert min(seen) > 0.9 * at_rest
+    confirm(live, session)
+    check_same_as_cubify(obj)
+
+
 def test_the_shape_of_cubify_is_reached_in_small_steps(live, begin, part, one_phase, monkeypatch):
     obj = add_ball()
     session = tick_to_rest(begin(obj, cubeness=0.2, crispness=1.0))
