@@ -22,7 +22,7 @@ _XYZ = ("X", "Y", "Z")
 class Style:
     """What the surface is turned toward, and how strongly."""
 
-    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 0.5), is_strength=True)(
+    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 1), is_strength=True)(
         "Cubeness",
         "How strongly the surface turns toward the sides of the form. 0 keeps the shape, 0.1 moves"
         " it a third of the way, 0.4 most of it. You can type values beyond the slider, up to 10",

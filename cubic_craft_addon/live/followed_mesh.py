@@ -180,8 +180,7 @@ class FollowedMesh(LiveMesh):
     def show(self, obj: bpy.types.Object, values: Mapping[str, Any]) -> bool:
         """Show the run, or the last one carried along; return whether it is new."""
         values = {**values, "result": "MESH", "with_modifiers": False}
-        run = self.run
-        if run is not None and not self._is_stale and run.moment not in (None, self._shown_moment):
+        if not self._is_stale and self._is_new:
             if not self._fits(obj):
                 self._follower.renew(obj)
                 super().begin_preview(obj, [obj])
@@ -214,6 +213,7 @@ class FollowedMesh(LiveMesh):
 
     def _show_carried(self, obj, values):
         self._is_carried = False
+        self._ease.forget()
         mesh, solved = self.shows_on(obj), self._solved
         if self._preview is None or mesh is None or solved is None or self.original is None:
             return False

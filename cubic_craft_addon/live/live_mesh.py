@@ -3,6 +3,7 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
@@ -14,6 +15,7 @@ from .. import mesh_bridge
 from ..read.member import Member, read_shape
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
+from .ease import Ease
 
 
 class LiveMesh:
@@ -43,6 +45,7 @@ class LiveMesh:
         self._start: mesh_bridge.Start = task.settings.start
         self._preview: mesh_bridge.Preview | None = None
         self._shown_moment = None
+        self._ease = Ease()
 
     @property
     def is_working(self):
@@ -128,6 +131,7 @@ class LiveMesh:
         if self._is_shown and mesh is not None:
             self._preview = mesh_bridge.Preview(mesh, self._start)
             self._shown_moment = None
+            self._ease.forget()
 
     def suits(self, task: Task) -> bool:
         """Return whether it shows the result where the settings of its task say."""
@@ -154,18 +158,29 @@ class LiveMesh:
         `values` are the settings, for a file that is opened with this shape.
         """
         mesh = self.shows_on(obj)
-        if self._preview is None or self.run is None or mesh is None:
+        if self._preview is None or self.run is None or mesh is None or not self._is_new:
             return False
-        moment = self.run.moment
-        if moment is None or moment == self._shown_moment:
-            return False
-        self._shown_moment = moment
+        is_next, self._shown_moment = self._shown_moment != self.run.moment, self.run.moment
         found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
         if found is None:
             return False
+        positions, rotations = found
+        now = time.perf_counter()
+        if is_next and self.run.has_replaced:
+            self._ease.begin(positions, now)
         outcome = {"values": values, "run": self.run.outcome}
-        self._preview.show(mesh, *found, outcome=outcome)
+        self._preview.show(mesh, self._ease.shown(positions, now), rotations, outcome=outcome)
         return True
+
+    def arrive(self) -> None:
+        """Take no more way from shape to shape: the end is waited for."""
+        self._ease.forget()
+
+    @property
+    def _is_new(self):
+        """Whether there is something else to show than what was shown last."""
+        moment = None if self.run is None else self.run.moment
+        return moment is not None and (moment != self._shown_moment or self._ease.is_on)
 
     def take_along(self, obj: bpy.types.Object) -> bool:
         """Transform the data under the preview as the artist has transformed the visible mesh.
@@ -178,6 +193,7 @@ class LiveMesh:
     def release(self) -> None:
         """Release all arrays."""
         self._preview = self.member = self.run = None
+        self._ease.forget()
 
 
 def take_along(meshes: Iterable[LiveMesh], objects: Mapping[int, Any]) -> bool:

@@ -333,6 +333,9 @@ class Session:
 
     def _show(self, objects):
         values = {name: self._values[name] for name in ALL}
+        if self.is_finishing:
+            for mesh in self.meshes:
+                mesh.arrive()
         shown = [mesh.show(objects[mesh.object_uid], values) for mesh in self.meshes]
         if not self.is_following:  # followers are not looked at
             self._has_written |= any(shown)

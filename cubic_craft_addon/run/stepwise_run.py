@@ -45,7 +45,7 @@ class StepwiseRun:
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
         self._behind: solver.Run | None = None
-        self._is_restyled = False
+        self._is_restyled = self._has_replaced = False
         self._key = None
         self._intermediate_moment = None
         self._intermediate = {}
@@ -67,8 +67,7 @@ class StepwiseRun:
     ) -> None:
         """Start from the original shapes; `known` and `earlier` as for `tasks.prepare_all`."""
         key = key_of(tasks)
-        is_ready = not self._is_held and self._posed is None
-        before = self._run if is_ready else None
+        before = self._run_to_go_on
         is_same = _without(key, "crispness") == _without(self._key, "crispness")
         is_like = _without(key, *_STRENGTHS) == _without(self._key, *_STRENGTHS)
         known_problem = self.problem
@@ -90,13 +89,15 @@ class StepwiseRun:
         if now is None:
             self._reset(problems)
             return True
-        if len(now.pieces) == len(before.pieces) and all(
-            map(_has_weights_of, now.pieces, before.pieces)
-        ):
+        is_like = len(now.pieces) == len(before.pieces)
+        if is_like and all(map(_has_weights_of, now.pieces, before.pieces)):
             return False
+        is_like = is_like and now.setup is before.setup
+        is_like = is_like and all(map(_has_other_weights_of, now.pieces, before.pieces))
+        run = self._run_to_go_on
         self._reset(problems)
         self.problem = now
-        self._start()
+        self._start(run, is_like=is_like)
         return True
 
     # -- objects that the artist works on meanwhile -----------------------------------------------
@@ -152,6 +153,11 @@ class StepwiseRun:
             self._start()
             self._is_behind = is_like
 
+    @property
+    def _run_to_go_on(self):
+        """The run that another one may go on from, None if that is not of the problem."""
+        return None if self._is_held or self._posed is not None else self._run
+
     def _start(self, before: solver.Run | None = None, *, is_same=False, is_like=False):
         """Start a run.
 
@@ -184,7 +190,7 @@ class StepwiseRun:
 
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
-        self._behind, self._is_restyled = None, False
+        self._behind, self._is_restyled, self._has_replaced = None, False, False
         self._posed, self._is_held, self._is_behind = None, False, False
         self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
@@ -241,7 +247,8 @@ class StepwiseRun:
         else:
             self._behind.advance()
             if self._behind.reason is not None:
-                self._run, self._behind, self._is_restyled = self._behind, None, False
+                self._run, self._behind = self._behind, None
+                self._is_restyled, self._has_replaced = False, True
 
     @property
     def iterations(self):
@@ -316,6 +323,11 @@ class StepwiseRun:
         return None if self._is_behind and not self.is_done else self._state
 
     @property
+    def has_replaced(self):
+        """Whether the end of another run has taken the place of what was shown."""
+        return self._has_replaced
+
+    @property
     def _state(self):
         if self._run is None:
             return None
@@ -378,8 +390,14 @@ def _has_vertices_of(now, before):
 
 
 def _has_weights_of(now, before):
+    is_like = np.array_equal(now.map_weights, before.map_weights)
+    return is_like and _has_other_weights_of(now, before)
+
+
+def _has_other_weights_of(now, before):
+    """Return whether at most the cubeness map differs, which is a strength."""
     is_like = now.bones.is_like(before.bones) if now.bones else before.bones is None
     return is_like and all(
         np.array_equal(getattr(now, name), getattr(before, name))
-        for name in ("map_weights", "detail_weights", "region_shares", "handle_of")
+        for name in ("detail_weights", "region_shares", "handle_of")
     )

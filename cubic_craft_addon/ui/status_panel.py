@@ -74,7 +74,7 @@ def _words(run, changes, *, is_edited):
         return ("Not cubified yet", "Not cubified"), "BLANK1"
     if changes:
         count = f"{len(changes)} settings changed" if len(changes) > 1 else "1 setting changed"
-        return (f"Changed: {', '.join(changes)}", count, "Changed"), "ERROR"
+        return (f"Changed: {', '.join(changes)}", count, "Changed"), "INFO"
     if is_edited:
         return ("Edited since the last run", "Edited since", "Edited"), "INFO"
     if not run.converged:

@@ -66,7 +66,7 @@ def test():
     yield from gui.wait_until(scene.will_have_changed(NAME), what="a change")
     yield from become_cubic()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
-    yield from drag(places_along(slider, 0.8, 0.15, 0.98))
+    yield from drag(places_along(slider, 0.4, 0.08, 0.6))
     yield from become_cubic()
     yield from turn()
     strong = scene.positions(NAME)

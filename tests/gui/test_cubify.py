@@ -38,7 +38,7 @@ def changes():
 def change_and_update(first, place):
     """Drag the slider without Live: the panel says so, and the same button makes it up to date."""
     slider = yield from gui.find_button("cubic_craft.cubeness")
-    yield from gui.drag_slider(slider, 0.8, 0.2)
+    yield from gui.drag_slider(slider, 0.6, 0.4)
     assert scene.positions() == first
     assert changes() == ["Cubeness"]
     assert (yield from place_of_next_section()) == place, "the panel has jumped"

@@ -40,7 +40,7 @@ def test():
 
     yield from scene.start_live()
     slider = yield from gui.find_button("cubic_craft_live.cubeness")
-    yield from gui.drag_slider(slider, 0.4, 0.9)
+    yield from gui.drag_slider(slider, 0.4, 0.7)
     yield from scene.wait_idle()
     yield from gui.smooth_screenshot("first_3_live.png")
     strong = scene.positions()

@@ -138,7 +138,7 @@ def test_the_line_below_the_buttons_says_what_matters_most(part):
     assert line(dataclasses.replace(pressing, pressed=1224)) == ("10 faces still cross", "ERROR")
     assert line(dataclasses.replace(run, crossings=0)) == line(run)
     changed = line(run, ["Cubeness", "Handles"], is_edited=True)
-    assert changed == ("Changed: Cubeness, Handles", "ERROR")
+    assert changed == ("Changed: Cubeness, Handles", "INFO")
     assert [value(run) for _, value in panel._NUMBERS] == [
         "0.4",
         "12,345 of 3 objects",
