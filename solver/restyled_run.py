@@ -40,7 +40,7 @@ class RestyledRun(Run):
         self._soft, self._coarse_iterations = run.soft.restyled(style), 0
         self.stylization = run.stylization.restyled(style)
         self._soft.iterations = self.stylization.iterations = self._round = 0
-        self._phase = self._soft_local_step
+        self._phase = RestyledRun._soft_local_step
 
     @property
     def steps(self) -> int:
@@ -49,19 +49,19 @@ class RestyledRun(Run):
 
     def _soft_local_step(self):
         self.soft.local_step()
-        self._phase = self._soft_global_step
+        self._phase = RestyledRun._soft_global_step
 
     def _soft_global_step(self):
         self.soft.global_step()
-        self._phase = self._follow
+        self._phase = RestyledRun._follow
 
     def _follow(self):
         self.stylization.follow(self.soft)
         self.stylization.local_step()
-        self._phase = self._hard_step
+        self._phase = RestyledRun._hard_step
 
     def _hard_step(self):
         self.stylization.global_step()
-        self._phase = self._soft_local_step
+        self._phase = RestyledRun._soft_local_step
         if self.soft.iterations == ROUNDS:
             self.reason = "max_iterations"

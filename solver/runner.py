@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from copy import copy
 from functools import partial
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
@@ -102,7 +102,8 @@ class Run:
         self._last = max_iterations
         self._tolerance = tolerance
         self._rule = self._new_rule()
-        self._phase: Callable[[], None] = self._local_step
+        # not a bound method: a run would hold itself, and its memory, until cycles are looked for
+        self._phase: Callable[[Any], None] = Run._local_step
         self._seconds = 0.0
         self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
@@ -111,7 +112,7 @@ class Run:
         # a run on a coarser mesh rises itself
         self._below = FromBelow(stylization, max_iterations if coarse is None else 0)
         if not self._below.is_done:
-            self._phase = self._rise
+            self._phase = Run._rise
         rest = stylization.rest
         is_kept = switch(keep_apart, "keep_apart") and not stylization.is_coarse
         is_kept = is_kept and rest.options.keep_apart
@@ -178,7 +179,7 @@ class Run:
             if self._coarse.reason is not None:
                 self._leave(self._coarse)
         else:
-            self._phase()
+            self._phase(self)
         self._seconds += time.perf_counter() - begin
 
     def _leave(self, coarse: Run) -> None:
@@ -196,19 +197,19 @@ class Run:
 
     def _local_step(self):
         self.stylization.local_step()
-        self._phase = self._global_step
+        self._phase = Run._global_step
 
     def _global_step(self):
         state = self.stylization
         state.global_step()
-        self._phase = self._local_step
+        self._phase = Run._local_step
         assert state.energy is not None  # the local step has set it
         is_converged = self._rule.is_converged(
             state.energy.total, state.displacement, state.distance
         )
         if not self._below.is_done:
             if self._below.is_over(state.iterations, is_converged):
-                self._phase = self._rise
+                self._phase = Run._rise
         elif is_converged:
             self._ended("converged")
         elif state.iterations >= self._last:
@@ -217,33 +218,33 @@ class Run:
     def _rise(self) -> None:
         self._below.rise(self.stylization)  # to a higher cubeness, see `from_below.py`
         self._rule = self._new_rule()
-        self._phase = self._local_step
+        self._phase = Run._local_step
 
     def _ended(self, reason: Reason) -> None:
         """Decide what follows when the iteration has come to its end."""
         if self._apart is None:
             self._end = reason
-            self._phase = self._harden_or_end
-            self._phase()
+            self._phase = Run._harden_or_end
+            self._phase(self)
             return
         if not self._round:
             done = self.stylization.iterations
             self._end, self._round = reason, min(max(done // OF_ROUND, LEAST_ROUND), done)
-        self._phase = partial(self._check, self._apart)
+        self._phase = partial(Run._check, apart=self._apart)
 
     def _check(self, apart: KeepApart) -> None:
         needs_round = apart.check(self.stylization)
-        self._phase = partial(self._renew if needs_round else self._finish, apart)
+        self._phase = partial(Run._renew if needs_round else Run._finish, apart=apart)
 
     def _renew(self, apart: KeepApart) -> None:
         renewed = apart.renewed(self.stylization)
         if renewed is None:
-            self._phase = partial(self._finish, apart)
+            self._phase = partial(Run._finish, apart=apart)
             return
         self.stylization = renewed
         self._rule = self._new_rule()
         self._last = self.stylization.iterations + self._round
-        self._phase = self._local_step
+        self._phase = Run._local_step
 
     def _finish(self, apart: KeepApart) -> None:
         self.stylization = apart.finish(self.stylization)
@@ -253,7 +254,7 @@ class Run:
         state = self.stylization
         is_soft = self._soft is None and not state.is_coarse and state.style.is_hardened
         if is_soft and self._is_hardened_itself:
-            self._phase = self.harden
+            self._phase = Run.harden
         else:
             self._conclude()
 
@@ -265,15 +266,15 @@ class Run:
         self.reason, self._soft = None, self.stylization
         self._soft.finish()
         self.stylization = self._soft.hardened(before)
-        self._phase = self._hard_local_step
+        self._phase = Run._hard_local_step
 
     def _hard_local_step(self) -> None:
         self.stylization.local_step()
-        self._phase = self._hard_global_step
+        self._phase = Run._hard_global_step
 
     def _hard_global_step(self) -> None:
         self.stylization.global_step()
-        self._phase = self._hard_local_step
+        self._phase = Run._hard_local_step
         done = self.stylization.iterations - self.soft.iterations
         if done == ROUNDS // 2:
             self.stylization.give_back_volume()
@@ -288,7 +289,7 @@ class Run:
         if soft_apart is None:
             self.reason = self._end
         else:
-            self._phase = self._soften
+            self._phase = Run._soften
 
     def _soften(
         self, last: KeepApart | None = None, fewest: float = math.inf, tries: int = 0
@@ -306,7 +307,7 @@ class Run:
             fewest, tries = len(crossing), 0
         if len(crossing) and tries < TRIES:
             self.stylization = self.stylization.softened(crossing)
-            self._phase = partial(self._soften, looked, fewest, tries)
+            self._phase = partial(Run._soften, last=looked, fewest=fewest, tries=tries)
             return
         self.stylization = self._before
         self._conclude()

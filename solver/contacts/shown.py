@@ -15,7 +15,9 @@ from .crossings import boxes
 
 DIRECTIONS = 32
 """evenly over the sphere"""
-_MOST_CELLS = 512  # of a side of the grid
+_MOST_CELLS = 256  # of a side of the grid, whose cells then have numbers of 16 bit
+_PER_TRIANGLE = 4.0  # cells: where large triangles would lie in more, cells are larger
+_MOST_AT_ONCE = 1 << 21  # pairs of a point and a triangle
 _OFF = 1e-6  # of the extent: what blocks is farther away
 
 
@@ -72,15 +74,52 @@ def _cut(V, F, one, other):
 def _is_blocked(V, points, F, pairs, least):
     """Return which points (k,3) have a triangle above, farther than `least` along Z.
 
-    Not one of the two (k,2) that they lie on.
+    Not one of the two (k,2) that they lie on. The triangles of a cell are looked at from the top
+    down, each time twice as many: below a pile of others, the first ones are enough.
     """
     low, high = boxes(V, F)
-    origin, size = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
-    side = int(np.clip(np.sqrt(len(F)), 8, _MOST_CELLS))
-    scale = side / max(size, 1e-300) * (1.0 - 1e-9)
-    cell, first, last = (
-        ((x[:, :2] - origin) * scale).astype(np.intp).clip(0, side - 1) for x in (points, low, high)
-    )
+    at, end, triangles = _columns(V, points, low, high)
+    is_blocked = np.zeros(len(points), dtype=bool)
+    todo, size = np.flatnonzero(at < end), 1
+    while len(todo):
+        count = np.minimum(size, end[todo] - at[todo])
+        point, rows = np.repeat(todo, count), np.repeat(at[todo] - np.cumsum(count) + count, count)
+        triangle = triangles[rows + np.arange(len(point))]
+        is_near = np.ones(len(point), dtype=bool)
+        for own in pairs.T:
+            is_near &= own.take(point) != triangle
+        for begin, stop, place in zip([*low.T[:2], None], high.T, points.T, strict=True):
+            here = place.take(point)
+            is_near &= stop.take(triangle) >= here
+            if begin is not None:
+                is_near &= begin.take(triangle) <= here
+        point, triangle = point[is_near], triangle[is_near]
+        is_above = _height(V[F[triangle]], points[point]) > least
+        is_blocked[point[is_above]] = True
+        at[todo] += count
+        goes_on = ~is_blocked[todo] & (at[todo] < end[todo])
+        goes_on &= high[triangles[at[todo] - 1], 2] >= points[todo, 2]
+        todo, size = todo[goes_on], min(2 * size, max(_MOST_AT_ONCE // len(points), 1))
+    return is_blocked
+
+
+def _columns(V, points, low, high):
+    """Return the triangles in the cell of each point, as `begin`, `end`: (k,), and `triangles`.
+
+    `low`, `high`: (m,3), the boxes of triangles. Those of a cell are in the order of their tops,
+    the highest first.
+    """
+    origin, extent = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
+    side = int(np.clip(np.sqrt(len(low)), 8, _MOST_CELLS))
+    while True:
+        scale = side / max(extent, 1e-300) * (1.0 - 1e-9)
+        cell, first, last = (
+            ((x[:, :2] - origin) * scale).astype(np.intp).clip(0, side - 1)
+            for x in (points, low, high)
+        )
+        if side == 1 or (last - first + 1).prod(axis=1).sum() <= _PER_TRIANGLE * len(low):
+            break
+        side //= 2
     number = cell[:, 0] * side + cell[:, 1]
     of_cells = np.bincount(number, minlength=side * side)
     count = np.zeros((side + 1, side + 1), dtype=np.intp)
@@ -88,25 +127,15 @@ def _is_blocked(V, points, F, pairs, least):
     (x, y), (right, top) = first.T, (last + 1).T
     inside = count[right, top] - count[x, top] - count[right, y] + count[x, y]
     near = np.flatnonzero((inside > 0) & (high[:, 2] > points[:, 2].min()))
+    near = near[np.argsort(-high[near, 2])]
     box, (column, row) = entries(first[near].T, last[near].T)
     of_cell = column * side + row
-    times, begin = of_cells[of_cell], (np.cumsum(of_cells) - of_cells)[of_cell]
-    triangle = np.repeat(near[box], times)
-    within = np.arange(len(triangle)) - np.repeat(np.cumsum(times) - times - begin, times)
-    point = np.argsort(number, kind="stable")[within]
-    is_near = np.ones(len(point), dtype=bool)
-    for own in pairs.T:
-        is_near &= own.take(point) != triangle
-    for begin, end, place in zip([*low.T[:2], None], high.T, points.T, strict=True):
-        at = place.take(point)
-        is_near &= end.take(triangle) >= at
-        if begin is not None:
-            is_near &= begin.take(triangle) <= at
-    point, triangle = point[is_near], triangle[is_near]
-    is_above = _height(V[F[triangle]], points[point]) > least
-    is_blocked = np.zeros(len(points), dtype=bool)
-    is_blocked[point[is_above]] = True
-    return is_blocked
+    kept = np.flatnonzero(of_cells[of_cell])
+    of_cell = of_cell[kept].astype(np.uint16)  # which are sorted in linear time
+    count = np.bincount(of_cell, minlength=side * side)
+    end = np.cumsum(count)
+    triangles = near[box[kept[np.argsort(of_cell, kind="stable")]]]
+    return (end - count)[number], end[number], triangles
 
 
 def _height(corners, points):

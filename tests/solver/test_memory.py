@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What does not fit into memory is refused before anything is computed."""
+"""What does not fit into memory is refused before anything is computed; a run leaves nothing."""
+
+import gc
+import weakref
 
 import numpy as np
 import pytest
 import shapes
 
-from solver import PAPER, CubicCraftError, memory, rest_mesh
+from solver import PAPER, CubicCraftError, Run, Setup, Stylization, memory, rest_mesh
 
 
 def test_what_does_not_fit_is_refused_with_both_sizes_and_a_cure(monkeypatch):
@@ -59,3 +62,18 @@ def test_a_system_that_hides_it_refuses_nothing(monkeypatch, tmp_path, content):
 
 def test_windows_structure_has_its_documented_size():
     assert memory.ctypes.sizeof(memory._MemoryStatus) == 64
+
+
+@pytest.mark.parametrize("steps", [3, None])
+def test_a_run_is_freed_as_soon_as_it_is_not_used(steps):
+    V, F = shapes.sphere(3)
+    run = Run(Stylization(Setup(rest_mesh(V, F)), 0.4))
+    gc.disable()  # in a program with few objects, it may look for cycles after ten runs
+    try:
+        while run.reason is None and (steps is None or run.steps < steps):
+            run.advance()
+        freed = weakref.ref(run)
+        del run
+        assert freed() is None
+    finally:
+        gc.enable()
