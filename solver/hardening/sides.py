@@ -10,7 +10,9 @@ Models", 2009, 11.5),
     p_f ~ exp(-(1 - m_f.d - w sum_g a_fg p_g) / T)
 
 where a_fg are the shares of the neighbors g in the border of f. Labels count in the frame of each
-triangle, so that a side follows a limb where it bends.
+triangle, so that a side follows a limb where it bends. In the end, labels change one beside the
+other for as long as that lowers the sum of all, or teeth would be left along a border: no vertex of
+them can move onto its line without a triangle that vanishes.
 
 A side whose triangles face its direction on average, or nearly so, faces exactly there. One that
 leans, as on a horn or a chin, keeps its own direction from `LEANING` on.
@@ -27,6 +29,10 @@ TEMPERATURE = 0.15
 WEIGHT = 1.35
 ROUNDS = 12
 """few labels change after them, but for some that alternate: the last two count"""
+MOST_CHANGES = 40
+"""of labels one beside the other, after them"""
+LEAST_GAIN = 1e-4
+"""in units of the costs, of such a change"""
 CURVED = np.cos(np.radians(20.0))
 """sides at a smaller angle than this are those of a round form, which stays as it is"""
 NARROWEST = 0.05
@@ -44,6 +50,10 @@ TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
 
 COPLANAR = np.cos(np.radians(0.5))
 """between the normals of triangles in one plane"""
+SHARP = np.cos(np.radians(10.0))
+LARGE = 0.002
+"""of the area of all: what lies in a plane stands out of a curve if it is larger, or if half of the
+edges around turn by more than the angle of `SHARP`"""
 
 NO_SIDE = -1
 _LEAST_AREA = 1e-30
@@ -120,7 +130,7 @@ def _groups(graph, whole, form_of):
     one, other = graph.normals[graph.one], graph.normals[graph.other]
     count, flat = graph.regions(np.einsum("kj,kj->k", one, other) > COPLANAR)
     # in a dense mesh, a round side is a chain of triangles that are nearly in one plane
-    is_plane = _are_planes(graph, flat, count)[flat]
+    is_plane = (_are_planes(graph, flat, count) & _stand_out(graph, flat, count))[flat]
     faces = np.arange(len(form_of)) if whole is None else whole
     group = np.where(is_plane, flat, count + faces)
     bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
@@ -130,6 +140,16 @@ def _groups(graph, whole, form_of):
         total = nodes + int(faces.max()) + 1
         group = components(np.empty((0, 3), np.int64), total, pairs)[1][group]
     return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
+
+
+def _stand_out(graph, part, count):
+    """Return which parts (count,) are large, or have sharp edges around: no facet of a curve."""
+    one, other = part[graph.one], part[graph.other]
+    is_sharp = np.einsum("kj,kj->k", graph.normals[graph.one], graph.normals[graph.other]) < SHARP
+    signed = graph.length * np.where(is_sharp, 1.0, -1.0) * (one != other)
+    around = np.bincount(one, signed, count) + np.bincount(other, signed, count)
+    areas = np.bincount(part, graph.areas, count)
+    return (around >= 0.0) | (areas > LARGE * graph.areas.sum())
 
 
 def _are_planes(graph, part, count):
@@ -149,7 +169,8 @@ def _of_groups(graph, costs, is_followed, group):
     area = np.asarray(gather.sum(axis=1))
     one, other = group[graph.one], group[graph.other]
     shares = _shares(one, other, graph.length * (is_followed & (one != other)), count)
-    return smooth_labels(np.float32((gather @ costs) / area), shares)[group]
+    costs = np.float32((gather @ costs) / area)
+    return _without_teeth(smooth_labels(costs, shares), costs, shares)[group]
 
 
 def _flat_and_round(form):
@@ -201,6 +222,30 @@ def smooth_labels(costs, shares):
     for _ in range(ROUNDS):
         p, before = _likely(WEIGHT * (shares @ p) - costs), p
     return (p + before).argmax(axis=1)
+
+
+def _without_teeth(label, costs, shares):
+    """Return labels (m,) changed until no change of a single one lowers the cost of all.
+
+    Neighbors never change at once: two rows of teeth would change places again and again.
+    """
+    label = label.copy()
+    start = np.repeat(np.arange(len(label)), np.diff(shares.indptr))
+    for _ in range(MOST_CHANGES):
+        rows = np.unique(start[(label[start] != label[shares.indices]) & (shares.data > 0.0)])
+        near, at = shares[rows], np.arange(len(rows))
+        of_label = np.eye(costs.shape[1], dtype=np.float32)[label[near.indices]]
+        ends = sp.csr_matrix((near.data, np.arange(near.nnz), near.indptr), (len(rows), near.nnz))
+        total = costs[rows] - WEIGHT * (ends @ of_label)
+        best = total.argmin(axis=1)
+        gain = np.zeros(len(label), np.float32)
+        gain[rows] = total[at, label[rows]] - total[at, best]
+        near.data = np.where(near.data > 0.0, gain[near.indices], 0.0)
+        is_most = gain[rows] > np.maximum(near.max(axis=1).toarray().ravel(), LEAST_GAIN)
+        if not is_most.any():
+            break
+        label[rows[is_most]] = best[is_most]
+    return label
 
 
 def _likely(gains):

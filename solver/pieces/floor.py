@@ -18,7 +18,9 @@ if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..setup import Setup
 
 _STANDING = 0.01
-"""share of the total height that a standing part may begin above the lowest point, and a foot"""
+"""share of the total height that a standing part may begin above the lowest point"""
+_FOOT = 0.03
+"""the same for a foot, or the seat of what sits: less is not seen as a gap below it"""
 _ZONE = 0.05
 """the same for what may come to be the lowest of a foot"""
 _BASE = 0.25
@@ -98,7 +100,7 @@ class Floor:
         _, part = components(np.empty((0, 3), np.int64), len(rest.V), edges)
         _, zone = np.unique(part[self._place], return_inverse=True)
         is_foot = np.zeros(zone.max() + 1, dtype=bool)
-        is_foot[zone[self._is_near(_STANDING)]] = True
+        is_foot[zone[self._is_near(_FOOT)]] = True
         zone = np.where(is_near & is_foot[zone], zone, -1)
         return np.unique(zone, return_inverse=True)[1].ravel() - (zone < 0).any()
 

@@ -140,6 +140,20 @@ def test_what_stands_on_the_floor_stays_there():
     np.testing.assert_array_equal(free[len(V) :], kept[len(V) :])
 
 
+def test_a_seat_between_legs_that_stand_sinks_back_with_them():
+    V, F = sphere(3)
+    body = 0.7 * V + [0.0, 0.0, 0.75]
+    legs = [0.22 * V * [1.0, 2.4, 1.0] + [side, -0.6, 0.24] for side in (-0.42, 0.42)]
+    faces = np.concatenate([F, F + len(V), F + 2 * len(V)])
+    piece = piece_of(np.concatenate([body, *legs]), faces, Style(0.4))
+    proxy = ProxyOptions(refine=False)
+    free, kept = (solved(piece, proxy=proxy, keep_floor=on)[0] for on in (False, True))
+    parts = np.repeat(np.arange(3), len(V))
+    for part, rest in enumerate([body, *legs]):
+        assert free[parts == part, 2].min() > rest[:, 2].min() + 0.02
+        assert abs(kept[parts == part, 2].min() - rest[:, 2].min()) < 0.005
+
+
 def test_what_has_not_changed_is_used_again():
     V, F = blob(2)
     first = join_pieces([piece_of(V, F, Style(0.2))], PAPER)
