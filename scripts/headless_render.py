@@ -52,10 +52,9 @@ def _arguments() -> list[str]:
 
 def _command(threads: int | None) -> list[str]:
     """Return what starts this script once more, by Python or the same Blender."""
-    if not IS_INSIDE_BLENDER:
+    bpy = sys.modules.get("bpy")
+    if bpy is None or not bpy.app.binary_path:  # the module
         return [sys.executable, str(Path(__file__).resolve())]
-    import bpy
-
     # As this Blender was started; of two numbers of threads it takes the later.
     own = sys.argv[1 : sys.argv.index("--")]
     limit = ["--threads", str(threads)] if threads else []

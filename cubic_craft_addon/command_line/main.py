@@ -10,16 +10,14 @@ from contextlib import AbstractContextManager
 from typing import NamedTuple
 
 from ...solver.console.errors import InputError
-from ...solver.console.interruption import before_ending, end_on_signals, end_with_input
-from ...solver.console.temporary import remove_left_behind, replacing
+from ...solver.console.interruption import end_on_signals, end_with_input
 from .batch.run import run_batch
 from .options.arguments import parse
 from .options.checks import refuse_empty
+from .process.child import CRASHING, run_child, thread_variables
 from .process.one_line import one_line
 from .process.output_files import written
 from .process.quiet import mute_stdout, terminal
-from .process.version import version
-from .process.watched_process import Limits, end_processes, finish, start, thread_variables
 
 
 class Program(NamedTuple):
@@ -42,11 +40,11 @@ def main_of(program: Program) -> int:
     begin = time.perf_counter()
     try:
         options = parse(program.arguments, program.start)
-        if options.worker or options.limited:
+        if options.worker or options.child:
             end_with_input()
         mute_stdout(options.verbose)
         if options.output_folder:
-            return run_batch(options, program.command, version(), program.name)
+            return run_batch(options, program.arguments, program.command, program.name)
         return _run_one(options, program, begin)
     except InputError as error:
         print(f"{program.name}: error: {one_line(str(error))}", file=sys.stderr)
@@ -54,45 +52,34 @@ def main_of(program: Program) -> int:
 
 
 def _run_one(options: Namespace, program: Program, begin: float) -> int:
-    """Run with one file, or the monkey; with --error-file say there why it cannot be used.
+    """Run with one file, or the monkey, and return the exit code."""
+    if options.input is not None:
+        refuse_empty(options.input)
+    if not (options.worker or options.child) and (options.timeout or _may_crash(options)):
+        return _run_child(options, program)
+    os.environ.update(thread_variables(options.threads))
+    with program.registered():
+        # Late, because it takes Blender a second to start.
+        from .pipeline import run
 
-    Returns the exit code.
-    """
-    try:
-        if options.input is not None:
-            refuse_empty(options.input)
-        if (options.timeout or options.memory) and not options.limited:
-            return _run_limited(options, program)
-        os.environ.update(thread_variables(options.threads))
-        with program.registered():
-            # Late, because it takes Blender a second to start.
-            from .pipeline import run
-
-            run(options, begin)
-        if options.error_file:
-            options.error_file.unlink(missing_ok=True)
-    except InputError as error:
-        if not options.error_file:
-            raise
-        print(f"{program.name}: {one_line(str(error))}", file=sys.stderr)
-        with replacing(options.error_file) as temporary:
-            temporary.write_text(f"{error}\n", encoding="utf-8")
+        run(options, begin)
     return 0
 
 
-def _run_limited(options: Namespace, program: Program) -> int:
+def _may_crash(options: Namespace) -> bool:
+    """Return whether Blender may crash while it reads the files."""
+    paths = (options.input, options.form_object, options.capture)
+    return any(path.suffix.lower() in CRASHING for path in paths if path)
+
+
+def _run_child(options: Namespace, program: Program) -> int:
     """Run with one file in another process, and return its exit code.
 
-    Raises InputError: it has exceeded a limit.
+    Raises InputError: it has crashed, or takes too long.
     """
-    before_ending(end_processes)
-    process = start([*program.command(options.threads), *program.arguments, "--limited"])
-    exceeded, _ = finish(process, Limits(options.timeout, options.memory))
-    outputs = written(options.output, options.save_mesh, options)
-    for path in (*outputs, options.bake, options.report):
-        if path is not None:
-            remove_left_behind(path)
-    if exceeded:
-        raise InputError(f"{options.input or 'monkey'}: {exceeded}")
-    code = process.returncode
-    return code if code >= 0 else 128 - code
+    command = [*program.command(options.threads), *program.arguments, "--child"]
+    outputs = written(options) + ([options.report] if options.report else [])
+    code, words = run_child(command, options.timeout, outputs)
+    if words:
+        raise InputError(f"{options.input or 'monkey'}: {words}")
+    return code

@@ -47,7 +47,6 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
             options.verbose,
             is_seen=not options.bake,
             is_all_seen=options.with_modifiers,
-            has_own_process=bool(options.worker),
         )
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None

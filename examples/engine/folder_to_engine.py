@@ -19,19 +19,19 @@ TRIANGLES = ("3000", "1000", "300")
 def main(meshes, assets, *options):
     """Run the command, and return its exit code."""
     folder = Path(assets)
-    report = folder.with_name(f"{folder.name}_report.jsonl")
+    report = folder.with_name(f"{folder.name}_report.json")
     command = [os.environ.get("BLENDER", "blender"), "--background", "--command", "cubic_craft"]
     command += [meshes, "--output-folder", assets, "--report", str(report), "--jobs", "2"]
     command += ["--save-mesh", ".glb", "--low-poly", *TRIANGLES, *options]
     code = subprocess.run(command, check=False).returncode
     if code not in (0, 3):  # nothing was begun, or it was interrupted
         return code
-    rows = [json.loads(line) for line in report.read_text(encoding="utf-8").splitlines()]
+    rows = json.loads(report.read_text(encoding="utf-8"))["files"]
     listed = {Path(row["input"]).name: row["outputs"] for row in rows if "outputs" in row}
     (folder / "assets.json").write_text(json.dumps(listed, indent=2) + "\n", encoding="utf-8")
     for row in rows:
         name = Path(row["input"]).name
-        print(name, row.get("error") or f"{row['seconds']:.0f} s, {row['peak_gb']} GB", sep=": ")
+        print(name, row.get("error") or f"{row['seconds']:.0f} s", sep=": ")
     return code
 
 

@@ -24,7 +24,7 @@ TOGETHER = {
 HELP = {
     "paths": f"surfaces ({', '.join(FORMATS)}) or folders of them, and at the end the result: a "
     "file, or for several surfaces a folder, which is made; - is standard input or output",
-    "--report": "numbers of each file, written after it; as *.jsonl a line of JSON for each",
+    "--report": "numbers of each file, written after it",
     "--format": "of what is written to standard output (default: that of the input)",
     "--quiet": "say nothing but what is wrong",
     "--paper": method_options.as_in_paper(DEFAULTS),

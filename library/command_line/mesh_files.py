@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Read and write mesh files through meshio.
 
-See `obj_text`, `ply_header` and `decompression` for what it gets wrong, and `gltf_file` for a
-format that it does not know.
+See `obj_text` and `ply_header` for what it gets wrong, and `gltf_file` for a format that it does
+not know.
 
 meshio prints its messages, and ends the process where a file cannot be read. Here they become
 errors, and notes of what a format cannot hold.
@@ -22,7 +22,6 @@ import numpy as np
 from solver.console.errors import InputError
 from solver.meshes import FACES, with_turned_normals
 
-from .decompression import within_memory
 from .formats import FORMATS, Format
 from .gltf_file import GltfFile, write_surface
 from .obj_text import ObjText
@@ -93,7 +92,8 @@ def write(file: MeshFile, path: Path, positions: np.ndarray, rotations: np.ndarr
         return []
     if isinstance(file.whole, GltfFile) and suffix in _GLTF:
         _check_float32(positions)
-        return file.whole.write(path, positions, rotations)
+        file.whole.write(path, positions, rotations)
+        return []
     kind = FORMATS[suffix]
     notes: list[str] = []
     mesh = _fitting(file, kind, positions, rotations, notes)
@@ -129,8 +129,7 @@ def _read_with_meshio(path: Path) -> Any:
         try:
             if kind.name == "ply":
                 return meshio.read(io.BytesIO(readable_ply(path.read_bytes())), "ply")
-            with within_memory():
-                return meshio.read(path, kind.name)
+            return meshio.read(path, kind.name)
         except InputError as error:
             raise InputError(f"{path}: {error}") from None
         except (Exception, SystemExit) as error:  # its readers raise anything

@@ -15,8 +15,7 @@ from solver.console.crossing_words import end_words
 from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
 from solver.console.output import check_folder, check_place
-from solver.console.process_memory import peak_gb
-from solver.console.report import DONE, FAILED, LINES, BatchReport, counts_of, in_words
+from solver.console.report import DONE, FAILED, BatchReport, counts_of, in_words
 from solver.console.temporary import replacing, temporary_folder
 
 from .arguments import parse
@@ -50,7 +49,7 @@ def run(arguments: list[str]) -> int:
         files.append({"input": source, **about})
         if report:
             try:
-                report.write(files, files[-1])
+                report.write(files)
                 is_written = True
             except (InputError, OSError) as error:
                 is_written = False
@@ -106,8 +105,8 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
         _check_output(source, target)
     if options.report:
         _check_writable(options.report)
-        if options.report.suffix.lower() not in (".json", LINES):
-            raise InputError(f"--report {options.report}: the name must end in .json or {LINES}")
+        if options.report.suffix.lower() != ".json":
+            raise InputError(f"--report {options.report}: the name must end in .json")
     return jobs, kinds
 
 
@@ -197,7 +196,6 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
     numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
     about = {
         "seconds": seconds,
-        "peak_gb": peak_gb(),  # of all until now, as they share a process
         "vertices": len(file.surface.points),
         "faces": file.surface.face_count,
         "iterations": result.iterations,

@@ -8,18 +8,21 @@ import argparse
 import json
 import os
 import sys
-from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
-from benchmark import page, plots  # noqa: E402
-from benchmark.best_energies import BestEnergies, keep_lower_energies  # noqa: E402
-from benchmark.suite import FULL, PARTS, QUICK, measure  # noqa: E402
-from benchmark.targets import targets  # noqa: E402
+from benchmark import runs  # noqa: E402
+from benchmark.machine import isolated, machine_line  # noqa: E402
+from benchmark.meshes import known_meshes, made_meshes, scaled_meshes  # noqa: E402
+from benchmark.page import page  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
+WITH_PYMESHLAB = ("spot", "bunny", "horse", "blob-10k")
+"""meshes of which PyMeshLab does not take minutes"""
+LARGE = 50_000
+"""vertices from which a size is measured only once"""
 
 
 def arguments():
@@ -32,46 +35,58 @@ def arguments():
         help="folder with bunny.obj, horse.ply and others; without any, bumpy spheres are used",
     )
     parser.add_argument("--quick", action="store_true", help="a part, in less than two minutes")
-    parser.add_argument("--runs", type=int, help="of each program, alternating; default 3, quick 1")
-    parser.add_argument("--max-vertices", type=int, help="largest mesh of the scaling run")
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS))
-    parser.add_argument(
-        "--output",
-        type=Path,
-        help="folder of the page and its images; default docs if all is measured, else build/bench",
-    )
     return parser.parse_args()
 
 
 def main():
-    """Run what was asked for."""
+    """Measure what was asked for; all of it makes the page in docs, a part one in build/bench."""
     options = arguments()
-    plan = QUICK if options.quick else FULL
-    given = {"runs": options.runs, "max_vertices": options.max_vertices}
-    plan = plan._replace(**{name: value for name, value in given.items() if value})
-    is_all = plan == FULL and set(options.parts) == set(PARTS)
-    results = measure(plan, options.meshes, options.parts, partial(print, flush=True))
-    file = BUILD / ("results.json" if is_all else "results-part.json")
-    file.write_text(json.dumps(results), encoding="utf-8")
-    if is_all:
-        keep_lower_energies(results, BestEnergies())
-    print(f"written: {write(results, options.output or (ROOT / 'docs' if is_all else BUILD))}")
-    for row in targets(results):
-        verdict = "pass" if row["met"] == "yes" else "FAIL"
-        print(f"{verdict}  {row['target']}: {row['measured']} ({row['bound']})")
+    count = 1 if options.quick else 3
+    is_all = not options.quick and set(options.parts) == set(PARTS)
+    meshes = known_meshes(options.meshes)
+    if options.quick:
+        meshes = {name: mesh for name, mesh in meshes.items() if name in WITH_PYMESHLAB}
+    results = {"machine": machine_line(), "runs": count}
+    for part, measure in PARTS.items():
+        results[part] = []
+        for mesh, cubeness, figures in measure(meshes, count) if part in options.parts else ():
+            print(f"{part}: {mesh.name} {cubeness}", flush=True)
+            head = {"mesh": mesh.name, "vertices": mesh.vertices, "cubeness": cubeness}
+            results[part].append(head | figures)
+    BUILD.mkdir(parents=True, exist_ok=True)
+    (BUILD / "results.json").write_text(json.dumps(results), encoding="utf-8")
+    path = (ROOT / "docs" if is_all else BUILD) / "benchmarks.md"
+    path.write_text(page(results), encoding="utf-8")
+    print(f"written: {path}")
 
 
-def write(results, folder):
-    """Write the page and its images into a folder; return the path of the page."""
-    (folder / "images").mkdir(parents=True, exist_ok=True)
-    if results["race"]:
-        plots.plot_gaps(results["race"], folder / page.GAPS_IMAGE)
-    if results["scaling"]:
-        plots.plot_scaling(results["scaling"], folder / page.SCALING_IMAGE)
-    path = folder / "benchmarks.md"
-    path.write_text(page.page(results), encoding="utf-8")
-    return path
+def _ten(meshes, count):
+    for mesh in meshes.values():
+        yield mesh, runs.CUBENESS, isolated(runs.ten_iterations, source=mesh.source, runs=count)
 
+
+def _pymeshlab(meshes, count):
+    for mesh in (meshes[name] for name in WITH_PYMESHLAB if name in meshes):
+        for cubeness in (0.2, 0.4) if mesh.vertices < LARGE / 2 else (0.4,):
+            case = {"path": mesh.path, "cubeness": cubeness, "runs": count}
+            yield mesh, cubeness, isolated(runs.beside_pymeshlab, **case)
+
+
+def _scaling(meshes, count):
+    largest = 30_000 if count == 1 else 1_100_000
+    for mesh in scaled_meshes(meshes.get("bunny"), largest):
+        own = count if mesh.vertices < LARGE else 1
+        yield mesh, runs.CUBENESS, isolated(runs.one_size, path=mesh.path, runs=own)
+
+
+def _defaults(meshes, count):
+    for mesh in (*meshes.values(), *made_meshes(4 if count == 1 else 6)):
+        case = {"path": mesh.path, "cubeness": runs.CUBENESS, "runs": count}
+        yield mesh, runs.CUBENESS, isolated(runs.both_settings, **case)
+
+
+PARTS = {"ten": _ten, "pymeshlab": _pymeshlab, "scaling": _scaling, "defaults": _defaults}
 
 if __name__ == "__main__":
     main()

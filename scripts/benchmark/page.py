@@ -1,13 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of results: tables and what their columns are. What they mean is told in `EXPLAINED`."""
 
-from . import suite, tables
-from .solver_alone import CUBENESS, ITERATIONS
-from .summary import FIT_FROM, fit, median_of, milliseconds_per_iteration
-from .targets import targets
+from statistics import geometric_mean, median
+
+from .runs import CUBENESS, ITERATIONS
 
 EXPLAINED = "benchmarks_explained.md"
-GAPS_IMAGE, SCALING_IMAGE = "images/benchmark_gaps.png", "images/benchmark_scaling.png"
+PAPER_SECONDS = {
+    "homer": (3.39, 10.03),
+    "bunny": (3.55, 27.56),
+    "owl": (6.69, 160.52),
+    "horse": (8.25, 211.62),
+    "armadillo": (7.80, 217.96),
+}
+"""Table 1 of the paper: on a GPU (NVIDIA RTX 3050 Ti) and on a CPU (AMD R9 5900HS, the solver of
+Liu and Jacobson), by mesh"""
+JUDGED_FROM = 2000
+"""vertices of the meshes over which the mean cost of the defaults is taken"""
+
+TEN = f"""\
+{ITERATIONS} outer iterations at cubeness {CUBENESS}, as in the paper, with all set-up. The columns
+of the paper are its Table 1, from other hardware: an NVIDIA RTX 3050 Ti, and for the CPU the
+program of Liu and Jacobson on an AMD R9 5900HS."""
+PYMESHLAB = """\
+PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop; ours as in the paper.
+"Ours as low" is when ours reaches the energy at which PyMeshLab ends; "times faster" compares both
+at their own stop."""
+SCALING = "One shape, simplified or subdivided to each size, as in the paper."
+DEFAULTS = "The artist's defaults beside the paper's settings, each to its own stop."
 
 
 def page(results):
@@ -17,65 +37,122 @@ def page(results):
 
 Written by `make bench`, side by side on one machine. [What the tables mean, and what bounds the
 times]({EXPLAINED}) has a page of its own. Rows are *as in the paper* unless they name the
-defaults. Runs of each program: {results["runs"]}, of which the median counts; one of PyMeshLab
-from {suite.LARGE:,} vertices on, and in the scaling run from {suite.LARGE_SCALING:,} on.
+defaults. Runs of each program: {results["runs"]}, of which the median counts; one of large meshes.
 
 {results["machine"]}
 """
-    for heading, caption, rows in _sections(results):
-        if rows:
-            text += f"\n{heading}\n\n{caption}\n\n{tables.markdown(rows)}\n"
+    for part, (heading, caption, row_of) in _SECTIONS.items():
+        if rows := list(map(row_of, results[part])):
+            end = _mean(results[part]) if part == "defaults" else ""
+            text += f"\n## {heading}\n\n{caption}{end}\n\n{markdown(rows)}\n"
     return text
 
 
-def _sections(results):
-    """Give heading, caption and rows of each."""
-    race_results = results["race"]
-    by_pymeshlab = [case for case in race_results if case["pymeshlab"]]
-    made = [
-        ("## Ten iterations", _TEN, map(tables.ten_iterations, results["ten"])),
-        ("## To the best shape", _GAPS, map(tables.gaps, race_results)),
-        ("### Beside PyMeshLab", _PYMESHLAB, map(tables.pymeshlab, by_pymeshlab)),
-        ("## Time over size", _scaling_caption(results), map(tables.scaling, results["scaling"])),
-        ("## With the defaults", _DEFAULTS, map(tables.defaults, results["defaults"])),
-        ("### To the shape of the defaults", _LINKED, map(tables.linked, results["defaults"])),
-        ("## Targets", _TARGETS, targets(results)),
-    ]
-    return [(heading, caption, list(rows)) for heading, caption, rows in made]
+def markdown(rows):
+    """Return rows as a table: three digits of what is measured, and a dash for None."""
+    lines = [rows[0], ["---"] * len(rows[0]), *(map(_cell, row.values()) for row in rows)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-_TEN = f"""\
-{ITERATIONS} outer iterations at cubeness {CUBENESS}, as in the paper, with all set-up. The columns
-of the paper are its Table 1, from other hardware: an NVIDIA RTX 3050 Ti, and for the CPU the
-program of Liu and Jacobson on an AMD R9 5900HS."""
-_GAPS = f"""\
-As in the paper. A dash: not reached before our own stop.
-
-![Gap over time]({GAPS_IMAGE})"""
-_PYMESHLAB = """\
-PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop; ours as in the paper.
-"Ours as low" is when ours reaches the energy at which PyMeshLab ends; "times faster" compares both
-at their own stop. Cases that are not listed would take it minutes."""
-_DEFAULTS = """\
-The artist's defaults beside the paper's settings, each to its own stop. They are judged by the
-geometric mean over all meshes of more than 2,000 vertices, the large ones at three values of
-cubeness: how many iterations a single case takes is to a good part luck. "Ticks per second" is how
-often Live could show a coarse mesh anew, without what Blender takes to draw."""
-_LINKED = """\
-The defaults have an energy of their own, with links. Gaps of either energy, between rest and the
-lowest that any of the runs has seen, as in the paper and with the defaults."""
-_TARGETS = "What was to be reached, and whether this run has."
+def _cell(value):
+    if value is None:
+        return "-"
+    if isinstance(value, str):
+        return value
+    return f"{value:.3g}" if abs(value) < 1000 and isinstance(value, float) else f"{value:,.0f}"
 
 
-def _scaling_caption(results):
-    cases = results["scaling"]
-    setup = fit(cases, lambda case: median_of(case, "ours", "setup"))[0]
-    iteration = fit(cases, milliseconds_per_iteration)[0]
-    power = fit(cases)[0]
-    text = "One shape, simplified or subdivided to each size, as in the paper.\n"
-    if power is not None:
-        text += (
-            f"From {FIT_FROM:,} vertices on, the time to gap 1 % grows as vertices^{power:.2f},\n"
-            f"set-up as vertices^{setup:.2f} and one iteration as vertices^{iteration:.2f}.\n"
-        )
-    return f"{text}\n![Time over size]({SCALING_IMAGE})"
+def _ten(case):
+    ours = median(case["seconds"])
+    gpu, cpu = PAPER_SECONDS.get(case["mesh"], (None, None))
+    return {
+        "mesh": case["mesh"],
+        "vertices": case["vertices"],
+        "reading the file, s": median(case["reading"]),
+        "CubicCraft, s": ours,
+        "paper, GPU, s": gpu,
+        "paper, CPU, s": cpu,
+        "times the paper's GPU": _ratio(gpu, ours),
+        "times the paper's CPU": _ratio(cpu, ours),
+    }
+
+
+def _pymeshlab(case):
+    end, energy = (median_of(case, "pymeshlab", name) for name in ("seconds", "energy"))
+    stop, there = median_of(case, "ours", "seconds"), seconds_to(case["ours"], energy)
+    return _head(case) | {
+        "PyMeshLab ends, s": end,
+        "its energy": f"{energy:.5f}",
+        "ours as low, s": there,
+        "times sooner": _ratio(end, there),
+        "ours at its stop, s": stop,
+        "our energy": f"{median_of(case, 'ours', 'energy'):.5f}",
+        "times faster": _ratio(end, stop),
+    }
+
+
+def _scaling(case):
+    one = [1000 * (run["seconds"] - run["setup"]) / run["iterations"] for run in case["ours"]]
+    return {
+        "vertices": case["vertices"],
+        "set-up, s": median_of(case, "ours", "setup"),
+        "ms per iteration": median(one),
+        **_end(case, "ours", "to our stop"),
+        "peak memory, MiB": round(case["peak"] / 1024**2),
+        "for the run, MiB": round(case["above"] / 1024**2),
+    }
+
+
+def _defaults(case):
+    row = _head(case) | {"solved with the defaults": median_of(case, "defaults", "solved")}
+    for name, program in (("as in the paper", "paper"), ("defaults", "defaults")):
+        row |= _end(case, program, f"{name}: to our stop")
+        row[f"{name}: set-up, s"] = median_of(case, program, "setup")
+    return row | {"times as long": _times_as_long(case)}
+
+
+def _mean(cases):
+    ratios = [_times_as_long(case) for case in cases if case["vertices"] > JUDGED_FROM]
+    if not ratios:
+        return ""
+    mean = geometric_mean(ratios)
+    return f"\nOver all meshes of more than {JUDGED_FROM:,} vertices: {mean:.2f} times as long."
+
+
+_SECTIONS = {
+    "ten": ("Ten iterations", TEN, _ten),
+    "pymeshlab": ("Beside PyMeshLab", PYMESHLAB, _pymeshlab),
+    "scaling": ("Time over size", SCALING, _scaling),
+    "defaults": ("With the defaults", DEFAULTS, _defaults),
+}
+
+
+def median_of(case, program, figure):
+    """Return the median of a figure, such as "seconds", over the runs of a program."""
+    return median(run[figure] for run in case[program])
+
+
+def seconds_to(runs, energy):
+    """Return the median seconds until runs first reach an energy; None if one never does."""
+    found = [next((s for s, reached in run["curve"] if reached <= energy), None) for run in runs]
+    return None if None in found else median(found)
+
+
+def _times_as_long(case):
+    return median_of(case, "defaults", "seconds") / median_of(case, "paper", "seconds")
+
+
+def _head(case):
+    return {"mesh": case["mesh"], "vertices": case["vertices"], "cubeness": case["cubeness"]}
+
+
+def _end(case, program, what):
+    """Return when a program ends, and whether by its own stop."""
+    iterations = f"{median_of(case, program, 'iterations'):.0f}"
+    if any(run["reason"] != "converged" for run in case[program]):
+        iterations += ", cut off"
+    return {f"{what}, s": median_of(case, program, "seconds"), f"{what}, iterations": iterations}
+
+
+def _ratio(numerator, denominator):
+    return None if None in (numerator, denominator) else numerator / denominator

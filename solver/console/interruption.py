@@ -18,12 +18,6 @@ from .temporary import remove_temporaries
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
 _CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
 """for terminals: erase the progress bar, and show the cursor that it hides"""
-_duties: list[Callable[[], None]] = [remove_temporaries]
-
-
-def before_ending(duty: Callable[[], None]) -> None:
-    """Have something done, in another thread, before the process ends because it is told to."""
-    _duties.append(duty)
 
 
 def end_on_signals(program: str, terminal: Callable[[], int] = lambda: 2) -> None:
@@ -56,7 +50,7 @@ def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -
         if number in _WORDS:
             break
     line = f"{program}: {_WORDS[signal.Signals(number)]}\n".encode()
-    _tidy_up()
+    remove_temporaries()
     last_words = os.dup(terminal())
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
     os.write(last_words, _CLEAN_LINE + line if os.isatty(last_words) else line)
@@ -66,10 +60,5 @@ def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -
 def _wait_for_end_of_input() -> None:
     while os.read(0, 1):
         pass
-    _tidy_up()
+    remove_temporaries()
     os._exit(128 + signal.SIGTERM)
-
-
-def _tidy_up() -> None:
-    for duty in _duties:
-        duty()

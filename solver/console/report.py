@@ -4,6 +4,7 @@
 import json
 import time
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -11,43 +12,31 @@ from .temporary import replacing
 
 DONE, KEPT, FAILED = "done", "kept", "failed"
 """what became of a file; kept is what an earlier run has done"""
-LINES = ".jsonl"
-"""suffix of reports with a line of JSON for each file"""
 
 
 class BatchReport:
     """A report in a file.
 
-    `path`: ends in .json, or in ``LINES``. `head`: what is known before the first file. `total`:
-    number of files.
+    `head`: what is known before the first file. `total`: number of files.
     """
 
     def __init__(self, path: Path, head: dict[str, Any], total: int) -> None:
         self._path, self._head, self._total = path, head, total
-        self._begin, self._is_behind = time.perf_counter(), False
-        if path.suffix.lower() == LINES:
-            path.unlink(missing_ok=True)
+        self._begin = time.perf_counter()
 
-    def write(self, files: list[dict[str, Any]], newest: dict[str, Any]) -> None:
+    def write(self, files: list[dict[str, Any]]) -> None:
         """Write what is known now.
 
-        `files`: all that have ended, each with its ``status``. `newest`: the one of them that has
-        ended last. Raises InputError, OSError: the file cannot be written.
+        `files`: all that have ended, each with its ``status``. Raises InputError, OSError: the file
+        cannot be written.
         """
-        if self._path.suffix.lower() == LINES:
-            rows, mode = (files, "w") if self._is_behind else ([newest], "a")
-            self._is_behind = True  # until they are written
-            with self._path.open(mode, encoding="utf-8") as file:
-                file.writelines(json.dumps(row) + "\n" for row in rows)
-            self._is_behind = False
-            return
         seconds = {"total": time.perf_counter() - self._begin}
         counts, unfinished = counts_of(files), self._total - len(files)
         about = {"counts": counts, "unfinished": unfinished, "files": files, "seconds": seconds}
         write_json(self._path, self._head | about)
 
 
-def counts_of(files: list[dict[str, Any]]) -> dict[str, int]:
+def counts_of(files: Iterable[dict[str, Any]]) -> dict[str, int]:
     """Return how many files have each status."""
     statuses = Counter(about["status"] for about in files)
     return {status: statuses[status] for status in (DONE, KEPT, FAILED)}
@@ -62,7 +51,6 @@ def in_words(kinds: Counter[str]) -> str:
 
 
 def write_json(path: Path, content: Any) -> None:
-    """Write a file of JSON, in a single line if its name ends in ``LINES``."""
+    """Write a file of JSON."""
     with replacing(path) as temporary:
-        indent = None if path.suffix.lower() == LINES else 2
-        temporary.write_text(json.dumps(content, indent=indent) + "\n", encoding="utf-8")
+        temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")

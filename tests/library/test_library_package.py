@@ -84,7 +84,7 @@ def test_it_can_be_run_as_a_module():
 
 def test_it_says_what_it_needs_and_its_licence():
     needed = {re.match(r"[\w-]+", line)[0] for line in requires("cubic-craft") if ";" not in line}
-    assert needed == {"numpy", "scipy", "meshio", "mapbox-earcut", "threadpoolctl"}
+    assert needed == {"numpy", "scipy", "meshio", "trimesh", "mapbox-earcut", "threadpoolctl"}
     metadata = distribution("cubic-craft").metadata
     assert metadata["License-Expression"] == "GPL-3.0-or-later"
     licence = INSTALLED.parent / f"cubic_craft-{version('cubic-craft')}.dist-info"

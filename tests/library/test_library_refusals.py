@@ -13,8 +13,6 @@ import numpy as np
 import pytest
 from command import COMMAND, QUICK, in_a_process, refused
 
-from cubic_craft.command_line import decompression, mesh_files
-from cubic_craft.console.errors import InputError
 from cubic_craft.console.temporary import replacing
 from scripts.benchmark.shapes import blob
 
@@ -143,19 +141,6 @@ def test_ply_files_that_were_cut_off_are_refused(rows, tmp_path):
     content = (tmp_path / "whole.ply").read_bytes()
     (tmp_path / "cut.ply").write_bytes(content[: len(content) - int((len(F) - rows) * 13)])
     assert "cut.ply: " in refused("cut.ply", "out.ply", folder=tmp_path)
-
-
-def test_data_that_would_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
-    V, F = blob(2)
-    mesh = meshio.Mesh(V, [("triangle", F.astype(np.int32))])
-    for compression in ("zlib", "lzma"):
-        path = tmp_path / f"{compression}.vtu"
-        mesh.write(path, compression=compression)
-        assert len(mesh_files.read(path).surface.points) == len(V)
-        monkeypatch.setattr(decompression, "free_memory", lambda: 4 * V.nbytes)
-        with pytest.raises(InputError, match=f"{compression}.vtu: its data would take more than"):
-            mesh_files.read(path)
-        monkeypatch.undo()
 
 
 def test_what_a_format_of_32_bits_cannot_hold_is_said(tmp_path):

@@ -51,7 +51,6 @@ def test_the_report_has_all_files(done):
         else:
             (run,) = each["report"]["objects"][0]["runs"]
             assert np.isfinite(run["energy"]["total"])
-            assert 0.01 < each["peak_gb"] == each["report"]["peak_gb"] < 100
             assert each["outputs"] == [Path(each["input"]).stem + ".obj"]
 
 
@@ -64,20 +63,9 @@ def test_each_file_has_a_line(done):
     rows = dict(line.split(", ", 1)[1].split(": ", 1) for line in lines if line[1:7] == " of 6,")
     assert sorted(rows) == sorted((*SOUND, *BROKEN))
     assert rows["moebius.obj"].startswith("24 vertices, cubeness 0.4: ")
-    assert rows["moebius.obj"].endswith(" GB")
+    assert rows["moebius.obj"].endswith(" s")
     assert all(rows[name].startswith("failed: ") for name in BROKEN)
     assert lines[-1] == "headless_render.py: 3 of 6 files failed"
-
-
-def test_a_report_of_lines_has_one_for_each_file_as_soon_as_it_is_done(tmp_path):
-    (tmp_path / "a.obj").write_text(CUBE)
-    (tmp_path / "b.obj").write_text("v 0 0 0\n")
-    (tmp_path / "lines.jsonl").write_text("of an earlier run\n")
-    process = batch("a.obj", "b.obj", "--report", "lines.jsonl", cwd=tmp_path)
-    assert process.returncode == 3, process.stderr
-    rows = [json.loads(row) for row in (tmp_path / "lines.jsonl").read_text().splitlines()]
-    assert [Path(row["input"]).name for row in rows] == ["a.obj", "b.obj"]
-    assert (rows[0]["outputs"], rows[1]["status"]) == (["a.obj"], "failed")
 
 
 @pytest.mark.thorough

@@ -26,7 +26,7 @@ REFUSALS = {
     "not writable": (["a.obj", "--output-folder", "/proc/x"], ["--output-folder", "/proc"]),
     "nothing to do": (["meshes", *TO, "--no-render"], ["--no-render", "--save-mesh"]),
     "one picture": (["meshes", *TO, "--output", "a.png"], ["--output", "one file"]),
-    "error file": (["meshes", *TO, "--error-file", "e.txt"], ["--error-file", "--report"]),
+    "one name twice": (["a.obj", "twin/a.obj", *TO], ["twin/a.obj", "rename"]),
     "a name, no ending": (["meshes", *TO, "--save-mesh", "a.obj"], ["--save-mesh", "_cubic.obj"]),
     "a path, no ending": (["meshes", *TO, "--save-mesh", "./_a.obj"], ["--save-mesh", "_cubic"]),
     "no format": (["meshes", *TO, "--save-mesh", "_cubic"], ["--save-mesh", ".ply"]),
@@ -56,7 +56,7 @@ REFUSALS = {
 
 @pytest.fixture
 def folder(tmp_path):
-    for name in ("a.obj", "b.obj", "meshes/c.obj", "above/below/d.obj"):
+    for name in ("a.obj", "b.obj", "meshes/c.obj", "above/below/d.obj", "twin/a.obj"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(CUBE)
     (tmp_path / "notes.txt").write_text("no mesh")

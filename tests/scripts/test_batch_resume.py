@@ -13,7 +13,6 @@ from batch_kit import (
     batch,
     files_in,
     files_of,
-    is_there,
     start,
     statuses,
     wait_for_files,
@@ -69,11 +68,10 @@ def test_stopped_in_the_middle(folder, number):
     _, errors = process.communicate(timeout=PATIENCE)
     if number == signal.SIGKILL:
         assert process.returncode == -number
-        wait_until_gone([worker])
     else:
         assert process.returncode == 128 + number
         assert errors == f"headless_render.py: {CALM[number]}\n"
-        assert not is_there(worker)
+    wait_until_gone([worker])
     assert set(files_in(folder / "out")) <= set(NAMES), "something half-written is left"
     report = json.loads((folder / "report.json").read_text())
     assert statuses(folder) == {"a.obj": "done"} and report["unfinished"] == 1
@@ -92,14 +90,14 @@ def test_all_workers_end_with_the_batch(folder):
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors) == (130, "headless_render.py: interrupted\n")
-    assert not any(map(is_there, workers))
+    wait_until_gone(workers)
     assert files_in(folder / "out") == []
 
 
 @pytest.mark.thorough(1)
 @on_posix
 @pytest.mark.parametrize(
-    ("number", "word"), [(signal.SIGSEGV, "crashed"), (signal.SIGKILL, "ended from outside")]
+    ("number", "word"), [(signal.SIGSEGV, "crashes"), (signal.SIGKILL, "ended from outside")]
 )
 def test_a_worker_that_dies_is_a_file_that_failed(folder, number, word):
     process = start("meshes", cwd=folder)

@@ -175,7 +175,6 @@ def frames_in(folder):
         (("--part", "1", "2"), ["--part", "--bake"]),
         (("--bake", "a.abc", "--part", "3", "2"), ["--part", "no such part"]),
         (("--bake", ".abc", "--output-folder", "o", "--part", "1", "2"), ["--part", "one file"]),
-        (("--bake", "a.abc", "--options", '"a'), ["--options", "quotation"]),
         (("--bake", "a.abc", "--frames", "3", "2"), ["--frames", "before"]),
         (("--bake", "a.obj"), ["--bake", ".abc", ".pc2"]),
         (("--bake", "a.abc", "--cubeness", "0.2", "0.4"), ["--cubeness", "each"]),

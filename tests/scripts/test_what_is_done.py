@@ -27,10 +27,7 @@ SHELL = {"system", "popen", "execv", "execve", "spawnl", "spawnv"}
 COMMAND_LINE = "cubic_craft_addon/command_line"
 ALLOWED = {
     (f"{COMMAND_LINE}/batch/task.py", "subprocess"),  # the command itself, once per file
-    (f"{COMMAND_LINE}/process/watched_process.py", "subprocess"),  # the same, within limits
-    ("solver/console/process_memory.py", "subprocess"),  # ps, where there is no /proc
-    ("solver/console/process_memory.py", "ctypes"),  # asks Windows what a process has
-    (f"{COMMAND_LINE}/trust/trial.py", "subprocess"),  # Blender, which reads a file first
+    (f"{COMMAND_LINE}/process/child.py", "subprocess"),  # the same, and what may crash
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("solver/optional_packages.py", "import_module"),  # packages named in our code
     ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
@@ -87,8 +84,6 @@ def test_the_check_sees_what_it_looks_for(tmp_path):
 
 def test_the_manifest_asks_for_files_only():
     """The extension writes Blender's data, Taichi's cache, presets, and what it bakes or sends.
-
-    What its command writes, the command line names: `test_headless_trust.py` looks into that.
 
     A lock is an empty file beside such a file, while that is written.
 

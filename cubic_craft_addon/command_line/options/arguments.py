@@ -3,18 +3,16 @@
 
 import argparse
 import json
-import shlex
-import sys
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ....solver.console.errors import InputError
 from ....solver.console.method_options import Adder, add_settings, as_in_paper, defaults
 from ....solver.console.options import FORMS, OneLineParser, number
 from ....solver.method import Advanced, Computation, Kept, KeptInScene, Method, Style, StyleInScene
 from .checks import check_batch, check_single
 from .handles_file import read_handles
 from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG
+from .one_of_batch import Worker, options_for
 from .region_option import region_option
 
 DEFAULTS = {**defaults(Method), "symmetry": ("auto", "")}
@@ -40,15 +38,14 @@ def parse(arguments: list[str], program: str = "headless_render.py") -> argparse
     output path cannot be used.
     """
     options = _parser(program).parse_args(arguments)
-    if options.options:
-        options = _parser(program).parse_args([*arguments, *_words(options.options)])
-    if options.worker:  # what is the same for all files, as `batch.plan.settings_of` has it
-        vars(options).update(json.loads(sys.stdin.readline()))
     options.cubeness = list(dict.fromkeys(options.cubeness))
     for name, values in DEFAULTS.items():
         if getattr(options, name) is None:
             setattr(options, name, values[options.paper])
     options.input = None
+    if options.worker:
+        options.worker = Worker(*json.loads(options.worker))
+        options = options_for(options, options.worker.name, Path(options.worker.path))
     if len(options.inputs) > 1 or options.output_folder or any(p.is_dir() for p in options.inputs):
         check_batch(options)
     else:
@@ -87,11 +84,9 @@ def _parser(program: str, is_whole: bool = False) -> argparse.ArgumentParser:
     _add_batch(adder(parser.add_argument_group("several files")))
     _add_picture(adder(parser.add_argument_group("the picture")))
     add("--timeout", type=number(1, 1e8), metavar="SECONDS")
-    add("--memory", type=number(0.001, 1e6), metavar="GB")
     add("--threads", type=number(1, 1024, int), metavar="N")
-    add("--options", default="", metavar="TEXT")
-    add("--worker", default="", metavar="KEY")
-    add("--limited", action="store_true")
+    add("--worker", default="", metavar="JSON")
+    add("--child", action="store_true")
     add("--verbose", action="store_true")
     parser.add_argument("-h", "--help", action="help", help="the most common options")
     none = {"nargs": 0, "default": argparse.SUPPRESS}
@@ -129,7 +124,6 @@ def _add_outputs(add: Adder) -> None:
     add("--frames", nargs=2, type=frame, metavar=("A", "B"))
     add("--part", nargs=2, type=number(1, 10000, int), metavar=("K", "N"))
     add("--report", type=Path, metavar="FILE.json")
-    add("--error-file", type=Path, metavar="FILE")
 
 
 def _add_batch(add: Adder) -> None:
@@ -149,16 +143,6 @@ def _add_picture(add: Adder) -> None:
     add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=("X", "Y", "Z"))
     add("--view", type=degrees, metavar="DEGREES")
     add("--turntable", type=number(1, 9999, int), default=0, metavar="FRAMES")
-
-
-def _words(text: str) -> list[str]:
-    """Split a text as a shell does, but for backslashes, which stand in paths of Windows."""
-    words = shlex.shlex(text, posix=True)
-    words.whitespace_split, words.escape, words.commenters = True, "", ""
-    try:
-        return list(words)
-    except ValueError:
-        raise InputError(f"--options {text}: a quotation mark is not closed") from None
 
 
 def _axes(text: str) -> str:

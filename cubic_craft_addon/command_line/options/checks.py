@@ -5,12 +5,8 @@ from argparse import Namespace
 from pathlib import Path
 
 from ....solver.console.errors import InputError
-from ....solver.console.report import LINES
 from ..process.output_files import check_writable, meshes, numbered
-from ..trust.places import refuse_special
 from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE, listing
-
-REPORTS = (".json", LINES)
 
 
 def check_single(options: Namespace) -> None:
@@ -67,10 +63,6 @@ def check_batch(options: Namespace) -> None:
             options.output,
             "--output: is for one file; in --output-folder pictures are named as their inputs",
         ),
-        (
-            options.error_file and not options.only,
-            "--error-file: is for one file, or --only; here --report has all that failed",
-        ),
         (options.part, "--part: is for one file"),
         (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
     ):
@@ -84,7 +76,7 @@ def check_batch(options: Namespace) -> None:
             raise InputError(f"{path}: there is no such file or folder; check the path")
         if not path.is_dir():
             _check_format(path)
-            refuse_special(path)
+            _refuse_special(path)
     if options.save_mesh is not None:
         _check_ending("--save-mesh", options.save_mesh)
         _check_mesh(options, Path(f"name{options.save_mesh}"))
@@ -93,10 +85,9 @@ def check_batch(options: Namespace) -> None:
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report:
-        _check_suffix("--report", report, REPORTS)
-    for option, path in (("--report", report), ("--error-file", options.error_file)):
-        if path and path.parent.resolve() != folder.resolve():  # which is made later
-            check_writable(option, [path])
+        _check_suffix("--report", report, (".json",))
+        if report.parent.resolve() != folder.resolve():  # which is made later
+            check_writable("--report", [report])
 
 
 def refuse_empty(path: Path) -> None:
@@ -168,7 +159,7 @@ def _check_format(path: Path) -> None:
 
 def _check_input(path: Path) -> None:
     _check_format(path)
-    refuse_special(path)
+    _refuse_special(path)
     try:
         with path.open("rb"):
             pass
@@ -176,6 +167,12 @@ def _check_input(path: Path) -> None:
         raise InputError(f"{path}: there is no such file; check the path") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+
+
+def _refuse_special(path: Path) -> None:
+    """Refuse a device or a pipe, which may have no end."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise InputError(f"{path}: is a device or a pipe; give a file")
 
 
 def _check_outputs(options: Namespace) -> None:
@@ -190,10 +187,8 @@ def _check_outputs(options: Namespace) -> None:
     if options.bake:
         outputs["--bake"] = [options.bake]
     if options.report:
-        _check_suffix("--report", options.report, REPORTS)
+        _check_suffix("--report", options.report, (".json",))
         outputs["--report"] = [options.report]
-    if options.error_file:
-        outputs["--error-file"] = [options.error_file]
     for option, paths in outputs.items():
         check_writable(option, paths)
         for source in (options.input, options.handles_file, options.capture):

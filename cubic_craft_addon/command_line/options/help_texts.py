@@ -18,10 +18,8 @@ HELP = {
     "--object": "this mesh object only (default: all that are shown and rendered)",
     "--threads": "of the processor (default: all of them, in a batch shared by its jobs)",
     "--timeout": "for each file: one that takes longer is given up (default: none)",
-    "--memory": "for each file: one that takes more is given up (default: none)",
-    "--options": "more of these options, in one text: for programs that hand on one",
     "--worker": argparse.SUPPRESS,
-    "--limited": argparse.SUPPRESS,
+    "--child": argparse.SUPPRESS,
     "--verbose": "show Blender's own messages",
     "--form-object": "for --form object the file whose convex hull is the form, for directions the "
     "one whose faces are, about the origin of its scene",
@@ -49,10 +47,7 @@ HELP = {
     "--frames": "first and last frame for --bake (default: those of the file)",
     "--part": "for --bake on several machines: solves the Kth of N parts of the frames; when all "
     "are solved, the same command without --part writes the file",
-    "--report": "numbers of the run; in a batch written after each file, and as *.jsonl a line of "
-    "JSON for each",
-    "--error-file": "if the input cannot be used, write why to this file and end with exit code 0: "
-    "for render farms, which would blame the machine; in a batch with --only",
+    "--report": "numbers of the run; in a batch written after each file",
     "--output-folder": "for the results, each named as its input; made if it is not there",
     "--recursive": "take folders with the folders in them, and lay the results out alike",
     "--only": "this file of them only, counted from 1: for render farms, where each is a task",

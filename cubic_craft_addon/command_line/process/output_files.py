@@ -32,10 +32,12 @@ def meshes(path: Path, cubeness: list[float], levels: list[int]) -> list[Path]:
     return [each for path in own for each in (path, *leveled(path, len(levels)))]
 
 
-def written(picture: Path | None, mesh: Path | None, options: Namespace) -> list[Path]:
-    """All paths that a run writes: pictures, then meshes."""
-    pictures = numbered(picture, options.turntable) if picture else []
-    return pictures + (meshes(mesh, options.cubeness, options.low_poly) if mesh else [])
+def written(options: Namespace) -> list[Path]:
+    """All paths that a run writes, but for its report: pictures, then meshes, or an animation."""
+    pictures = numbered(options.output, options.turntable) if options.output else []
+    mesh, animation = options.save_mesh, [options.bake] if options.bake else []
+    own = meshes(mesh, options.cubeness, options.low_poly) if mesh else []
+    return pictures + own + animation
 
 
 def check_writable(option: str, paths: list[Path]) -> None:

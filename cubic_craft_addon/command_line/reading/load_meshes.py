@@ -9,10 +9,8 @@ from pathlib import Path
 import bpy
 
 from ....solver.console.errors import InputError
+from ..process.one_line import one_line
 from ..process.quiet import captured
-from ..trust.before_reading import readable
-from ..trust.opened import check_opened, checked_before_evaluation
-from ..trust.places import say_left_out
 from .blender_operator import operator, reason
 from .far_away import warn_if_rounded
 from .finite_check import refuse_infinite
@@ -32,8 +30,6 @@ IMPORTERS = {
     **dict.fromkeys((".glb", ".gltf"), "import_scene.gltf"),
     **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), "wm.usd_import"),
 }
-OGAWA_HEADER = b"Ogawa\xff"
-"""first bytes of an Alembic file that was closed properly"""
 
 
 @dataclass
@@ -65,9 +61,8 @@ def load(
     *,
     is_seen: bool = False,
     is_all_seen: bool = True,
-    has_own_process: bool = False,
 ) -> Loaded:
-    """Load the mesh objects of a file, which may be a stranger's, or the subdivided monkey.
+    """Load the mesh objects of a file, or the subdivided monkey.
 
     Parameters
     ----------
@@ -76,7 +71,6 @@ def load(
     verbose : show what Blender prints
     is_seen : take what is seen in place of the meshes of the file
     is_all_seen : not only of those meshes whose modifiers hide what they are
-    has_own_process : whoever started this process reports if the file crashes it
 
     Returns
     -------
@@ -93,25 +87,23 @@ def load(
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
     if path.suffix.lower() in (".ply", ".stl"):
         refuse_infinite(path)
-    if path.suffix.lower() == ".abc":
-        _refuse_broken_alembic(path)
-    importer = _importer(path)
     with contextlib.ExitStack() as copies:
-        source = copies.enter_context(readable(path, importer, has_own_process))
+        source = path.resolve()
         if layout is not None and not layout.is_plain:
             copy = readable_copy(source, layout.encoding, layout.offset)
             source = copies.enter_context(copy)
         copies.enter_context(captured(verbose))
-        left_out = _import(path, source, importer, layout)
+        _import(path, source, layout)
         bpy.context.view_layer.update()
-    say_left_out(path, left_out)
     covered = []
     if is_seen:
         taken = show_as_meshes(only_covered=not is_all_seen)
         covered = [] if is_all_seen else taken
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if layout is not None:
-        say_left_out(path, layout.missing)
+        if layout.missing:
+            words = f"{path}: there is no such material library: {', '.join(layout.missing)}"
+            print(one_line(words), file=sys.stderr)
         match_objects(layout, found)
     else:
         warn_if_rounded(path, found)
@@ -141,34 +133,20 @@ def _importer(path: Path) -> str:
     return IMPORTERS[suffix]
 
 
-def _import(path: Path, source: Path, importer: str, layout: ObjLayout | None) -> list[str]:
-    """Run Blender's importer for a file, on what of it may be read; return what is left out."""
-    suffix, how, check = path.suffix.lower(), {}, contextlib.nullcontext([])
+def _import(path: Path, source: Path, layout: ObjLayout | None) -> None:
+    """Run Blender's importer for a file, on this one in its place."""
+    how = {}
     if layout is not None:
         how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
-    elif suffix == ".blend":
-        how = {"load_ui": False, "use_scripts": False}
-        check = checked_before_evaluation(path)
-    with check as left_out:
-        try:
-            result = operator(importer, path)(filepath=str(source), **how)
-        except RuntimeError as error:
-            message = f"{path}: cannot be read ({reason(error)}); export it again"
-            raise InputError(message) from error
+    elif path.suffix.lower() == ".blend":
+        how = {"load_ui": False, "use_scripts": False}  # nothing in a file runs
+    try:
+        result = operator(_importer(path), path)(filepath=str(source), **how)
+    except RuntimeError as error:
+        message = f"{path}: cannot be read ({reason(error)}); export it again"
+        raise InputError(message) from error
     if "FINISHED" not in result:
         raise InputError(f"{path}: cannot be read (not a {path.suffix} file); export it again")
-    return left_out if suffix == ".blend" else check_opened(path)
-
-
-def _refuse_broken_alembic(path: Path) -> None:
-    """Raise InputError for an Alembic file that was cut off: reading it would abort Blender."""
-    with path.open("rb") as file:
-        header = file.read(16)
-        file.seek(0, 2)
-        size = file.tell()
-    root = int.from_bytes(header[8:16], "little")
-    if not header.startswith(OGAWA_HEADER) or len(header) < 16 or not 16 <= root <= size - 8:
-        raise InputError(f"{path}: cannot be read (cut off, or no Alembic file); export it again")
 
 
 def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> list[bpy.types.Object]:

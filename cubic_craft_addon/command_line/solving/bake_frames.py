@@ -2,7 +2,6 @@
 """Cubify every frame of an animation, into one file that other programs play back."""
 
 import contextlib
-import glob
 import shutil
 from argparse import Namespace
 from dataclasses import dataclass
@@ -22,7 +21,6 @@ from ...settings.values import Settings
 from ..process.progress import ProgressBar
 from ..process.quiet import captured
 from ..reading.load_meshes import Loaded
-from ..trust.symlinks import refuse_links_in
 from .cubify_all import check_groups, settings_of_object
 from .pose import handles_of_all
 
@@ -58,7 +56,6 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
     scene = bpy.context.scene
     start, end = options.frames or (scene.frame_start, scene.frame_end)
     folder = path.with_name(f"{path.name}.unfinished")
-    refuse_links_in("--bake", path.parent.glob(f"{glob.escape(folder.name)}*"))
     given = _Given(loaded, options, handles_of_all(loaded, options))
     count = len(range(start, end + 1))
     part = part_of(count, *options.part) if options.part else None

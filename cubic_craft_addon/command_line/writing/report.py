@@ -12,7 +12,6 @@ import bpy
 import numpy as np
 
 from ....solver.console.method_options import names_of_options
-from ....solver.console.process_memory import peak_gb
 from ....solver.console.report import write_json
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.engine_notes import new_engine_warnings
@@ -41,8 +40,7 @@ def write_report(
         "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
         "seconds": seconds,
     }
-    outputs = written(options.output, options.save_mesh, options)
-    write_json(path, {**report, **_made(options, outputs)})
+    write_json(path, {**report, **_made(options)})
 
 
 def write_animation_report(
@@ -53,16 +51,15 @@ def write_animation_report(
     `animation`: from `bake_frames`.
     """
     report = {**_head(options), **animation, "seconds": seconds}
-    write_json(path, {**report, **_made(options, [options.bake])})
+    write_json(path, {**report, **_made(options)})
 
 
-def _made(options: Namespace, outputs: list[Path]) -> dict[str, Any]:
-    """Return the peak of memory, and what tells a batch whether outputs are still of this run."""
-    about: dict[str, Any] = {"peak_gb": peak_gb()}
+def _made(options: Namespace) -> dict[str, Any]:
+    """Return what tells a batch whether outputs are still of this run."""
     if not options.worker:
-        return about
-    sizes = {path.name: path.stat().st_size for path in outputs}
-    return {**about, "made": {"for": options.worker, "sizes": sizes}}
+        return {}
+    sizes = {path.name: path.stat().st_size for path in written(options)}
+    return {"made": {"for": options.worker.key, "sizes": sizes}}
 
 
 def _head(options: Namespace) -> dict[str, Any]:

@@ -25,7 +25,6 @@ from ..reading.blender_operator import reason
 from ..reading.load_meshes import Loaded
 from ..reading.obj_layout import ObjLayout
 from ..solving.cubify_all import Sculpture
-from ..trust.opened import with_all_paths
 from .detached import detached_copy
 from .low_poly import low_poly
 from .write_mtl import relative, write_mtl
@@ -97,8 +96,7 @@ def _write_results(sculptures: list[Sculpture], number: int) -> None:
 
 def _save_blend(path: Path, sculptures: list[Sculpture], number: int, verbose: bool) -> None:
     _write_results(sculptures, number)
-    with with_all_paths():
-        _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
+    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
 
 
 def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
