@@ -29,6 +29,7 @@ from solver import (
     triangle_areas_and_normals,
 )
 from solver.hardening.borders import straightening
+from solver.hardening.hard_stylization import HardStylization
 from solver.hardening.sides import NO_SIDE
 from solver.mesh.face_graph import FaceGraph
 from solver.styles.forms import prism
@@ -49,7 +50,7 @@ def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
 
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions(refine=False)], ids=["paper", "links"])
 def test_the_energy_falls_in_every_step(proxy):
-    hard = soft_blob(Style(0.6, crispness=1.0), proxy, options=PLAIN).hardened()
+    hard = HardStylization(soft_blob(Style(0.6, crispness=1.0), proxy, options=PLAIN))
     energies = []
     for _ in range(20):
         hard.step()
@@ -60,7 +61,7 @@ def test_the_energy_falls_in_every_step(proxy):
 
 
 def test_the_energy_is_that_of_its_formula():
-    hard = soft_blob(Style(0.6, crispness=1.0)).hardened()
+    hard = HardStylization(soft_blob(Style(0.6, crispness=1.0)))
     rest, target = hard.rest, hard.hardening.target
     hard.local_step()
     U, F, b = hard._motion.point, rest.F, 0.9
@@ -107,7 +108,7 @@ def state(form, crispness, V, F):
 def test_the_round_part_of_a_form_stays_round(name):
     """So do walls that nothing draws to one side more than to others."""
     V, F = shapes.sphere(4)
-    hard = soft_of(state(POLYTOPES[name](), 1.0, V, F)).hardened()
+    hard = HardStylization(soft_of(state(POLYTOPES[name](), 1.0, V, F)))
     side = hard.hardening.side
     _, normals = triangle_areas_and_normals(V, F)
     assert (side[np.abs(normals[:, 2]) < 0.3] == NO_SIDE).all() or name == "slab"
@@ -119,10 +120,10 @@ def test_sides_of_another_form_follow_the_nearest_only(sides):
     """As where a form is keyed: the number of a side says nothing of the next form."""
     V, F = shapes.sphere(4)
     before, soft = (soft_of(state(prism(count), 1.0, V, F)) for count in sides)
-    alone = soft.hardened().hardening
-    after = soft.hardened(before.hardened().hardening.facing).hardening
+    alone = HardStylization(soft).hardening
+    after = HardStylization(soft, HardStylization(before).hardening.facing).hardening
     assert (alone.side == after.side).mean() > 0.8
-    again = soft.hardened(alone.facing).hardening
+    again = HardStylization(soft, alone.facing).hardening
     assert (alone.side == again.side).mean() > 0.98
 
 
