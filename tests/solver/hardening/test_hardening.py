@@ -2,6 +2,7 @@
 """Hardening: sides become flat, edges straight, and what is to stay stays."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import proxy_shapes
@@ -227,22 +228,25 @@ def knobs():
     return V * (1.0 + 0.012 * np.exp(-((near / 0.05) ** 2)))[:, None], F, near
 
 
+@cache
+def with_details(strength, crispness):
+    """Return the positions of the ball with its bumps this strong."""
+    V, F, _ = knobs()
+    return cubified(V, F, strength, crispness)
+
+
+def cubified(V, F, strength, crispness):
+    proxy, kept = replace(PAPER, detail=0.05), {"keep_rotation": True, "crispness": crispness}
+    return stylize(V, F, 0.4, proxy=proxy, detail_strength=strength, **kept).positions
+
+
 @pytest.mark.parametrize("crispness", [0.0, 1.0])
 def test_details_are_as_high_as_they_are_asked_to_be(crispness):
-    V, F, near = knobs()
-    proxy = replace(PAPER, detail=0.05)
+    _, _, near = knobs()
+    top, around = near < 0.02, (near > 0.13) & (near < 0.17)
     shown = []
     for strength in (0.0, 1.0, 2.0):
-        U = stylize(
-            V,
-            F,
-            0.4,
-            proxy=proxy,
-            keep_rotation=True,
-            crispness=crispness,
-            detail_strength=strength,
-        ).positions
-        top, around = near < 0.02, (near > 0.13) & (near < 0.17)
+        U = with_details(strength, crispness)
         tops, rings = (np.linalg.norm(U[part], axis=1).mean() for part in (top, around))
         shown.append(tops - rings)
     assert shown[2] - shown[1] == pytest.approx(shown[1] - shown[0], rel=0.35)
@@ -251,14 +255,9 @@ def test_details_are_as_high_as_they_are_asked_to_be(crispness):
 
 def test_the_strength_of_details_can_be_painted():
     V, F, _ = knobs()
-    proxy = replace(PAPER, detail=0.05)
-    kept = np.where(V[:, 0] > 0, 1.0, 0.0)
-    U, all_kept, none = (
-        stylize(V, F, 0.4, proxy=proxy, keep_rotation=True, crispness=1.0, detail_strength=s)
-        for s in (kept, 1.0, 0.0)
-    )
-    for like, part in ((all_kept, V[:, 0] > 0.4), (none, V[:, 0] < -0.4)):
-        np.testing.assert_allclose(U.positions[part], like.positions[part], atol=2e-3)
+    U = cubified(V, F, np.where(V[:, 0] > 0, 1.0, 0.0), 1.0)
+    for strength, part in ((1.0, V[:, 0] > 0.4), (0.0, V[:, 0] < -0.4)):
+        np.testing.assert_allclose(U[part], with_details(strength, 1.0)[part], atol=2e-3)
 
 
 def test_what_is_thinner_than_details_stays_soft():
