@@ -79,7 +79,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 		--ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 tests/blender/send
-	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" $(WITH_KERNELS)
+	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" $(WITH_KERNELS)
 
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
@@ -91,7 +91,7 @@ WITH_KERNELS := $(addprefix tests/solver/,backends coarse_to_fine test_reference
 
 # Taichi runs in all other environments, in windows too. What needs no kernel is the same with both.
 test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of Taichi
-	$(VENV)-quadrants/bin/python $(PYTEST) --few 1 -m "not thorough" $(WITH_KERNELS)
+	$(VENV)-quadrants/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" $(WITH_KERNELS)
 
 $(VENV)-quadrants/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }

@@ -16,9 +16,9 @@ from .styles.style import Style
 
 def has_sides(run: Run) -> bool:
     """Return whether a run has come to a shape with sides, which a `RestyledRun` can keep."""
-    hardening = run.stylization.hardening
     is_begun = isinstance(run, RestyledRun) or run.reason is not None
-    return is_begun and hardening is not None and bool((hardening.side != NO_SIDE).any())
+    hard = run.hard
+    return is_begun and hard is not None and bool((hard.hardening.side != NO_SIDE).any())
 
 
 class RestyledRun(Run):
@@ -36,7 +36,7 @@ class RestyledRun(Run):
 
     def __init__(self, run: Run, style: Style):
         self.__dict__.update(run.__dict__)
-        self.reason, self._seconds, self._apart, self._hard = None, 0.0, None, None
+        self.reason, self._seconds, self._apart, self._hard_end = None, 0.0, None, None
         self._soft, self._coarse_iterations = run.soft.restyled(style), 0
         self.stylization = run.stylization.restyled(style)
         self._soft.iterations = self.stylization.iterations = self._round = 0
@@ -56,8 +56,10 @@ class RestyledRun(Run):
         self._phase = RestyledRun._follow
 
     def _follow(self):
-        self.stylization.follow(self.soft)
-        self.stylization.local_step()
+        hard = self.hard
+        assert hard is not None
+        hard.follow(self.soft)
+        hard.local_step()
         self._phase = RestyledRun._hard_step
 
     def _hard_step(self):

@@ -24,6 +24,7 @@ from .contacts.keep_apart import KeepApart
 from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
+from .hardening.hard_stylization import HardStylization
 from .hardening.hardening import ROUNDS
 from .inputs import instance, real_number, switch, whole_number
 from .result import Reason, Result
@@ -120,7 +121,7 @@ class Run:
         self._end: Reason = "converged"
         self._round = 0
         self._soft: Stylization | None = None
-        self._hard: tuple[Stylization, KeepApart | None] | None = None
+        self._hard_end: tuple[HardStylization, KeepApart | None] | None = None
         self._is_hardened_itself = switch(harden, "harden")
 
     @property
@@ -147,6 +148,11 @@ class Run:
     def soft(self) -> Stylization:
         """The Stylization of the soft shape: at its end, once the sides become flat."""
         return self._soft or self.stylization
+
+    @property
+    def hard(self) -> HardStylization | None:
+        """The Stylization whose sides become flat; None before."""
+        return self.stylization if isinstance(self.stylization, HardStylization) else None
 
     @property
     def iterations(self) -> int:
@@ -259,13 +265,13 @@ class Run:
             self._conclude()
 
     def harden(self, before: FloatArray | None = None) -> None:
-        """Make the sides of the soft shape flat; `before` as of `Stylization.hardened`.
+        """Make the sides of the soft shape flat; `before` as of `HardStylization`.
 
         A Run does so itself, but for one of a `FrameSequence`, which goes on when it is told to.
         """
         self.reason, self._soft = None, self.stylization
         self._soft.finish()
-        self.stylization = self._soft.hardened(before)
+        self.stylization = HardStylization(self._soft, before)
         self._phase = Run._hard_local_step
 
     def _hard_local_step(self) -> None:
@@ -273,18 +279,20 @@ class Run:
         self._phase = Run._hard_global_step
 
     def _hard_global_step(self) -> None:
-        self.stylization.global_step()
+        hard = self.hard
+        assert hard is not None
+        hard.global_step()
         self._phase = Run._hard_local_step
-        done = self.stylization.iterations - self.soft.iterations
+        done = hard.iterations - self.soft.iterations
         if done == ROUNDS // 2:
-            self.stylization.give_back_volume()
+            hard.give_back_volume()
         if done < ROUNDS:
             return
-        self.stylization.straighten_borders()
-        self._hard = self.stylization, self._apart
-        self._begin_at_hard_end(*self._hard)
+        hard.straighten_borders()
+        self._hard_end = hard, self._apart
+        self._begin_at_hard_end(*self._hard_end)
 
-    def _begin_at_hard_end(self, hard: Stylization, soft_apart: KeepApart | None) -> None:
+    def _begin_at_hard_end(self, hard: HardStylization, soft_apart: KeepApart | None) -> None:
         self.stylization, self._apart = hard, soft_apart
         if soft_apart is None:
             self.reason = self._end
@@ -299,14 +307,14 @@ class Run:
         What is soft may cross what is still crisp beside it: a try that does not help is followed
         by others.
         """
-        looked = copy(last or self._apart)
-        assert looked is not None
-        crossing, tries = looked.look(self.stylization), tries + 1
+        looked, hard = copy(last or self._apart), self.hard
+        assert looked is not None and hard is not None
+        crossing, tries = looked.look(hard), tries + 1
         if len(crossing) < fewest:
-            self._apart, self._before = looked, self.stylization
+            self._apart, self._before = looked, hard
             fewest, tries = len(crossing), 0
         if len(crossing) and tries < TRIES:
-            self.stylization = self.stylization.softened(crossing)
+            self.stylization = hard.softened(crossing)
             self._phase = partial(Run._soften, last=looked, fewest=fewest, tries=tries)
             return
         self.stylization = self._before
@@ -323,14 +331,14 @@ class Run:
         It comes to the same end as a new one. None if this one has not come so far, or if sides
         would be flat where they are not.
         """
-        if self._hard is None:
+        if self._hard_end is None:
             return None
-        hard = self._hard[0].with_crispness(crispness)
+        hard = self._hard_end[0].with_crispness(crispness)
         if hard is None:
             return None
         other = copy(self)
         other.reason, other._seconds = None, 0.0
-        other._begin_at_hard_end(hard, self._hard[1])
+        other._begin_at_hard_end(hard, self._hard_end[1])
         return other
 
     def complete(self, on_iteration: OnIteration | None = None) -> None:

@@ -12,14 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .acceleration import Momentum
-from .aliases import FloatArray, IntArray
+from .aliases import FloatArray
 from .backends import local_step_class
 from .coarse_to_fine.coarser import coarser_pose, coarser_style
 from .contacts.riding import Riding
 from .energy import Energy
 from .global_step.holds import Holds
-from .hardening.face_step import FaceStep
-from .hardening.hardening import Hardening, hardening_of
 from .inputs import instance, real_numbers
 from .options import SolverOptions
 from .pose import Pose, pins_moved
@@ -58,8 +56,6 @@ class Stylization(Stored):
         Whether the mesh is a coarser one that provides the start for another, see `coarser`.
     is_started : bool
         Whether it has begun elsewhere than at rest.
-    hardening : Hardening or None
-        Of one that `hardened` has returned.
     is_limited : bool
         Whether it is solved with less than its cubeness for now, see `limit_cubeness`.
     iterations : int
@@ -116,7 +112,6 @@ class Stylization(Stored):
         options = SolverOptions() if options is None else options
         self.options = instance(options, "options", SolverOptions)
         self.is_coarse = False
-        self.hardening: Hardening | None = None
         keep_rotation = options.keep_rotation
         self._style = solved_style(style, setup, pose.limbs, keep_rotation=keep_rotation)
         self._begin_at_rest(setup, pose)
@@ -157,8 +152,6 @@ class Stylization(Stored):
             self._local.start_from(R)
 
     def _local_step_of(self, rest, most_cubeness):
-        if self.hardening is not None:
-            return FaceStep(rest, self.hardening.target)
         style, options = self._style, self.options
         return local_step_class(options.device, options.precision)(
             rest,
@@ -193,83 +186,12 @@ class Stylization(Stored):
             other._motion.step(still, still, other.options.keep_rotation)
         return other
 
-    def hardened(self, before: FloatArray | None = None) -> Stylization:
-        """Return a Stylization that goes on from the present, soft shape with flat sides.
-
-        Its positions are between that shape and the hard one, as far as the crispness says; its
-        energy is that of `FaceStep`.
-
-        Parameters
-        ----------
-        before : (m,3) array, optional
-            What triangles faced in the frame of an animation before, `hardening.facing`.
-        """
-        other = copy(self)
-        other.hardening = hardening_of(self, before)
-        held = self.setup.held(other.hardening.target.hold)
-        other._begin(held, other.hardening.soft.copy(), other.hardening.rotations)
-        return other
-
-    def give_back_volume(self) -> None:
-        """Let a hardened one go on with the volume of the soft shape, see `FaceStep`."""
-        assert isinstance(self._local, FaceStep)
-        self._local.give_back_volume(self._motion.positions)
-
-    def straighten_borders(self) -> None:
-        """Make the borders of the sides of a hardened one straight where they are now.
-
-        Not those of a cage, which follow its edges: it could not follow them elsewhere.
-        """
-        assert self.hardening is not None
-        if self.rest.is_of_faces:
-            return
-        U = self._motion.positions
-        straight = U + self.hardening.straightening(U, self.rest.F, self.setup.pinned)
-        self.impose(straight)
-        self.hardening = replace(self.hardening, moves=straight - U)
-
-    def with_crispness(self, crispness: ArrayLike) -> Stylization | None:
-        """Return a hardened one at the same point with another crispness, as of a `Style`.
-
-        None if other triangles would then belong to sides.
-        """
-        assert self.hardening is not None
-        style = self._style.with_crispness(crispness, self.setup)
-        if style is None:
-            return None
-        other = copy(self)
-        other._style = style
-        other.hardening = self.hardening.with_crispness(style, self.rest)
-        return other
-
     def restyled(self, style: Style) -> Stylization:
-        """Return one that goes on from here with the cubeness and the crispness of another style.
-
-        The sides of a hardened one stay as they are; see `follow`.
-        """
+        """Return one that goes on from here with cubeness and crispness as of another style."""
         other = copy(self)
         other._style = self._style.with_strengths(style, self.setup)
-        if self.hardening is None:
-            other._begin(self.setup, self.positions.copy(), self.rotations.copy())
-            other.is_started = True
-        else:
-            other.hardening = self.hardening.restyled(self._style, other._style, self.rest)
-        return other
-
-    def follow(self, soft: Stylization) -> None:
-        """Go along, hardened, with the soft shape, with the same sides."""
-        assert self.hardening is not None and isinstance(self._local, FaceStep)
-        before = self.hardening.soft
-        self.hardening = self.hardening.followed(soft.positions.copy(), soft.rotations.copy())
-        moves = self.hardening.soft - before
-        self._local.hold_beside(moves)
-        self._motion.put(self._motion.positions + moves)
-
-    def softened(self, vertices: IntArray) -> Stylization:
-        """Return a hardened one at the same point that is soft at vertices (k,) and around them."""
-        assert self.hardening is not None
-        other = copy(self)
-        other.hardening = self.hardening.softened(self.rest, vertices)
+        other._begin(self.setup, self.positions.copy(), self.rotations.copy())
+        other.is_started = True
         return other
 
     def with_riding(self, riding: Riding) -> Stylization:
@@ -360,20 +282,20 @@ class Stylization(Stored):
     @property
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
-        U = self._motion.positions
-        if self.hardening is not None:
-            U = self.hardening.positions(U)
-            for mirror in self.setup.mirrors:  # the crispness is of samples that are not symmetric
-                mirror.impose(U)
+        U = self._shape()
         return U if self._riding is None else self._riding.carried(U, self.rotations)
 
     @property
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
-        R = self._local.R
-        if self.hardening is not None:
-            R = self.hardening.between(R)
+        R = self._turns()
         return R if self._riding is None else self._riding.turned(R)
+
+    def _shape(self) -> FloatArray:
+        return self._motion.positions
+
+    def _turns(self) -> FloatArray:
+        return self._local.R
 
     @property
     def style(self) -> SolvedStyle:

@@ -210,8 +210,8 @@ class FrameSequence:
         return result
 
     def _state_of(self, run):
-        soft, hardening = run.soft, run.stylization.hardening
-        facing = np.empty((0, 3)) if hardening is None else hardening.facing
+        soft, hard = run.soft, run.hard
+        facing = np.empty((0, 3)) if hard is None else hard.hardening.facing
         state = soft.positions.copy(), soft.rotations.copy(), facing
         return SequenceState(soft.rest.V, self._turns, *state)
 

@@ -31,7 +31,7 @@ class Surface:
     None if each is still whole"""
 
 
-def surface_of(V, F, options, faces=None):
+def surface_of(V, F, options, faces=None) -> Surface:
     """Return the Surface of positions V (N,3), any unit, and triangles F (m,3).
 
     options : ProxyOptions

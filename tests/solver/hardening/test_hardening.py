@@ -2,6 +2,7 @@
 """Hardening: sides become flat, edges straight, and what is to stay stays."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import proxy_shapes
@@ -29,6 +30,7 @@ from solver import (
     triangle_areas_and_normals,
 )
 from solver.hardening.borders import straightening
+from solver.hardening.hard_stylization import HardStylization
 from solver.hardening.sides import NO_SIDE
 from solver.mesh.face_graph import FaceGraph
 from solver.styles.forms import prism
@@ -49,7 +51,7 @@ def soft_blob(style, proxy=PAPER, pinned=(), options=KEPT, steps=15):
 
 @pytest.mark.parametrize("proxy", [PAPER, ProxyOptions(refine=False)], ids=["paper", "links"])
 def test_the_energy_falls_in_every_step(proxy):
-    hard = soft_blob(Style(0.6, crispness=1.0), proxy, options=PLAIN).hardened()
+    hard = HardStylization(soft_blob(Style(0.6, crispness=1.0), proxy, options=PLAIN))
     energies = []
     for _ in range(20):
         hard.step()
@@ -60,7 +62,7 @@ def test_the_energy_falls_in_every_step(proxy):
 
 
 def test_the_energy_is_that_of_its_formula():
-    hard = soft_blob(Style(0.6, crispness=1.0)).hardened()
+    hard = HardStylization(soft_blob(Style(0.6, crispness=1.0)))
     rest, target = hard.rest, hard.hardening.target
     hard.local_step()
     U, F, b = hard._motion.point, rest.F, 0.9
@@ -107,7 +109,7 @@ def state(form, crispness, V, F):
 def test_the_round_part_of_a_form_stays_round(name):
     """So do walls that nothing draws to one side more than to others."""
     V, F = shapes.sphere(4)
-    hard = soft_of(state(POLYTOPES[name](), 1.0, V, F)).hardened()
+    hard = HardStylization(soft_of(state(POLYTOPES[name](), 1.0, V, F)))
     side = hard.hardening.side
     _, normals = triangle_areas_and_normals(V, F)
     assert (side[np.abs(normals[:, 2]) < 0.3] == NO_SIDE).all() or name == "slab"
@@ -119,10 +121,10 @@ def test_sides_of_another_form_follow_the_nearest_only(sides):
     """As where a form is keyed: the number of a side says nothing of the next form."""
     V, F = shapes.sphere(4)
     before, soft = (soft_of(state(prism(count), 1.0, V, F)) for count in sides)
-    alone = soft.hardened().hardening
-    after = soft.hardened(before.hardened().hardening.facing).hardening
+    alone = HardStylization(soft).hardening
+    after = HardStylization(soft, HardStylization(before).hardening.facing).hardening
     assert (alone.side == after.side).mean() > 0.8
-    again = soft.hardened(alone.facing).hardening
+    again = HardStylization(soft, alone.facing).hardening
     assert (alone.side == again.side).mean() > 0.98
 
 
@@ -226,22 +228,25 @@ def knobs():
     return V * (1.0 + 0.012 * np.exp(-((near / 0.05) ** 2)))[:, None], F, near
 
 
+@cache
+def with_details(strength, crispness):
+    """Return the positions of the ball with its bumps this strong."""
+    V, F, _ = knobs()
+    return cubified(V, F, strength, crispness)
+
+
+def cubified(V, F, strength, crispness):
+    proxy, kept = replace(PAPER, detail=0.05), {"keep_rotation": True, "crispness": crispness}
+    return stylize(V, F, 0.4, proxy=proxy, detail_strength=strength, **kept).positions
+
+
 @pytest.mark.parametrize("crispness", [0.0, 1.0])
 def test_details_are_as_high_as_they_are_asked_to_be(crispness):
-    V, F, near = knobs()
-    proxy = replace(PAPER, detail=0.05)
+    _, _, near = knobs()
+    top, around = near < 0.02, (near > 0.13) & (near < 0.17)
     shown = []
     for strength in (0.0, 1.0, 2.0):
-        U = stylize(
-            V,
-            F,
-            0.4,
-            proxy=proxy,
-            keep_rotation=True,
-            crispness=crispness,
-            detail_strength=strength,
-        ).positions
-        top, around = near < 0.02, (near > 0.13) & (near < 0.17)
+        U = with_details(strength, crispness)
         tops, rings = (np.linalg.norm(U[part], axis=1).mean() for part in (top, around))
         shown.append(tops - rings)
     assert shown[2] - shown[1] == pytest.approx(shown[1] - shown[0], rel=0.35)
@@ -250,14 +255,9 @@ def test_details_are_as_high_as_they_are_asked_to_be(crispness):
 
 def test_the_strength_of_details_can_be_painted():
     V, F, _ = knobs()
-    proxy = replace(PAPER, detail=0.05)
-    kept = np.where(V[:, 0] > 0, 1.0, 0.0)
-    U, all_kept, none = (
-        stylize(V, F, 0.4, proxy=proxy, keep_rotation=True, crispness=1.0, detail_strength=s)
-        for s in (kept, 1.0, 0.0)
-    )
-    for like, part in ((all_kept, V[:, 0] > 0.4), (none, V[:, 0] < -0.4)):
-        np.testing.assert_allclose(U.positions[part], like.positions[part], atol=2e-3)
+    U = cubified(V, F, np.where(V[:, 0] > 0, 1.0, 0.0), 1.0)
+    for strength, part in ((1.0, V[:, 0] > 0.4), (0.0, V[:, 0] < -0.4)):
+        np.testing.assert_allclose(U[part], with_details(strength, 1.0)[part], atol=2e-3)
 
 
 def test_what_is_thinner_than_details_stays_soft():
