@@ -27,6 +27,9 @@ from .values import Value
 
 FEWEST = 3
 """triangles of a facet; fewer are a detail, not a side"""
+LEAN = 0.55
+"""of the sine of the angle: the most that the triangles of a facet lean, as root mean square. Those
+of a slice of a cylinder lean by 0.58, evenly up to the angle, and no side is to be cut into such"""
 _LEAST_AREA = 1e-6
 """of the area of a triangle before; one that keeps less has collapsed or turned over"""
 
@@ -93,7 +96,8 @@ def flatten_facets(
     Connected triangles whose normals are nearest to the same direction, and within the angle of it,
     form a patch; between two directions they go with their neighbors, so that borders are short.
     The plane of a patch is orthogonal to the direction and goes through the centroid of its area.
-    Its triangles with all corners within the tolerance of that plane become a facet. Each corner
+    Its triangles with all corners within the tolerance of that plane become a facet, unless they
+    lean by all angles alike, as a slice of a tube does, which stays round. Each corner
     moves to the nearest point in the planes of its facets, of which there may be three: the
     vertices between two facets end up on a straight edge.
 
@@ -187,7 +191,7 @@ class _Patches:
     """
 
     def __init__(self, V, F, directions, angle, tolerance, counts):
-        areas, centroids, nearest = _facing(V, F, directions, np.cos(angle), counts)
+        areas, centroids, nearest, squared_sines = _facing(V, F, directions, np.cos(angle), counts)
         one, other = Edges(F, len(V)).triangles()
         is_same = (nearest[one] == nearest[other]) & (nearest[one] >= 0)
         pairs = np.stack([one[is_same], other[is_same]], axis=1)
@@ -198,9 +202,11 @@ class _Patches:
         corners = np.einsum("mcj,mj->mc", V[F], directions[nearest]) - offset[label][:, None]
         is_near = (nearest >= 0) & (np.abs(corners) <= tolerance).all(axis=1)
         is_kept = np.bincount(label[is_near], minlength=len(area)) >= FEWEST
+        size = np.bincount(label[is_near], areas[is_near], len(area))
+        leaning = np.bincount(label[is_near], (areas * squared_sines)[is_near], len(area))
+        is_kept &= leaning <= (LEAN * np.sin(angle)) ** 2 * size
         is_near &= is_kept[label]
         kept = np.flatnonzero(is_kept)
-        size = np.bincount(label[is_near], areas[is_near], len(area))
         kept = kept[np.argsort(-size[kept], kind="stable")]
         number = np.full(len(area), -1)
         number[kept] = np.arange(len(kept))
@@ -235,7 +241,7 @@ def _vectors(V, F):
 
 
 def _facing(V, F, directions, least_cosine, counts):
-    """Return areas and centroids of triangles, and the direction that each faces, or -1."""
+    """Return areas and centroids of triangles, the direction that each faces, or -1, and sin^2."""
     vectors = _vectors(V, F)
     lengths = np.linalg.norm(vectors, axis=1)
     cosines = vectors @ directions.T
@@ -244,7 +250,9 @@ def _facing(V, F, directions, least_cosine, counts):
     is_facing = (cosines[rows, nearest] >= least_cosine * lengths) & (lengths > 0.0)
     if counts is not None:
         is_facing &= counts[rows, nearest]
-    return lengths / 2.0, V[F].mean(axis=1), np.where(is_facing, nearest, -1)
+    cosine = cosines[rows, nearest] / np.where(lengths > 0.0, lengths, 1.0)
+    facing = np.where(is_facing, nearest, -1)
+    return lengths / 2.0, V[F].mean(axis=1), facing, 1.0 - np.minimum(cosine * cosine, 1.0)
 
 
 def _without_turning_over(V, F, patches, tolerance, walls):

@@ -110,12 +110,25 @@ def test_no_triangle_turns_over():
 
 
 def test_steeper_triangles_than_the_angle_are_left_alone():
-    V, F = roof([0.0, 0.0, 0.3, 0.3])  # 0.3 is 16.7 degrees
+    V, F = roof([0.0, 0.0, 0.0, 0.3])  # 0.3 is 16.7 degrees
     for angle, is_wanted in ((16.0, False), (18.0, True)):
         flat = flatten_facets(V, F, [[0, 0, 1]], np.radians(angle), 1.0)
         is_steep = normals_of(V, F)[:, 2] < 0.99
         assert ((flat.facet_of[is_steep] >= 0) == is_wanted).all()
         assert (flat.facet_of[~is_steep] >= 0).all()
+
+
+def test_a_tube_is_not_cut_into_flats():
+    ring, rows = 48, 12
+    around = 2.0 * np.pi * np.arange(ring) / ring
+    V = np.array([[np.cos(a), np.sin(a), z] for z in np.linspace(0, 3, rows) for a in around])
+    i = np.arange(ring * (rows - 1))
+    j = i - i % ring + (i + 1) % ring
+    F = np.concatenate([np.stack([i, j, j + ring], 1), np.stack([i, j + ring, i + ring], 1)])
+    flat = flatten_facets(V, F, SIDES, ANGLE, 0.1)
+    assert flat.count == 0 and flat.moved == 0
+    V[:, :2] /= np.linalg.norm(V[:, :2], ord=8, axis=1, keepdims=True)  # a pillar, almost square
+    assert flatten_facets(V, F, SIDES, ANGLE, 0.1).count == 4
 
 
 def test_vertices_beyond_the_tolerance_are_left_alone():
