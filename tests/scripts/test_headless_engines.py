@@ -111,7 +111,7 @@ def test_an_obj_names_the_material_libraries_of_its_input(folder):
     assert text.startswith("mtllib in/first.mtl\nmtllib in/box.mtl\n")
     (folder / "alone.obj").write_text(BOX)
     process = headless_ok("alone.obj", *QUICK, "--no-render", "--save-mesh", "a.obj", cwd=folder)
-    assert "its folder has no such file: first.mtl, box.mtl" in process.stderr
+    assert "there is no such material library: first.mtl, box.mtl" in process.stderr
 
 
 def test_an_obj_of_another_format_gets_its_materials_and_textures(folder, tmp_path):
