@@ -55,9 +55,9 @@ def radii(share, whole, thickness, part_sizes, is_alone):
     largest extent of the part of each vertex. `is_alone`: (n,) bool, whether the part touches no
     other.
     """
-    is_detail = ~is_alone & (part_sizes <= SMALL_PART * share * whole)
-    of_limb = np.minimum(share / THICK, 0.5) * thickness
-    return np.where(is_detail, share * whole, np.minimum(share * whole, of_limb))
+    size, of_limb = share * whole, min(share / THICK, 0.5) * thickness
+    is_detail = ~is_alone & (part_sizes <= SMALL_PART * size)
+    return np.where(is_detail, size, np.minimum(size, of_limb))
 
 
 def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):

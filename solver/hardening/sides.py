@@ -128,9 +128,11 @@ def _groups(graph, whole, form_of):
     Connected triangles that lie in one plane are a group, or the pieces of a face.
     """
     one, other = graph.normals[graph.one], graph.normals[graph.other]
-    count, flat = graph.regions(np.einsum("kj,kj->k", one, other) > COPLANAR)
+    cosines = np.einsum("kj,kj->k", one, other)
+    count, flat = graph.regions(cosines > COPLANAR)
     # in a dense mesh, a round side is a chain of triangles that are nearly in one plane
-    is_plane = (_are_planes(graph, flat, count) & _stand_out(graph, flat, count))[flat]
+    stands_out = _stand_out(graph, cosines < SHARP, flat, count)
+    is_plane = (_are_planes(graph, flat, count) & stands_out)[flat]
     faces = np.arange(len(form_of)) if whole is None else whole
     group = np.where(is_plane, flat, count + faces)
     bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
@@ -142,10 +144,9 @@ def _groups(graph, whole, form_of):
     return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
 
 
-def _stand_out(graph, part, count):
+def _stand_out(graph, is_sharp, part, count):
     """Return which parts (count,) are large, or have sharp edges around: no facet of a curve."""
     one, other = part[graph.one], part[graph.other]
-    is_sharp = np.einsum("kj,kj->k", graph.normals[graph.one], graph.normals[graph.other]) < SHARP
     signed = graph.length * np.where(is_sharp, 1.0, -1.0) * (one != other)
     around = np.bincount(one, signed, count) + np.bincount(other, signed, count)
     areas = np.bincount(part, graph.areas, count)
