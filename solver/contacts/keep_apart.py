@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
@@ -44,6 +45,8 @@ WORTH = 0.05, 1.0
 the triangles that cross before it"""
 BETWEEN = 0.8
 """share of the pairs that have to be of two parts, or each round is worth it"""
+BESIDE = 0.03
+"""of the size: how far from where two parts cross at rest they may come to cross"""
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
 
@@ -112,6 +115,7 @@ class KeepApart:
             self._crossing = self._pairs_after(self._crossing, before, U)
         pairs = self._firm(self._crossing)
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
+        pairs = pairs[~self._are_where_parts_crossed(pairs)]
         if self._before is not None:  # parts may cross: to leave them soft would not be worth it
             pairs = pairs[~self._are_of_two_parts(pairs)]
         return np.unique(self._shown[pairs])
@@ -194,7 +198,8 @@ class KeepApart:
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))
             self._crossing = self._new(stylization.positions)
-        pairs = self._crossing[shown(stylization.positions, self._shown, self._crossing)]
+        pairs = self._crossing[~self._are_where_parts_crossed(self._crossing)]
+        pairs = pairs[shown(stylization.positions, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         if self._before is not None:
@@ -211,6 +216,28 @@ class KeepApart:
         one, other = self._rest.topology.part[self._shown[pairs, 0]].T
         is_worn = self._rest.is_worn
         return (one != other) & ~is_worn[one] & ~is_worn[other]
+
+    def _are_where_parts_crossed(self, pairs):
+        """Return which pairs (k,2) are of two parts, and near where surfaces cross at rest.
+
+        A stick in a hand goes into it elsewhere as both become square, which is no fault.
+        """
+        part = self._rest.topology.part[self._shown[:, 0]]
+        found = part[pairs[:, 0]] != part[pairs[:, 1]]
+        if not found.any():
+            return found
+        V, F = self._rest.V, self._shown
+        places = KDTree(V[np.unique(F[pairs[found]])])
+        is_near = places.query(V, distance_upper_bound=BESIDE)[0] < BESIDE
+        asked = np.flatnonzero(is_near[F].any(axis=1))
+        crossed = np.unique(F[asked[self._rest.crosses_at_rest(asked)]])
+        if not len(crossed):
+            return np.zeros(len(pairs), dtype=bool)
+        asked = np.unique(F[pairs[found]])
+        is_beside = np.zeros(len(V), dtype=bool)
+        is_beside[asked] = KDTree(V[crossed]).query(V[asked])[0] < BESIDE
+        found[found] = is_beside[F[pairs[found]]].any(axis=2).all(axis=1)
+        return found
 
     def _is_too_dear(self, stylization, before):
         """Return whether the first round has taken back too much of what the style had done."""

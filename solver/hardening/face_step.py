@@ -36,6 +36,8 @@ from .base import Base
 
 FLATNESS = 0.9
 """b"""
+OF_PLATES = 0.99
+"""b of flats that slide along themselves: those of a brim stretch with its outline"""
 GAIN = 1.0
 """how much farther out sides are held, relative to how far they have sunk"""
 
@@ -90,7 +92,8 @@ class FaceStep:
         self._corners = target.base.corners
         self._held = target.soft
         self._free = np.flatnonzero(target.is_free)
-        self._flatness = np.where(target.is_free, 0.0, FLATNESS)
+        flatness = FLATNESS + target.slides[rest.F].min(axis=1) * (OF_PLATES - FLATNESS)
+        self._flatness = np.where(target.is_free, 0.0, flatness)
         edges = self._flat_edges()
         self._begin_turning(edges)
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))

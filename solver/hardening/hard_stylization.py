@@ -68,7 +68,7 @@ class HardStylization(Stylization):
             return None
         other = copy(self)
         other._style = style
-        other.hardening = self.hardening.with_crispness(style, self.rest)
+        other.hardening = self.hardening.with_crispness(style)
         return other
 
     def restyled(self, style: Style) -> HardStylization:
@@ -78,7 +78,7 @@ class HardStylization(Stylization):
         """
         other = copy(self)
         other._style = self._style.with_strengths(style, self.setup)
-        other.hardening = self.hardening.restyled(self._style, other._style, self.rest)
+        other.hardening = self.hardening.restyled(self._style, other._style)
         return other
 
     def follow(self, soft: Stylization) -> None:

@@ -43,6 +43,8 @@ class Hardening:
         The same with the strength of details asked for.
     rotations : (n,3,3) array
         Of the soft shape.
+    firmness : (n,) array
+        How far vertices are thicker than details, or belong to the flats and rims of plates.
     crispness : (n,) array
         How far the vertices go from there to the hard shape, from 0 to 1.
     target : Target
@@ -56,19 +58,20 @@ class Hardening:
     solved: FloatArray
     soft: FloatArray
     rotations: FloatArray
+    firmness: FloatArray
     crispness: FloatArray
     target: Target
     side: IntArray
     facing: FloatArray
     moves: FloatArray
 
-    def with_crispness(self, style, rest):
+    def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle."""
-        return replace(self, crispness=_crispness_of(style, rest))
+        return replace(self, crispness=self.firmness * _crispness_of(style))
 
-    def restyled(self, before, after, rest):
+    def restyled(self, before, after):
         """Return the same as one SolvedStyle becomes another: what was soft stays so."""
-        one, other = (_crispness_of(style, rest) for style in (before, after))
+        one, other = _crispness_of(before), _crispness_of(after)
         ratio = np.where(one > 0.0, other, 0.0) / np.where(one > 0.0, one, 1.0)
         return replace(self, crispness=ratio * self.crispness)
 
@@ -134,8 +137,8 @@ def hardening_of(stylization, before=None):
     style, rest = stylization.style, stylization.rest
     F, base = rest.F, base_of(stylization.setup)
     R = stylization.rotations.copy()
-    crispness = _crispness_of(style, rest)
-    is_free = ~(crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
+    crispness, thick = _crispness_of(style), _share_of_thickness(rest)
+    is_free = ~(crispness * thick > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     is_free |= rest.is_sheet[F[:, 0]]
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
@@ -153,31 +156,35 @@ def hardening_of(stylization, before=None):
         directions = directions * rest.outward[F[:, 0]]
     solved = stylization.positions.copy()
     soft = solved.copy()
-    strength = 1.0 + (style.detail_strength - 1.0) * _share_of_thickness(rest)
+    strength = 1.0 + (style.detail_strength - 1.0) * thick
     if (strength != 1.0).any():
         added = (strength - 1.0) * base.heights
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
     heights = strength * base.heights
-    slides = 0.0 if rest.is_of_faces else 1.0 - style.in_limb  # a cage could not follow
+    slides = 0.0 if rest.is_of_faces else 1.0  # a cage could not follow
     rim, plate = slides * np.stack(rims_and_flats(base.graph, solved, F, side, facing))
     hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
-    return Hardening(solved, soft, R, crispness, target, side, facing, np.zeros_like(soft))
+    firmness, moves = np.maximum(thick, plate), np.zeros_like(soft)
+    of_end = firmness * crispness, target, side, facing, moves
+    return Hardening(solved, soft, R, firmness, *of_end)
 
 
-def _crispness_of(style, rest):
-    """Return how far vertices (n,) go to the hard shape.
+def _crispness_of(style):
+    """Return how far vertices (n,) go to the hard shape where they are firm.
 
-    What is thinner than details is one itself. What is hardly drawn to the form does not snap to
-    it: a shape whose cubeness is keyed from 0 on becomes crisp bit by bit.
+    What is hardly drawn to the form does not snap to it: a shape whose cubeness is keyed from 0 on
+    becomes crisp bit by bit.
     """
-    drawn = np.minimum(style.cubeness / DRAWN, 1.0)
-    return style.crispness * drawn * _share_of_thickness(rest)
+    return style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
 
 
 def _share_of_thickness(rest):
-    """Return how far vertices (n,) are thicker than details, from 0 to 1."""
+    """Return how far vertices (n,) are thicker than details, from 0 to 1.
+
+    What is thinner is one itself.
+    """
     if not rest.options.detail:
         return np.ones(len(rest.V))
     component = rest.topology.component
