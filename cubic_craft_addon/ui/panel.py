@@ -100,6 +100,7 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
+    seen.draw_shading(layout, obj)
     worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)

@@ -73,6 +73,23 @@ def draw_hint(layout: bpy.types.UILayout, hint: Hint) -> None:
     _draw_button(box, "Cubify What You See", is_main=hint.is_needed)
 
 
+def rounds_edges(obj: bpy.types.Object) -> bool:
+    """Return whether shading makes the straight edges of a crisp shape look round."""
+    run, mesh = mesh_bridge.last_run(obj), obj.data
+    if run is None or not run.settings.get("crispness") or not isinstance(mesh, bpy.types.Mesh):
+        return False
+    is_shaded = any(name in mesh.attributes for name in ("sharp_face", "sharp_edge"))
+    shown = [each for each in obj.modifiers if each.show_viewport]
+    is_shaded |= mesh.has_custom_normals or any(_only_shades(each) for each in shown)
+    return not is_shaded and not any(_rounds(each) for each in shown)
+
+
+def draw_shading(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Offer to shade the edges of a crisp shape as what they are: a coarse one looks soft."""
+    if rounds_edges(obj) and not live.current() and not job.current():
+        layout.operator("object.shade_smooth_by_angle", text="Shade Edges Sharp", icon="MOD_EDGESPLIT")
+
+
 def draw_source(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer to show what the object was made from, while that is hidden behind it."""
     source = hidden_source.hidden_source(obj)
