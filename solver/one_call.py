@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .aliases import Device, Faces, Precision
 from .inputs import switch
 from .limbs import KnownLimbs
-from .mesh.mesh_checks import check_mesh, check_winding
+from .mesh.mesh_checks import check_mesh, check_winding, faces_of_triangles
 from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
@@ -155,11 +155,11 @@ def stylize(
     >>> gem = stylize(V, F, form="octahedron", device="numpy")
     >>> soft = stylize(V, F, 0.6, proxy=PAPER, device="numpy")
     """
-    V, F = check_mesh(V, F)
+    faces, (V, F) = F, check_mesh(V, F)
     check_winding(F, len(V))
     proxy = ProxyOptions() if proxy is None else proxy
     is_paper = proxy == PAPER
-    setup = Setup(rest_mesh(V, F, proxy), pinned)
+    setup = Setup(rest_mesh(V, F, proxy, faces_of_triangles(faces)), pinned)
     style = Style(
         cubeness,
         np.eye(3) if orientation is None else orientation,

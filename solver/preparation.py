@@ -13,7 +13,7 @@ from .errors import CubicCraftError
 from .inputs import instance, whole_numbers
 from .memory import check_memory
 from .mesh.cotangents import cotangents
-from .mesh.mesh_checks import check_mesh
+from .mesh.mesh_checks import check_mesh, faces_of_triangles
 from .mesh.rest_measures import areas_and_normals
 from .mesh.spokes_and_rims import spokes_and_rims
 from .mesh.topology import topology
@@ -29,7 +29,12 @@ from .rest import LIGHT, RestMesh
 
 
 def rest_mesh(
-    V: ArrayLike, F: Faces, proxy: ProxyOptions | None = None, faces: ArrayLike | None = None
+    V: ArrayLike,
+    F: Faces,
+    proxy: ProxyOptions | None = None,
+    faces: ArrayLike | None = None,
+    *,
+    is_cage: bool = False,
 ) -> RestMesh:
     """Build the RestMesh of a mesh.
 
@@ -42,7 +47,10 @@ def rest_mesh(
     proxy : ProxyOptions, optional
         How to prepare the surface; by default as in the extension. With `PAPER`, nothing is done.
     faces : (m,) numpy int array, optional
-        The face of a coarser mesh that each triangle is a piece of: *Crispness* gives it one side.
+        The face that each triangle is a piece of: *Crispness* gives it one side, so that it is not
+        folded. By default, the polygons of F.
+    is_cage : bool, optional
+        Whether they are those of a coarser mesh, which is to follow the result.
 
     Returns
     -------
@@ -72,11 +80,14 @@ def rest_mesh(
     >>> len(rest_mesh(V, F).V) > 4000, len(rest_mesh(V, F, PAPER).V)
     (True, 700)
     """
-    input_positions, F = check_mesh(V, F)
+    polygons = F
+    input_positions, F = check_mesh(V, polygons)
     proxy = ProxyOptions() if proxy is None else instance(proxy, "proxy", ProxyOptions)
     given = F.copy()  # it may be the caller's
     check_memory(len(input_positions), len(F))
-    if faces is not None:
+    if faces is None:
+        faces = faces_of_triangles(polygons)
+    else:
         faces = whole_numbers(faces, "faces")
         if faces.shape != (len(F),):
             raise CubicCraftError(f"faces must have the shape ({len(F)},), not {faces.shape}")
@@ -127,9 +138,7 @@ def rest_mesh(
         skin,
     )
     matrices = skin.with_links(V, rest.links)
-    return replace(
-        rest, matrices=matrices, triangles=given, whole=surface.whole, is_of_faces=faces is not None
-    )
+    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole, is_cage=is_cage)
 
 
 def links_within(*surface: Any) -> tuple[Links, Links, Links]:

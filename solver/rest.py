@@ -90,8 +90,8 @@ class RestMesh(Value):
     """(k,3) int32 triangles of the input, as given"""
     whole: IntArray | None = None
     """(m,) int the triangle before refinement, or the face, that each is a piece of, or None"""
-    is_of_faces: bool = False
-    """whether faces were given, of which triangles are pieces, as those of a cage"""
+    is_cage: bool = False
+    """whether these are the faces of a coarser mesh, which is to follow"""
     unposed: RestMesh | None = None
     """the mesh that this is a pose of"""
 

@@ -119,7 +119,9 @@ def read_shape(obj: bpy.types.Object, start: mesh_bridge.Start = "HERE") -> Shap
     mesh = mesh_bridge.mesh_of(obj)
     original = mesh_bridge.original_positions(mesh, start)
     triangles = mesh_bridge.triangles(mesh, original)
-    return ShapeRead(original, triangles, read_cage(obj), start=start)
+    has_polygons = len(triangles) > len(mesh.polygons)
+    faces = mesh_bridge.faces_of_triangles(mesh) if has_polygons else None
+    return ShapeRead(original, triangles, read_cage(obj), faces, start=start)
 
 
 def read_member(

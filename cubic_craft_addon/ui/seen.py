@@ -87,7 +87,9 @@ def rounds_edges(obj: bpy.types.Object) -> bool:
 def draw_shading(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer to shade the edges of a crisp shape as what they are: a coarse one looks soft."""
     if rounds_edges(obj) and not live.current() and not job.current():
-        layout.operator("object.shade_smooth_by_angle", text="Shade Edges Sharp", icon="MOD_EDGESPLIT")
+        layout.operator(
+            "object.shade_smooth_by_angle", text="Shade Edges Sharp", icon="MOD_EDGESPLIT"
+        )
 
 
 def draw_source(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

@@ -51,7 +51,7 @@ class HardStylization(Stylization):
 
         Not those of a cage, which follow its edges: it could not follow them elsewhere.
         """
-        if self.rest.is_of_faces:
+        if self.rest.is_cage:
             return
         U = self._motion.positions
         straight = U + self.hardening.straightening(U, self.rest.F, self.setup.pinned)

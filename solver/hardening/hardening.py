@@ -162,7 +162,7 @@ def hardening_of(stylization, before=None):
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
     heights = strength * base.heights
-    slides = 0.0 if rest.is_of_faces else 1.0  # a cage could not follow
+    slides = 0.0 if rest.is_cage else 1.0  # a cage could not follow
     rim, plate = slides * np.stack(rims_and_flats(base.graph, solved, F, side, facing))
     hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)

@@ -77,8 +77,8 @@ def sides_of(graph, normals, frames, forms, form_of, *, is_free, whole=None, bef
     is_free : (m,) bool array
         Triangles that belong to no side.
     whole : (m,) int array, optional
-        The triangle of the artist's mesh, or the face of a cage, that each one is a piece of.
-        Pieces have one side, so that no edge of the mesh cuts across the border of two.
+        The face of the artist's mesh that each one is a piece of. Pieces have one side, so that no
+        face is folded across the border of two.
     before : (m,3) array, optional
         What the triangles faced in the frame of an animation before, as `facing`: another form has
         other sides, of which the nearest follows.
@@ -136,7 +136,7 @@ def _groups(graph, whole, form_of):
     faces = np.arange(len(form_of)) if whole is None else whole
     group = np.where(is_plane, flat, count + faces)
     bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
-    if len(bent):  # only those of cages are
+    if len(bent):  # polygons, and faces of cages
         nodes = int(group.max()) + 1
         pairs = np.stack([group[bent], nodes + faces[bent]], axis=1)
         total = nodes + int(faces.max()) + 1

@@ -49,6 +49,16 @@ def check_mesh(V: ArrayLike, F: Faces) -> tuple[FloatArray, NDArray[np.int32]]:
     return V, np.ascontiguousarray(F, dtype=np.int32)
 
 
+def faces_of_triangles(F: Faces) -> IntArray | None:
+    """Return the face (m,) that each triangle of `check_mesh` is a piece of; None if all are whole.
+
+    `F`: as there, and checked.
+    """
+    sizes = [np.full(len(block), block.shape[1] - 2) for block in _blocks(F)]
+    pieces = np.concatenate(sizes)
+    return None if (pieces == 1).all() else np.repeat(np.arange(len(pieces)), pieces)
+
+
 def check_winding(F: IntArray, count: int) -> None:
     """Refuse triangles (m,3) between so many vertices of which many face the other way.
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..aliases import Faces
 from ..errors import CubicCraftError
 from ..inputs import instance, instances, matrix_of, real_numbers, switch, whole_numbers
-from ..mesh.mesh_checks import check_mesh, check_winding
+from ..mesh.mesh_checks import check_mesh, check_winding, faces_of_triangles
 from ..styles.style import CRISPNESS, Style
 from .handle_pose import HandlePose
 from .piece import Piece
@@ -18,7 +18,6 @@ from .placement import placement_by
 from .reach import rest_weights
 from .reflection import Reflection
 from .shape import Shape
-from .whole import Whole
 
 _ROUNDING = 1e-4  # of shares that add up to 1, which may be of 32 bits
 
@@ -134,6 +133,7 @@ def piece_of(
         )
     if np.shape(symmetry) != (3,):
         raise CubicCraftError("symmetry must be True or False for each of the three axes")
+    shape = Shape(original, triangles, faces=faces_of_triangles(F))
     placement = placement_by(place, (own, *others))
     far = None
     if switch(hold_rest, "hold_rest"):
@@ -141,8 +141,8 @@ def piece_of(
     axes = tuple(switch(axis, "symmetry") for axis in symmetry)
     return Piece(
         name=name,
-        shape=Shape(original, triangles),
-        whole=Whole(original, triangles, tuple(_several(mirrors, "mirrors", Reflection)), axes),
+        shape=shape,
+        whole=shape.whole(tuple(_several(mirrors, "mirrors", Reflection)), axes, is_smooth=False),
         placement=placement,
         handles=tuple(handles),
         handle_of=numbers,

@@ -21,6 +21,7 @@ from .floor import Floor
 from .holds import Hold, holds_of
 from .joined_style import joined_style
 from .piece import P, Piece, parts_of
+from .subdivided import Subdivided
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..options import SolverOptions
@@ -287,7 +288,9 @@ def _rest(pieces, proxy, earlier):
         if rest is not None:
             return rest
     triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
-    return rest_mesh(_positions(pieces), np.concatenate(triangles), proxy, _faces(pieces))
+    is_cage = any(isinstance(piece.whole, Subdivided) for piece in pieces)
+    surface = _positions(pieces), np.concatenate(triangles)
+    return rest_mesh(*surface, proxy, _faces(pieces), is_cage=is_cage)
 
 
 def _planes(pieces, rest, earlier):
@@ -306,7 +309,7 @@ def _faces(pieces):
     for piece in pieces:
         own = piece.whole.faces
         found.append(begin + (np.arange(len(piece.F)) if own is None else own))
-        begin += len(piece.F)
+        begin = int(found[-1].max()) + 1
     return np.concatenate(found)
 
 

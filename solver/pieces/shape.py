@@ -29,6 +29,8 @@ class Shape:
     """(m,3) int"""
     cage: Cage | None = None
     """its faces, if what is seen is the smooth surface of it"""
+    faces: IntArray | None = None
+    """(m,) int the face of the mesh that each triangle is a piece of; None if all are whole"""
 
     def is_like(self, other: "Shape") -> bool:
         """Return whether both are the same, bit for bit."""
@@ -36,6 +38,9 @@ class Shape:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()
         is_same &= other.cage is None if self.cage is None else self.cage.is_like(other.cage)
+        if (self.faces is None) != (other.faces is None):
+            return False
+        is_same &= self.faces is None or np.array_equal(self.faces, other.faces)
         return is_same and np.array_equal(self.triangles, other.triangles)
 
     def whole(
@@ -49,7 +54,8 @@ class Shape:
             while len(self._wholes) >= _KEPT:  # the object of a Mirror modifier may be dragged
                 del self._wholes[next(iter(self._wholes))]
             own = self.original, self.triangles, *given
-            self._wholes[key] = Whole(*own) if cage is None else Subdivided(*own, cage)
+            own_faces = self.faces
+            self._wholes[key] = Whole(*own, own_faces) if cage is None else Subdivided(*own, cage)
         return self._wholes[key]
 
     @cached_property

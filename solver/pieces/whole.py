@@ -30,6 +30,8 @@ class Whole:
         Reflections to add: the first of the mesh, the second of both, and so on.
     symmetry : sequence of bool
         About which axes of the object the mesh itself is to be symmetric.
+    face_of : (m,) int array, optional
+        The face of the mesh that each triangle is a piece of.
 
     Attributes
     ----------
@@ -47,8 +49,9 @@ class Whole:
         triangles: IntArray,
         reflections: Sequence[Reflection] = (),
         symmetry: Sequence[bool] = (False, False, False),
+        face_of: IntArray | None = None,
     ):
-        self._original, self._triangles = original, triangles
+        self._original, self._triangles, self._face_of = original, triangles, face_of
         self.reflections = reflections
         points = original.astype(np.float64)
         self._size = float(np.ptp(points, axis=0).max()) if len(points) else 1.0
@@ -95,8 +98,8 @@ class Whole:
 
     @property
     def faces(self) -> IntArray | None:
-        """(M,) int the face that each triangle is a piece of; None if it is whole."""
-        return None
+        """(M,) int the face that each triangle is a piece of, or its image, or None."""
+        return self._triangles_and_faces[1]
 
     def everywhere(self, values: Any) -> Any:
         """Return values (n,...) of the mesh, an array or csr_matrix, at all vertices (N,...)."""
@@ -106,17 +109,25 @@ class Whole:
         """Return which handle (n,) takes each vertex along, those around held vertices included."""
         return handle_of
 
-    @cached_property
+    @property
     def triangles(self) -> IntArray:
         """(M,3) int triangles of the whole."""
-        F, found = self._triangles, [self._triangles]
+        return self._triangles_and_faces[0]
+
+    @cached_property
+    def _triangles_and_faces(self):
+        F, of = self._triangles, self._face_of
+        found, faces = [F], [of]
         for element in range(1, len(self._numbers)):
             images = self._numbers[element][F]
             if bin(element).count("1") % 2:
                 images = images[:, ::-1]
-            # A triangle in the plane is its own image.
-            found.append(images[(images >= len(self._original)).any(axis=1)])
-        return np.concatenate(found)
+            is_new = (images >= len(self._original)).any(
+                axis=1
+            )  # in the plane, it is its own image
+            found.append(images[is_new])
+            faces.append(None if of is None else len(F) * element + of[is_new])
+        return np.concatenate(found), None if of is None else np.concatenate(faces)
 
     def images(self, points: FloatArray) -> FloatArray:
         """Return points (n,3) of the mesh, float64, with their images (N,3)."""
