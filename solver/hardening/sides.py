@@ -135,13 +135,21 @@ def _groups(graph, whole, form_of):
     is_plane = (_are_planes(graph, flat, count) & stands_out)[flat]
     faces = np.arange(len(form_of)) if whole is None else whole
     group = np.where(is_plane, flat, count + faces)
-    bent = np.flatnonzero(~_are_planes(graph, faces, int(faces.max()) + 1)[faces])
-    if len(bent):  # polygons, and faces of cages
+    cut = np.flatnonzero(_are_cut(group, faces))
+    if len(cut):  # by the border of a plane
         nodes = int(group.max()) + 1
-        pairs = np.stack([group[bent], nodes + faces[bent]], axis=1)
+        pairs = np.stack([group[cut], nodes + faces[cut]], axis=1)
         total = nodes + int(faces.max()) + 1
         group = components(np.empty((0, 3), np.int64), total, pairs)[1][group]
     return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
+
+
+def _are_cut(group, faces):
+    """Return which triangles (m,) are pieces of faces of which others are in another group."""
+    least, most = np.full(faces.max() + 1, group.max()), np.zeros(faces.max() + 1, np.intp)
+    np.minimum.at(least, faces, group)
+    np.maximum.at(most, faces, group)
+    return (least != most)[faces]
 
 
 def _stand_out(graph, is_sharp, part, count):

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from facing import angle_to_axes
-from proxy_shapes import joined, uv_sphere
+from proxy_shapes import joined, revolved, uv_sphere
 
 from solver import ProxyOptions, stylize
 from solver.contacts.riding import riding
@@ -133,3 +133,12 @@ def test_each_vertex_of_a_card_rides_on_what_is_nearest_to_it():
     ridden = riding(rest, np.arange(len(rest.V)) >= len(V))
     assert ridden.vertices.tolist() == list(range(len(V), len(rest.V)))
     np.testing.assert_allclose(np.linalg.norm(ridden.offsets, axis=1), heights, atol=0.02)
+
+
+def test_a_stick_that_goes_through_a_ball_becomes_square():
+    """As both became square, its faces crossed others of the ball, and it stayed round: 1.08."""
+    stick = revolved([(1e-3, -1.3), (0.06, -1.3), (0.06, 1.3), (1e-3, 1.3)], 16)
+    ball, faces = uv_sphere(40, 20)
+    V, F = joined(stick, (0.2 * ball + [0.0, 0.0, 1.2], faces))
+    far = np.linalg.norm(stylize(V, F).positions[16:32, :2], axis=1)
+    assert far.max() / far.min() > 1.25
