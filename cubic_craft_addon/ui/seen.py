@@ -86,7 +86,8 @@ def rounds_edges(obj: bpy.types.Object) -> bool:
 
 def draw_shading(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer to shade the edges of a crisp shape as what they are: a coarse one looks soft."""
-    if rounds_edges(obj) and not live.current() and not job.current():
+    is_asked = obj.select_get() and not live.current() and not job.current()
+    if is_asked and rounds_edges(obj):
         layout.operator(
             "object.shade_smooth_by_angle", text="Shade Edges Sharp", icon="MOD_EDGESPLIT"
         )
