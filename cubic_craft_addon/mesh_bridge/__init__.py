@@ -2,7 +2,8 @@
 """Everything that reads or writes mesh data-blocks.
 
 Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
-normals, which point somewhere in object space. Besides them, the bridge keeps its own attributes
+normals, which point somewhere in object space; and sharp edges, if the artist asks for them. Besides
+them, the bridge keeps its own attributes
 and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace (a
 first original is removed by Apply and *Restore First*).
 """
@@ -16,6 +17,12 @@ from .access.dress import dress_of
 from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
+from .access.sharp_edges import (
+    forget_edges,
+    has_following_edges,
+    let_edges_follow,
+    may_have_following_edges,
+)
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group, weights_of_groups
 from .memory.cubic_key import find_cubic_key

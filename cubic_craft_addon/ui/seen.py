@@ -73,24 +73,26 @@ def draw_hint(layout: bpy.types.UILayout, hint: Hint) -> None:
     _draw_button(box, "Cubify What You See", is_main=hint.is_needed)
 
 
-def rounds_edges(obj: bpy.types.Object) -> bool:
-    """Return whether shading makes the straight edges of a crisp shape look round."""
+def is_rounded(obj: bpy.types.Object) -> bool:
+    """Return whether smooth shading makes the straight edges of a crisp shape look round.
+
+    Or would do so without sharp edges that follow the shape.
+    """
     run, mesh = mesh_bridge.last_run(obj), obj.data
     if run is None or not run.settings.get("crispness") or not isinstance(mesh, bpy.types.Mesh):
         return False
-    is_shaded = any(name in mesh.attributes for name in ("sharp_face", "sharp_edge"))
+    if mesh_bridge.find_cubic_key(mesh) is not None:
+        return False  # edges of the basis are others
     shown = [each for each in obj.modifiers if each.show_viewport]
-    is_shaded |= mesh.has_custom_normals or any(_only_shades(each) for each in shown)
-    return not is_shaded and not any(_rounds(each) for each in shown)
+    is_shaded = any(_only_shades(each) or _rounds(each) for each in shown)
+    return not is_shaded and mesh_bridge.may_have_following_edges(mesh)
 
 
 def draw_shading(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Offer to shade the edges of a crisp shape as what they are: a coarse one looks soft."""
-    is_asked = obj.select_get() and not live.current() and not job.current()
-    if is_asked and rounds_edges(obj):
-        layout.operator(
-            "object.shade_smooth_by_angle", text="Shade Edges Sharp", icon="MOD_EDGESPLIT"
-        )
+    if is_rounded(obj):
+        is_on = mesh_bridge.has_following_edges(mesh_bridge.mesh_of(obj))
+        layout.operator("cubic_craft.shade_edges", icon="MOD_EDGESPLIT", depress=is_on)
 
 
 def draw_source(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

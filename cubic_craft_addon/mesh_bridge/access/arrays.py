@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
+from .sharp_edges import follow_shape
 
 
 def read_values(collection: Any, name: str, kind: Any = np.float32, width: int = 1) -> np.ndarray:
@@ -76,6 +77,7 @@ def mark_moved(mesh: bpy.types.Mesh) -> None:
     if mesh.vertices:
         first = mesh.vertices[0]
         first.co = first.co
+        follow_shape(mesh)
 
 
 def loose_vertices(mesh: bpy.types.Mesh) -> np.ndarray:

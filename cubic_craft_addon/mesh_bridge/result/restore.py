@@ -8,6 +8,7 @@ from ..access.attributes import our_attributes
 from ..access.checks import check_writable, mesh_of
 from ..access.note import read_note, write_note
 from ..access.shapes import write_shapes
+from ..access.sharp_edges import forget_edges, leave_edges
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key
 from ..memory.first_original import drop_first, first_shapes, has_first
 from ..memory.original import drop_stored, has_original, has_stored, original_shapes
@@ -43,6 +44,7 @@ def restore(obj: bpy.types.Object) -> None:
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, "ORIGINAL")
     with all_or_nothing(mesh):
+        forget_edges(mesh)
         write_shapes(mesh, original)
         drop_stored(mesh)
         remove_cubic_key(mesh, cubic_key)
@@ -65,6 +67,7 @@ def restore_first(obj: bpy.types.Object) -> None:
         raise CubicCraftError(f'The first original of "{obj.name}" {how}: use Restore')
     cubic_key = find_cubic_key(mesh)
     with all_or_nothing(mesh):
+        forget_edges(mesh)
         write_shapes(mesh, first)
         drop_stored(mesh)
         drop_first(mesh)
@@ -94,3 +97,4 @@ def discard_original(mesh: bpy.types.Mesh) -> None:
         drop_stored(mesh)
         drop_first(mesh)
         write_note(mesh, {})
+        leave_edges(mesh)

@@ -248,23 +248,3 @@ def test_one_undo_shows_the_source_again():
     obj = bpy.data.objects["Suzanne"]
     assert list(bpy.data.objects) == [obj] and bpy.context.object == obj
     assert obj.visible_get() and not obj.hide_render and obj.select_get()
-
-
-def test_smooth_shading_that_rounds_crisp_edges_is_told_from_other_shading(part):
-    seen = part("ui.seen")
-    obj = add_monkey()
-    obj.data.shade_smooth()
-    assert not seen.rounds_edges(obj), "it is not cubic"
-    cubify(crispness=0.0, max_iterations=1)
-    assert not seen.rounds_edges(obj), "it has no edges"
-    cubify(crispness=0.9, max_iterations=1)
-    assert seen.rounds_edges(obj)
-    subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
-    assert not seen.rounds_edges(obj), "to be round is what it is for"
-    subdivision.show_viewport = False
-    assert seen.rounds_edges(obj)
-    obj.data.set_sharp_from_angle(angle=0.5)
-    assert not seen.rounds_edges(obj)
-    obj.data.attributes.remove(obj.data.attributes["sharp_edge"])
-    obj.data.shade_flat()
-    assert not seen.rounds_edges(obj)
