@@ -23,10 +23,10 @@ import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
-from .crossings import crossings
+from .crossings import DEPTH, crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
-from .push import pushed
+from .push import heights, pushed
 from .riding import riding
 from .shown import shown
 
@@ -46,6 +46,9 @@ BETWEEN = 0.8
 """share of the pairs that have to be of two parts, or each round is worth it"""
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
+
+TOUCHING = 10.0 * DEPTH
+"""between corners of a card and what it stands on"""
 
 
 @dataclass(frozen=True)
@@ -261,10 +264,25 @@ class KeepApart:
         return pairs[self._counts(pairs)]
 
     def _counts(self, pairs):
-        """Return which pairs (k,2) count: not two cards, nor what both crossed at rest."""
+        """Return which pairs (k,2) count: not of cards, nor what crossed or touched at rest."""
         is_new = ~self._is_card[pairs].all(axis=1)
+        is_new[is_new] = ~self._are_touching(pairs[is_new])
         is_new[is_new] = ~self._rest.crosses_at_rest(pairs[is_new]).all(axis=1)
         return is_new
+
+    def _are_touching(self, pairs):
+        """Return which pairs (k,2) are of a card and what it stands on at rest.
+
+        There is no gap that could be kept: its border dips below, or stands out.
+        """
+        is_touching = self._is_card[pairs].any(axis=1)
+        V, (A, B) = self._rest.V, self._shown[pairs[is_touching]].swapaxes(0, 1)
+        a, b = V[A], V[B]
+        touches = np.all(a.min(axis=1) < b.max(axis=1) + TOUCHING, axis=1)
+        touches &= np.all(b.min(axis=1) < a.max(axis=1) + TOUCHING, axis=1)
+        away = [np.abs(heights(V, *ends)[1]).min(axis=1) for ends in ((A, B), (B, A))]
+        is_touching[is_touching] = touches & (np.minimum(*away) < TOUCHING)
+        return is_touching
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

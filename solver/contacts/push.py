@@ -87,8 +87,8 @@ def _lifts(V, U, A, B):
     Returns `normal`: (k,3); `lift`: (k,3); `depth`: (k,), the largest of them; infinite where the
     normal has no direction.
     """
-    at_rest = _heights(V, A, B)[1]
-    normal, height = _heights(U, A, B)
+    at_rest = heights(V, A, B)[1]
+    normal, height = heights(U, A, B)
     is_above = at_rest.min(axis=1) > -DEPTH
     is_below = at_rest.max(axis=1) < DEPTH
     up = np.maximum(MARGIN - height, 0.0)
@@ -98,7 +98,7 @@ def _lifts(V, U, A, B):
     return normal, lift, np.where(normal.any(axis=1), np.abs(lift).max(axis=1), np.inf)
 
 
-def _heights(places, A, B):
+def heights(places, A, B):
     """Return unit normals (k,3) of triangles B, and heights (k,3) of the corners of A over them."""
     a, b, c = (places[B[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
