@@ -370,11 +370,10 @@ class Run:
 
     def _current(self):
         """Return the current rotations and the positions in the unit box."""
-        state = self.stylization
         if self._coarse is None:
-            return state.rotations, state.positions
+            return self.stylization.current()
         positions, R = self._coarse.placed()
-        return preview_on_fine(positions, R, state.rest)
+        return preview_on_fine(positions, R, self.stylization.rest)
 
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""

@@ -187,7 +187,7 @@ class KeepApart:
 
         And count what then can be seen to cross.
         """
-        crossing = self._triangles(self._crossing)
+        U, crossing = stylization.positions, self._triangles(self._crossing)
         component = self._rest.topology.component
         is_carried = np.isin(
             component, component[self._shown[crossing[self._is_card[crossing]], 0]]
@@ -196,8 +196,9 @@ class KeepApart:
         is_carried[stylization.setup.pinned] = False
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))
-            self._crossing = self._new(stylization.positions)
-        pairs = self._crossing[shown(stylization.positions, self._shown, self._crossing)]
+            U = stylization.positions
+            self._crossing = self._new(U)
+        pairs = self._crossing[shown(U, self._shown, self._crossing)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         if self._before is not None:

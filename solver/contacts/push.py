@@ -9,7 +9,7 @@ Which side is the right one is known from the rest shape; where it is not, it is
 import numpy as np
 
 from ..proxy.closest_point import closest_points
-from .crossings import DEPTH, Watched
+from .crossings import DEPTH, Watched, boxes
 
 STEPS = 40
 PATIENCE = 5
@@ -34,7 +34,9 @@ def pushed(V, U, triangles, pairs, counts, is_free, impose):
     positions (n,3) in place so that they satisfy all constraints.
     """
     start, best, fewest, before = U, U, len(pairs), []
-    watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH, counts)
+    is_moved, (low, high) = _moved(triangles, pairs, len(U)), boxes(U, triangles)
+    margin = REACH * is_moved[:, None]
+    watched = Watched(triangles, low - margin, high + margin, is_moved, counts)
     for _ in range(STEPS):
         is_stuck = len(before) >= PATIENCE and fewest > 0.9 * before[-PATIENCE]
         if not fewest or (is_stuck and fewest > MANY):
