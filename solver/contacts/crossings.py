@@ -16,15 +16,17 @@ from ..mesh.overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""
+MANY = 0.02
+"""of the triangles: who asks for so many will ask for others, and to look for all takes less"""
 _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is left
 
 
-def crossings(V, F, is_asked=None):
+def crossings(V, F, is_asked=None, with_others=False):
     """Find the pairs of triangles that cross.
 
     `V`: (n,3). `F`: (m,3) int. `is_asked`: (m,) bool, optional, pairs of two others are left out,
-    which takes little time if few are asked for. Returns (k,2) int, triangles, the lower number
-    first, in ascending order.
+    which takes little time if few are asked for. `with_others`: bool, pairs of two of these are
+    left out, too. Returns (k,2) int, triangles, the lower number first, in ascending order.
     """
     V = np.asarray(V, dtype=np.float64)
     F = np.asarray(F)
@@ -45,8 +47,9 @@ def crossings(V, F, is_asked=None):
     def crossing(block):
         return planes.crossing(*_apart(planes.F, *block))
 
+    is_one = is_asked[used] if is_asked is not None and with_others else None
     with ThreadPoolExecutor(2) as beside:
-        found = list(beside.map(crossing, blocks_of_overlaps(low, high)))
+        found = list(beside.map(crossing, blocks_of_overlaps(low, high, is_one)))
     pairs = np.sort(used[np.concatenate([np.empty((0, 2), np.intp), *found])], axis=1)
     if is_asked is not None:
         pairs = pairs[is_asked[pairs].any(axis=1)]
@@ -68,6 +71,8 @@ class CrossingTriangles:
         is_asked = np.zeros(len(self._F), dtype=bool)
         is_asked[triangles] = True
         is_asked &= ~self._is_known
+        if is_asked.mean() > MANY:
+            is_asked = ~self._is_known
         if is_asked.any():
             self._is_crossing[crossings(self._V, self._F, is_asked).ravel()] = True
             self._is_known |= is_asked

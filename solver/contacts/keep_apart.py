@@ -53,12 +53,12 @@ TOUCHING = 10.0 * DEPTH
 
 @dataclass(frozen=True)
 class _State:
-    """A state of the run, and what crosses in it."""
+    """A state of the run, and what crosses in it, but for cards."""
 
     count: int
-    """of triangles that cross and did not at rest, but for cards"""
+    """of triangles that cross and did not at rest"""
     pairs: IntArray
-    """(k,2) int of triangles, with cards"""
+    """(k,2) int of triangles"""
     U: FloatArray
     R: FloatArray
     is_pushed: bool = False
@@ -92,6 +92,7 @@ class KeepApart:
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
         self._is_card = rest.is_card[rest.shown[:, 0]]
+        self._firm = np.flatnonzero(~self._is_card)
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._now: _State | None = None
         self._best: _State | None = None
@@ -113,7 +114,7 @@ class KeepApart:
             self._crossing = self._new(U)
         else:
             self._crossing = self._pairs_after(self._crossing, before, U)
-        pairs = self._firm(self._crossing)
+        pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
         if self._before is not None:  # parts may cross: to leave them soft would not be worth it
             pairs = pairs[~self._are_of_two_parts(pairs)]
@@ -152,7 +153,7 @@ class KeepApart:
         U, R = stylization.positions, stylization.rotations
         is_wide = self._rounds > 0  # fewer links have not been enough
         assert self._now is not None, "there has been no check"
-        pairs = self._firm(self._now.pairs)
+        pairs = self._now.pairs
         step = len(pairs) // SAMPLE
         looks = [(pairs[::step], 0.5 * HELPED)] if step > 1 and not is_wide else []
         found = no_links()
@@ -187,7 +188,9 @@ class KeepApart:
 
         And count what then can be seen to cross.
         """
-        U, crossing = stylization.positions, self._triangles(self._crossing)
+        U = stylization.positions
+        with_cards = self._with_cards(U)
+        crossing = self._triangles(with_cards)
         component = self._rest.topology.component
         is_carried = np.isin(
             component, component[self._shown[crossing[self._is_card[crossing]], 0]]
@@ -197,8 +200,9 @@ class KeepApart:
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))
             U = stylization.positions
-            self._crossing = self._new(U)
-        pairs = self._crossing[shown(U, self._shown, self._crossing)]
+            with_cards = self._with_cards(U)
+        pairs = np.concatenate([self._crossing, with_cards])
+        pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         if self._before is not None:
@@ -224,11 +228,10 @@ class KeepApart:
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""
-        pairs = self._firm(state.pairs)
         is_free = np.ones(len(state.U), dtype=bool)
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
-        U = pushed(V, state.U, shown, pairs, self._counts, is_free, impose)
+        U = pushed(V, state.U, shown, state.pairs, self._firm_counts, is_free, impose)
         pairs = self._pairs_after(state.pairs, state.U, U)
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
 
@@ -242,12 +245,8 @@ class KeepApart:
         assert self._best is not None, "there has been no check"
         return self._best
 
-    def _firm(self, pairs):
-        """Return the pairs without those of cards."""
-        return pairs[~self._is_card[pairs].any(axis=1)]
-
     def _count(self, pairs):
-        return len(np.unique(self._triangles(self._firm(pairs))))
+        return len(np.unique(self._triangles(pairs)))
 
     def _keep(self, state):
         if self._best is None or state.count < self._best.count:
@@ -260,30 +259,40 @@ class KeepApart:
         return np.any(is_linked[self._shown], axis=1)[pairs].all(axis=1).mean()
 
     def _new(self, U, is_asked=None):
-        """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
-        pairs = crossings(U, self._shown, is_asked)
+        """Return pairs (k,2) of triangles that cross, of no cards, and did not at rest."""
+        is_asked = None if is_asked is None else is_asked[self._firm]
+        pairs = self._firm[crossings(U, self._shown[self._firm], is_asked)]
+        return pairs[self._counts(pairs)]
+
+    def _with_cards(self, U):
+        """Return pairs (k,2) of a card and what is none that cross, and did not at rest."""
+        pairs = crossings(U, self._shown, self._is_card, with_others=True)
+        pairs = pairs[~self._are_touching(pairs)]
         return pairs[self._counts(pairs)]
 
     def _counts(self, pairs):
-        """Return which pairs (k,2) count: not of cards, nor what crossed or touched at rest."""
-        is_new = ~self._is_card[pairs].all(axis=1)
-        is_new[is_new] = ~self._are_touching(pairs[is_new])
-        is_new[is_new] = ~self._rest.crosses_at_rest(pairs[is_new]).all(axis=1)
+        """Return which pairs (k,2) did not both cross something at rest."""
+        is_new = ~self._rest.crosses_at_rest(pairs[:, 0])
+        is_new[~is_new] = ~self._rest.crosses_at_rest(pairs[~is_new, 1])
         return is_new
+
+    def _firm_counts(self, pairs):
+        """Return the same, for none with a card."""
+        is_firm = ~self._is_card[pairs].any(axis=1)
+        is_firm[is_firm] = self._counts(pairs[is_firm])
+        return is_firm
 
     def _are_touching(self, pairs):
         """Return which pairs (k,2) are of a card and what it stands on at rest.
 
         There is no gap that could be kept: its border dips below, or stands out.
         """
-        is_touching = self._is_card[pairs].any(axis=1)
-        V, (A, B) = self._rest.V, self._shown[pairs[is_touching]].swapaxes(0, 1)
+        V, (A, B) = self._rest.V, self._shown[pairs].swapaxes(0, 1)
         a, b = V[A], V[B]
-        touches = np.all(a.min(axis=1) < b.max(axis=1) + TOUCHING, axis=1)
-        touches &= np.all(b.min(axis=1) < a.max(axis=1) + TOUCHING, axis=1)
+        is_touching = np.all(a.min(axis=1) < b.max(axis=1) + TOUCHING, axis=1)
+        is_touching &= np.all(b.min(axis=1) < a.max(axis=1) + TOUCHING, axis=1)
         away = [np.abs(heights(V, *ends)[1]).min(axis=1) for ends in ((A, B), (B, A))]
-        is_touching[is_touching] = touches & (np.minimum(*away) < TOUCHING)
-        return is_touching
+        return is_touching & (np.minimum(*away) < TOUCHING)
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""
