@@ -31,6 +31,8 @@ from .riding import riding
 from .shown import shown
 
 ROUNDS = 4
+TRIES = 2
+"""rounds after which no more follow if none has left less than before the first"""
 FEW = 1.0 / 2000.0
 """of the triangles: so few are pushed apart first, and only if that fails there is a first round"""
 FEWEST = 40
@@ -96,8 +98,9 @@ class KeepApart:
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._now: _State | None = None
         self._best: _State | None = None
-        self._progress = 0, 0
+        self._progress, self._has_helped = (0, 0), False
         self._before: _Before | None = None
+        self._first: Any = None
         self._at_end = np.empty(0, np.intp)
         self._crossing = np.empty((0, 2), np.intp)
         self._looked_at: FloatArray | None = None
@@ -128,11 +131,12 @@ class KeepApart:
         self._keep(now)
         if self._before is not None:
             if self._is_too_dear(stylization, self._before):
-                self._best = self._before.state
+                self._best, self._has_helped = self._before.state, False
                 return False
             self._before = None
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
+        is_stuck |= self._rounds >= TRIES and not self._has_helped
         self._progress = progress
         if not now.count or self._rounds == ROUNDS or is_stuck:
             return False
@@ -165,15 +169,16 @@ class KeepApart:
         if not self._rounds and self._are_of_two_parts(pairs).mean() > BETWEEN:
             fall = _energy_at_rest(stylization).cubic - stylization.energy.cubic
             self._before = _Before(stylization, self._now, fall)
+        self._first = self._first or stylization
         self._links = merged(self._links, found)
         self._rounds += 1
         return stylization.continued(stylization.setup.linked(self._rest, self._links))
 
     def finish(self, stylization):
         """Return the Stylization in the best state, with what still crosses there pushed apart."""
-        if self._before is not None:
-            self._before.stylization.iterations = stylization.iterations
-            stylization = self._before.stylization
+        if self._first is not None and not self._has_helped:
+            self._first.iterations = stylization.iterations
+            stylization = self._first
         best = self._best_so_far()
         if best.count and not best.is_pushed:
             self._push(best, stylization)
@@ -250,7 +255,7 @@ class KeepApart:
 
     def _keep(self, state):
         if self._best is None or state.count < self._best.count:
-            self._best = state
+            self._has_helped, self._best = self._best is not None, state
 
     def _share_linked(self, pairs, links):
         """Return the share of pairs (k,2) of triangles that both have a vertex with a link."""
