@@ -178,7 +178,7 @@ class _Planes:
 
 
 def _apart(F, box, i, j):
-    """Return the pairs of triangles (3,m) of a block of `blocks_of_overlaps` that share no vertex."""
+    """Return the pairs of `blocks_of_overlaps` of triangles F (3,m) that share no vertex."""
     F = F.take(box, axis=1)
     one, other = F.take(i, axis=1), F.take(j, axis=1)
     meets = np.zeros(len(i), dtype=bool)

@@ -277,9 +277,7 @@ class KeepApart:
 
     def _counts(self, pairs):
         """Return which pairs (k,2) did not both cross something at rest."""
-        is_new = ~self._rest.crosses_at_rest(pairs[:, 0])
-        is_new[~is_new] = ~self._rest.crosses_at_rest(pairs[~is_new, 1])
-        return is_new
+        return ~self._rest.crosses_at_rest(pairs).all(axis=1)
 
     def _firm_counts(self, pairs):
         """Return the same, for none with a card."""

@@ -35,7 +35,7 @@ def pushed(V, U, triangles, pairs, counts, is_free, impose):
     """
     start, best, fewest, before = U, U, len(pairs), []
     is_moved, (low, high) = _moved(triangles, pairs, len(U)), boxes(U, triangles)
-    margin = REACH * is_moved[:, None]
+    margin = np.where(is_moved, REACH, 0.0)[:, None]
     watched = Watched(triangles, low - margin, high + margin, is_moved, counts)
     for _ in range(STEPS):
         is_stuck = len(before) >= PATIENCE and fewest > 0.9 * before[-PATIENCE]
