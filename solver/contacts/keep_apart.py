@@ -6,7 +6,8 @@ all. A few are pushed apart. Otherwise links are made across the gaps that are c
 step is factorized anew, and the iteration goes on from where it is; up to four times, but not for
 the few that a round has left and pushing does not part: another round hardly does. The links only
 add a term to the energy, so it falls in every step of a round. A round costs much more than to
-push, so what a round has left is pushed first if it is not much, and often nearly all parts.
+push, so what a round has left is pushed first if it is not much, and often nearly all parts. Where
+two rounds have not helped, the run goes on from before the first, without their links.
 
 A round that takes back more of the style than the crossings are worth, between parts, is taken back
 itself: links between all the parts of a figure can leave it nearly as round as it was.
