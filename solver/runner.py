@@ -25,7 +25,7 @@ from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
 from .hardening.hard_stylization import HardStylization
-from .hardening.hardening import ROUNDS
+from .hardening.hardening import ROUNDS, is_hardened
 from .inputs import instance, real_number, switch, whole_number
 from .result import Reason, Result
 from .stop_rule import StopRule
@@ -258,8 +258,8 @@ class Run:
 
     def _harden_or_end(self) -> None:
         state = self.stylization
-        is_soft = self._soft is None and not state.is_coarse and state.style.is_hardened
-        if is_soft and self._is_hardened_itself:
+        is_soft = self._soft is None and not state.is_coarse and self._is_hardened_itself
+        if is_soft and is_hardened(state):
             self._phase = Run.harden
         else:
             self._conclude()
@@ -370,11 +370,10 @@ class Run:
 
     def _current(self):
         """Return the current rotations and the positions in the unit box."""
-        state = self.stylization
         if self._coarse is None:
-            return state.rotations, state.positions
+            return self.stylization.current()
         positions, R = self._coarse.placed()
-        return preview_on_fine(positions, R, state.rest)
+        return preview_on_fine(positions, R, self.stylization.rest)
 
     def result(self) -> Result:
         """Return the Result so far; the iteration cannot be continued afterwards."""

@@ -282,14 +282,18 @@ class Stylization(Stored):
     @property
     def positions(self) -> FloatArray:
         """(n,3) current positions in the unit box, of the vertices of `rest`."""
-        U = self._shape()
-        return U if self._riding is None else self._riding.carried(U, self.rotations)
+        return self._shape() if self._riding is None else self.current()[1]
 
     @property
     def rotations(self) -> FloatArray:
         """(n,3,3) rotations of the last local step, of the vertices of `rest`."""
         R = self._turns()
         return R if self._riding is None else self._riding.turned(R)
+
+    def current(self) -> tuple[FloatArray, FloatArray]:
+        """Return both: rotations of what rides, which take long, are found once."""
+        R, U = self.rotations, self._shape()
+        return R, U if self._riding is None else self._riding.carried(U, R)
 
     def _shape(self) -> FloatArray:
         return self._motion.positions

@@ -2,10 +2,10 @@
 """Everything that reads or writes mesh data-blocks.
 
 Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
-normals, which point somewhere in object space; and sharp edges, if the artist asks for them. Besides
-them, the bridge keeps its own attributes
-and one custom property on the mesh (see `note`), which Restore and Apply remove without a trace (a
-first original is removed by Apply and *Restore First*).
+normals, which point somewhere in object space; and sharp edges, if the artist asks for them.
+Besides them, the bridge keeps its own attributes and one custom property on the mesh (see `note`),
+which Restore and Apply remove without a trace (a first original is removed by Apply and *Restore
+First*).
 """
 
 from .access.any_mode import flush, glance, in_no_mode

@@ -16,15 +16,17 @@ from ..mesh.overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""
+MANY = 0.02
+"""of the triangles: who asks for so many will ask for others, and to look for all takes less"""
 _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is left
 
 
-def crossings(V, F, is_asked=None):
+def crossings(V, F, is_asked=None, with_others=False):
     """Find the pairs of triangles that cross.
 
     `V`: (n,3). `F`: (m,3) int. `is_asked`: (m,) bool, optional, pairs of two others are left out,
-    which takes little time if few are asked for. Returns (k,2) int, triangles, the lower number
-    first, in ascending order.
+    which takes little time if few are asked for. `with_others`: bool, pairs of two of these are
+    left out, too. Returns (k,2) int, triangles, the lower number first, in ascending order.
     """
     V = np.asarray(V, dtype=np.float64)
     F = np.asarray(F)
@@ -43,10 +45,11 @@ def crossings(V, F, is_asked=None):
     planes = _Planes(V, F[used])
 
     def crossing(block):
-        return planes.crossing(*planes.apart(*block))
+        return planes.crossing(*_apart(planes.F, *block))
 
+    is_one = is_asked[used] if is_asked is not None and with_others else None
     with ThreadPoolExecutor(2) as beside:
-        found = list(beside.map(crossing, blocks_of_overlaps(low, high)))
+        found = list(beside.map(crossing, blocks_of_overlaps(low, high, is_one)))
     pairs = np.sort(used[np.concatenate([np.empty((0, 2), np.intp), *found])], axis=1)
     if is_asked is not None:
         pairs = pairs[is_asked[pairs].any(axis=1)]
@@ -68,6 +71,8 @@ class CrossingTriangles:
         is_asked = np.zeros(len(self._F), dtype=bool)
         is_asked[triangles] = True
         is_asked &= ~self._is_known
+        if is_asked.mean() > MANY:
+            is_asked = ~self._is_known
         if is_asked.any():
             self._is_crossing[crossings(self._V, self._F, is_asked).ravel()] = True
             self._is_known |= is_asked
@@ -75,36 +80,33 @@ class CrossingTriangles:
 
 
 class Watched:
-    """The pairs of triangles that may come to cross while their corners move only a little.
+    """The pairs of triangles that may come to cross while they stay in their boxes.
 
     They are searched for once. Which of them cross is then found again and again in little time.
 
     Parameters
     ----------
-    V : (n,3) float array
-        Positions, finite and in the unit box.
     F : (m,3) int array
+    low, high : (m,3) float arrays
+        Corners of the boxes, in the unit box.
     is_moved : (m,) bool array
         Triangles that move; pairs of two others are not watched.
-    reach : float
-        How far each coordinate may go from V.
-    counts : callable
+    counts : callable, optional
         Maps pairs of triangles (k,2) to a mask (k,) of those that are to be watched.
     """
 
-    def __init__(self, V, F, is_moved, reach, counts):
-        low, high = boxes(V, F)
-        margin = reach * is_moved[:, None]
-        low, high = low - margin, high + margin
+    def __init__(self, F, low, high, is_moved, counts=None):
         origin = low.min(axis=0)
         size = (high.max(axis=0) - origin).max()
         low, high = (low - origin) / size, (high - origin) / size
         used = np.flatnonzero(near(low, high, is_moved))
-        planes = _Planes(V, F[used])
-        found = [planes.apart(*block) for block in blocks_of_overlaps(low[used], high[used])]
+        corners = np.ascontiguousarray(F[used].T, dtype=np.int32)
+        found = [_apart(corners, *block) for block in blocks_of_overlaps(low[used], high[used])]
         pairs = used[np.concatenate([np.empty((2, 0), np.intp), *map(np.stack, found)], axis=1)]
         pairs = pairs[:, is_moved[pairs].any(axis=0)]
-        self._used, place = np.unique(pairs[:, counts(pairs.T)], return_inverse=True)
+        if counts is not None:
+            pairs = pairs[:, counts(pairs.T)]
+        self._used, place = np.unique(pairs, return_inverse=True)
         self._F, self._pairs = F[self._used], place.reshape(2, -1)
 
     def crossings(self, V):
@@ -130,15 +132,6 @@ class _Planes:
         normal = np.array(cross(*(b - a), *(c - a)))
         normal /= np.maximum(np.sqrt(dot(*normal, *normal)), 1e-300)
         self.normal, self.offset = list(normal), dot(*normal, *a)
-
-    def apart(self, box, i, j):
-        """Return the pairs of triangles of a block of `blocks_of_overlaps` that share no vertex."""
-        F = self.F.take(box, axis=1)
-        one, other = F.take(i, axis=1), F.take(j, axis=1)
-        meets = np.zeros(len(i), dtype=bool)
-        for corner in one:
-            meets |= (corner == other[0]) | (corner == other[1]) | (corner == other[2])
-        return box[i[~meets]], box[j[~meets]]
 
     def crossing(self, i, j):
         """Return which pairs of triangles i and j (k,) cross, as (c,2)."""
@@ -182,3 +175,13 @@ class _Planes:
             np.minimum(begin, place, out=begin, where=is_cut)
             np.maximum(end, place, out=end, where=is_cut)
         return begin, end
+
+
+def _apart(F, box, i, j):
+    """Return the pairs of `blocks_of_overlaps` of triangles F (3,m) that share no vertex."""
+    F = F.take(box, axis=1)
+    one, other = F.take(i, axis=1), F.take(j, axis=1)
+    meets = np.zeros(len(i), dtype=bool)
+    for corner in one:
+        meets |= (corner == other[0]) | (corner == other[1]) | (corner == other[2])
+    return box[i[~meets]], box[j[~meets]]

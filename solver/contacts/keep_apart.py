@@ -6,7 +6,8 @@ all. A few are pushed apart. Otherwise links are made across the gaps that are c
 step is factorized anew, and the iteration goes on from where it is; up to four times, but not for
 the few that a round has left and pushing does not part: another round hardly does. The links only
 add a term to the energy, so it falls in every step of a round. A round costs much more than to
-push, so what a round has left is pushed first if it is not much, and often nearly all parts.
+push, so what a round has left is pushed first if it is not much, and often nearly all parts. Where
+two rounds have not helped, the run goes on from before the first, without their links.
 
 A round that takes back more of the style than the crossings are worth, between parts, is taken back
 itself: links between all the parts of a figure can leave it nearly as round as it was.
@@ -24,14 +25,16 @@ from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
-from .crossings import crossings
+from .crossings import DEPTH, crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
-from .push import pushed
+from .push import heights, pushed
 from .riding import riding
 from .shown import shown
 
 ROUNDS = 4
+TRIES = 2
+"""rounds after which no more follow if none has left less than before the first"""
 FEW = 1.0 / 2000.0
 """of the triangles: so few are pushed apart first, and only if that fails there is a first round"""
 FEWEST = 40
@@ -50,15 +53,18 @@ BESIDE = 0.03
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
 
+TOUCHING = 10.0 * DEPTH
+"""between corners of a card and what it stands on"""
+
 
 @dataclass(frozen=True)
 class _State:
-    """A state of the run, and what crosses in it."""
+    """A state of the run, and what crosses in it, but for cards."""
 
     count: int
-    """of triangles that cross and did not at rest, but for cards"""
+    """of triangles that cross and did not at rest"""
     pairs: IntArray
-    """(k,2) int of triangles, with cards"""
+    """(k,2) int of triangles"""
     U: FloatArray
     R: FloatArray
     is_pushed: bool = False
@@ -92,11 +98,13 @@ class KeepApart:
     def __init__(self, rest):
         self._rest, self._shown = rest, rest.shown
         self._is_card = rest.is_card[rest.shown[:, 0]]
+        self._firm = np.flatnonzero(~self._is_card)
         self._links, self._gaps, self._rounds = no_links(), None, 0
         self._now: _State | None = None
         self._best: _State | None = None
-        self._progress = 0, 0
+        self._progress, self._has_helped = (0, 0), False
         self._before: _Before | None = None
+        self._first: Any = None
         self._at_end = np.empty(0, np.intp)
         self._crossing = np.empty((0, 2), np.intp)
         self._looked_at: FloatArray | None = None
@@ -113,7 +121,7 @@ class KeepApart:
             self._crossing = self._new(U)
         else:
             self._crossing = self._pairs_after(self._crossing, before, U)
-        pairs = self._firm(self._crossing)
+        pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
         pairs = pairs[~self._are_where_parts_crossed(pairs)]
         if self._before is not None:  # parts may cross: to leave them soft would not be worth it
@@ -128,11 +136,12 @@ class KeepApart:
         self._keep(now)
         if self._before is not None:
             if self._is_too_dear(stylization, self._before):
-                self._best = self._before.state
+                self._best, self._has_helped = self._before.state, False
                 return False
             self._before = None
         progress = len(self._links), -now.count
         is_stuck = self._rounds > 0 and progress <= self._progress
+        is_stuck |= self._rounds >= TRIES and not self._has_helped
         self._progress = progress
         if not now.count or self._rounds == ROUNDS or is_stuck:
             return False
@@ -153,7 +162,7 @@ class KeepApart:
         U, R = stylization.positions, stylization.rotations
         is_wide = self._rounds > 0  # fewer links have not been enough
         assert self._now is not None, "there has been no check"
-        pairs = self._firm(self._now.pairs)
+        pairs = self._now.pairs
         step = len(pairs) // SAMPLE
         looks = [(pairs[::step], 0.5 * HELPED)] if step > 1 and not is_wide else []
         found = no_links()
@@ -165,15 +174,16 @@ class KeepApart:
         if not self._rounds and self._are_of_two_parts(pairs).mean() > BETWEEN:
             fall = _energy_at_rest(stylization).cubic - stylization.energy.cubic
             self._before = _Before(stylization, self._now, fall)
+        self._first = self._first or stylization
         self._links = merged(self._links, found)
         self._rounds += 1
         return stylization.continued(stylization.setup.linked(self._rest, self._links))
 
     def finish(self, stylization):
         """Return the Stylization in the best state, with what still crosses there pushed apart."""
-        if self._before is not None:
-            self._before.stylization.iterations = stylization.iterations
-            stylization = self._before.stylization
+        if self._first is not None and not self._has_helped:
+            self._first.iterations = stylization.iterations
+            stylization = self._first
         best = self._best_so_far()
         if best.count and not best.is_pushed:
             self._push(best, stylization)
@@ -188,7 +198,9 @@ class KeepApart:
 
         And count what then can be seen to cross.
         """
-        crossing = self._triangles(self._crossing)
+        U = stylization.positions
+        with_cards = self._with_cards(U)
+        crossing = self._triangles(with_cards)
         component = self._rest.topology.component
         is_carried = np.isin(
             component, component[self._shown[crossing[self._is_card[crossing]], 0]]
@@ -197,9 +209,11 @@ class KeepApart:
         is_carried[stylization.setup.pinned] = False
         if is_carried.any():
             stylization = stylization.with_riding(riding(self._rest, is_carried))
-            self._crossing = self._new(stylization.positions)
-        pairs = self._crossing[~self._are_where_parts_crossed(self._crossing)]
-        pairs = pairs[shown(stylization.positions, self._shown, pairs)]
+            U = stylization.positions
+            with_cards = self._with_cards(U)
+        pairs = np.concatenate([self._crossing, with_cards])
+        pairs = pairs[~self._are_where_parts_crossed(pairs)]
+        pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
         if self._before is not None:
@@ -247,11 +261,10 @@ class KeepApart:
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""
-        pairs = self._firm(state.pairs)
         is_free = np.ones(len(state.U), dtype=bool)
         is_free[stylization.setup.pinned] = False
         V, shown, impose = self._rest.V, self._shown, stylization.impose
-        U = pushed(V, state.U, shown, pairs, self._counts, is_free, impose)
+        U = pushed(V, state.U, shown, state.pairs, self._firm_counts, is_free, impose)
         pairs = self._pairs_after(state.pairs, state.U, U)
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
 
@@ -265,16 +278,12 @@ class KeepApart:
         assert self._best is not None, "there has been no check"
         return self._best
 
-    def _firm(self, pairs):
-        """Return the pairs without those of cards."""
-        return pairs[~self._is_card[pairs].any(axis=1)]
-
     def _count(self, pairs):
-        return len(np.unique(self._triangles(self._firm(pairs))))
+        return len(np.unique(self._triangles(pairs)))
 
     def _keep(self, state):
         if self._best is None or state.count < self._best.count:
-            self._best = state
+            self._has_helped, self._best = self._best is not None, state
 
     def _share_linked(self, pairs, links):
         """Return the share of pairs (k,2) of triangles that both have a vertex with a link."""
@@ -283,15 +292,38 @@ class KeepApart:
         return np.any(is_linked[self._shown], axis=1)[pairs].all(axis=1).mean()
 
     def _new(self, U, is_asked=None):
-        """Return pairs (k,2) of triangles that cross and did not both cross something at rest."""
-        pairs = crossings(U, self._shown, is_asked)
+        """Return pairs (k,2) of triangles that cross, of no cards, and did not at rest."""
+        is_asked = None if is_asked is None else is_asked[self._firm]
+        pairs = self._firm[crossings(U, self._shown[self._firm], is_asked)]
+        return pairs[self._counts(pairs)]
+
+    def _with_cards(self, U):
+        """Return pairs (k,2) of a card and what is none that cross, and did not at rest."""
+        pairs = crossings(U, self._shown, self._is_card, with_others=True)
+        pairs = pairs[~self._are_touching(pairs)]
         return pairs[self._counts(pairs)]
 
     def _counts(self, pairs):
-        """Return which pairs (k,2) count: not two cards, nor what both crossed at rest."""
-        is_new = ~self._is_card[pairs].all(axis=1)
-        is_new[is_new] = ~self._rest.crosses_at_rest(pairs[is_new]).all(axis=1)
-        return is_new
+        """Return which pairs (k,2) did not both cross something at rest."""
+        return ~self._rest.crosses_at_rest(pairs).all(axis=1)
+
+    def _firm_counts(self, pairs):
+        """Return the same, for none with a card."""
+        is_firm = ~self._is_card[pairs].any(axis=1)
+        is_firm[is_firm] = self._counts(pairs[is_firm])
+        return is_firm
+
+    def _are_touching(self, pairs):
+        """Return which pairs (k,2) are of a card and what it stands on at rest.
+
+        There is no gap that could be kept: its border dips below, or stands out.
+        """
+        V, (A, B) = self._rest.V, self._shown[pairs].swapaxes(0, 1)
+        a, b = V[A], V[B]
+        is_touching = np.all(a.min(axis=1) < b.max(axis=1) + TOUCHING, axis=1)
+        is_touching &= np.all(b.min(axis=1) < a.max(axis=1) + TOUCHING, axis=1)
+        away = [np.abs(heights(V, *ends)[1]).min(axis=1) for ends in ((A, B), (B, A))]
+        return is_touching & (np.minimum(*away) < TOUCHING)
 
     def _triangles(self, pairs):
         """Return the triangles of pairs that crossed nothing at rest."""

@@ -9,7 +9,7 @@ Which side is the right one is known from the rest shape; where it is not, it is
 import numpy as np
 
 from ..proxy.closest_point import closest_points
-from .crossings import DEPTH, Watched
+from .crossings import DEPTH, Watched, boxes
 
 STEPS = 40
 PATIENCE = 5
@@ -34,7 +34,9 @@ def pushed(V, U, triangles, pairs, counts, is_free, impose):
     positions (n,3) in place so that they satisfy all constraints.
     """
     start, best, fewest, before = U, U, len(pairs), []
-    watched = Watched(U, triangles, _moved(triangles, pairs, len(U)), REACH, counts)
+    is_moved, (low, high) = _moved(triangles, pairs, len(U)), boxes(U, triangles)
+    margin = np.where(is_moved, REACH, 0.0)[:, None]
+    watched = Watched(triangles, low - margin, high + margin, is_moved, counts)
     for _ in range(STEPS):
         is_stuck = len(before) >= PATIENCE and fewest > 0.9 * before[-PATIENCE]
         if not fewest or (is_stuck and fewest > MANY):
@@ -87,8 +89,8 @@ def _lifts(V, U, A, B):
     Returns `normal`: (k,3); `lift`: (k,3); `depth`: (k,), the largest of them; infinite where the
     normal has no direction.
     """
-    at_rest = _heights(V, A, B)[1]
-    normal, height = _heights(U, A, B)
+    at_rest = heights(V, A, B)[1]
+    normal, height = heights(U, A, B)
     is_above = at_rest.min(axis=1) > -DEPTH
     is_below = at_rest.max(axis=1) < DEPTH
     up = np.maximum(MARGIN - height, 0.0)
@@ -98,7 +100,7 @@ def _lifts(V, U, A, B):
     return normal, lift, np.where(normal.any(axis=1), np.abs(lift).max(axis=1), np.inf)
 
 
-def _heights(places, A, B):
+def heights(places, A, B):
     """Return unit normals (k,3) of triangles B, and heights (k,3) of the corners of A over them."""
     a, b, c = (places[B[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)

@@ -47,9 +47,12 @@ class Riding:
 
 
 def riding(rest, is_carried):
-    """Return the Riding of vertices of cards, a mask (n,), on what is no card."""
+    """Return the Riding of vertices of cards, a mask (n,), on what is seen and no card.
+
+    Between its vertices, the surface that is solved may be dented where nobody sees it.
+    """
     vertices = np.flatnonzero(is_carried)
-    firm = rest.F[~rest.is_card[rest.F[:, 0]]].astype(np.int64)
+    firm = rest.shown[~rest.is_card[rest.shown[:, 0]]].astype(np.int64)
     V, count = rest.V, min(_CANDIDATES, len(firm))
     near = Nearest(V[firm].mean(axis=1))(V[vertices], k=count).reshape(len(vertices), count)
     corners = firm[near.ravel()]

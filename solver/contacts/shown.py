@@ -9,9 +9,9 @@ there, in the cells of a grid.
 
 import numpy as np
 
+from ..algebra import dot
 from ..mesh.overlaps import entries
 from ..styles.hulls import spiral
-from .crossings import boxes
 
 DIRECTIONS = 32
 """evenly over the sphere"""
@@ -29,16 +29,17 @@ def shown(V, F, pairs):
     is_shown = np.zeros(len(pairs), dtype=bool)
     if not len(pairs):
         return is_shown
-    points = _meeting_points(V, F, pairs)
+    points = _meeting_points(V, F, pairs).T
     size = float(np.ptp(V, axis=0).max())
+    places, corners = np.ascontiguousarray(V.T), np.ascontiguousarray(F.T)
     for direction in spiral(DIRECTIONS):
         rows = np.flatnonzero(~is_shown)
         if not len(rows):
             break
         turn = np.linalg.svd(direction[None])[2][[1, 2, 0]]  # the last row is along it
         turn[2] = direction
-        looked = V @ turn.T, points[rows] @ turn.T
-        is_shown[rows] = ~_is_blocked(*looked, F, pairs[rows], _OFF * size)
+        looked, seen = _turned(turn, places), _turned(turn, points[:, rows])
+        is_shown[rows] = ~_is_blocked(looked, seen, corners, pairs[rows], _OFF * size)
     return is_shown
 
 
@@ -71,80 +72,102 @@ def _cut(V, F, one, other):
     return np.stack(found, axis=1)
 
 
-def _is_blocked(V, points, F, pairs, least):
-    """Return which points (k,3) have a triangle above, farther than `least` along Z.
+def _turned(turn, places):
+    """Return places (3,k) times a matrix, which takes less time than a product of matrices."""
+    return np.stack([dot(*axis, *places) for axis in turn])
 
-    Not one of the two (k,2) that they lie on. The triangles of a cell are looked at from the top
-    down, each time twice as many: below a pile of others, the first ones are enough.
+
+def _is_blocked(places, points, F, pairs, least):
+    """Return which points (3,k) have a triangle above, farther than `least` along Z.
+
+    `places`: (3,n). `F`: (3,m). Not one of the two (k,2) that they lie on. The triangles of a cell
+    are looked at from the top down, each time twice as many: below a pile of others, the first ones
+    are enough.
     """
-    low, high = boxes(V, F)
-    at, end, triangles = _columns(V, points, low, high)
-    is_blocked = np.zeros(len(points), dtype=bool)
+    at, end, found, triangles, low, high = _columns(places, points, F)
+    is_blocked = np.zeros(len(at), dtype=bool)
     todo, size = np.flatnonzero(at < end), 1
     while len(todo):
         count = np.minimum(size, end[todo] - at[todo])
         point, rows = np.repeat(todo, count), np.repeat(at[todo] - np.cumsum(count) + count, count)
-        triangle = triangles[rows + np.arange(len(point))]
+        place = found[rows + np.arange(len(point))]
         is_near = np.ones(len(point), dtype=bool)
         for own in pairs.T:
-            is_near &= own.take(point) != triangle
-        for begin, stop, place in zip([*low.T[:2], None], high.T, points.T, strict=True):
-            here = place.take(point)
-            is_near &= stop.take(triangle) >= here
+            is_near &= own.take(point) != triangles.take(place)
+        for begin, stop, here in zip([*low, None], high, points, strict=True):
+            here = here.take(point)
+            is_near &= stop.take(place) >= here
             if begin is not None:
-                is_near &= begin.take(triangle) <= here
-        point, triangle = point[is_near], triangle[is_near]
-        is_above = _height(V[F[triangle]], points[point]) > least
+                is_near &= begin.take(place) <= here
+        point, place = point[is_near], place[is_near]
+        a, b, c = (places.take(corner, axis=1) for corner in F.take(triangles[place], axis=1))
+        is_above = _height(a, b, c, points.take(point, axis=1)) > least
         is_blocked[point[is_above]] = True
         at[todo] += count
         goes_on = ~is_blocked[todo] & (at[todo] < end[todo])
-        goes_on &= high[triangles[at[todo] - 1], 2] >= points[todo, 2]
-        todo, size = todo[goes_on], min(2 * size, max(_MOST_AT_ONCE // len(points), 1))
+        goes_on &= high[2][found[at[todo] - 1]] >= points[2, todo]
+        todo, size = todo[goes_on], min(2 * size, max(_MOST_AT_ONCE // len(at), 1))
     return is_blocked
 
 
-def _columns(V, points, low, high):
-    """Return the triangles in the cell of each point, as `begin`, `end`: (k,), and `triangles`.
+def _columns(places, points, F):
+    """Return the triangles in the cell of each point.
 
-    `low`, `high`: (m,3), the boxes of triangles. Those of a cell are in the order of their tops,
-    the highest first.
+    Returns `begin`, `end`: (k,), of the rows of `found`: (e,) int, numbers of `triangles`: (t,)
+    int. Those of a cell are in the order of their tops, the highest first. `low`: two (t,), and
+    `high`: three, the boxes of these triangles.
     """
-    origin, extent = V[:, :2].min(axis=0), np.ptp(V[:, :2], axis=0).max()
-    side = int(np.clip(np.sqrt(len(low)), 8, _MOST_CELLS))
+    low, high = [], []
+    for along in places[:2]:
+        a, b, c = (along.take(corner) for corner in F)
+        low.append(np.minimum(np.minimum(a, b), c))
+        high.append(np.maximum(np.maximum(a, b), c))
+    extent = np.ptp(places[:2], axis=1).max()
+    side = int(np.clip(np.sqrt(F.shape[1]), 8, _MOST_CELLS))
     while True:
         scale = side / max(extent, 1e-300) * (1.0 - 1e-9)
         cell, first, last = (
-            ((x[:, :2] - origin) * scale).astype(np.intp).clip(0, side - 1)
-            for x in (points, low, high)
+            [
+                ((x - origin) * scale).astype(np.int32).clip(0, side - 1)
+                for x, origin in zip(ends, places[:2].min(axis=1), strict=True)
+            ]
+            for ends in (points[:2], low, high)
         )
-        if side == 1 or (last - first + 1).prod(axis=1).sum() <= _PER_TRIANGLE * len(low):
+        width, depth = (end - begin + 1 for begin, end in zip(first, last, strict=True))
+        if side == 1 or np.dot(width.astype(float), depth) <= _PER_TRIANGLE * F.shape[1]:
             break
         side //= 2
-    number = cell[:, 0] * side + cell[:, 1]
+    number = cell[0] * side + cell[1]
     of_cells = np.bincount(number, minlength=side * side)
     count = np.zeros((side + 1, side + 1), dtype=np.intp)
     count[1:, 1:] = of_cells.reshape(side, side).cumsum(axis=0).cumsum(axis=1)
-    (x, y), (right, top) = first.T, (last + 1).T
-    inside = count[right, top] - count[x, top] - count[right, y] + count[x, y]
-    near = np.flatnonzero((inside > 0) & (high[:, 2] > points[:, 2].min()))
-    near = near[np.argsort(-high[near, 2])]
-    box, (column, row) = entries(first[near].T, last[near].T)
+    count = count.ravel()
+    left, right = first[0] * (side + 1), (last[0] + 1) * (side + 1)
+    inside = count.take(right + last[1] + 1) - count.take(left + last[1] + 1)
+    inside += count.take(left + first[1]) - count.take(right + first[1])
+    near = np.flatnonzero(inside > 0)
+    tops = places[2].take(F.take(near, axis=1)).max(axis=0)
+    order = np.argsort(-tops)[: np.count_nonzero(tops > points[2].min())]
+    near, tops = near[order], tops[order]
+    low, high, first, last = (
+        np.stack([x.take(near) for x in ends]) for ends in (low, high, first, last)
+    )
+    box, (column, row) = entries(first, last)
     of_cell = column * side + row
     kept = np.flatnonzero(of_cells[of_cell])
     of_cell = of_cell[kept].astype(np.uint16)  # which are sorted in linear time
     count = np.bincount(of_cell, minlength=side * side)
     end = np.cumsum(count)
-    triangles = near[box[kept[np.argsort(of_cell, kind="stable")]]]
-    return (end - count)[number], end[number], triangles
+    found = box[kept[np.argsort(of_cell, kind="stable")]]
+    return (end - count)[number], end[number], found, near, low, [*high, tops]
 
 
-def _height(corners, points):
-    """Return how high triangles (k,3,3) lie above points (k,3), -inf where they do not."""
-    a, b, c = corners.transpose(1, 0, 2)
+def _height(a, b, c, points):
+    """Return how high triangles with corners (3,k) lie above points (3,k), or -inf."""
     u, v, w = b - a, c - a, points - a
-    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    area = u[0] * v[1] - u[1] * v[0]
     whole = np.where(area == 0.0, 1.0, area)
-    s = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / whole
-    t = (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / whole
+    s = (w[0] * v[1] - w[1] * v[0]) / whole
+    t = (u[0] * w[1] - u[1] * w[0]) / whole
     is_inside = (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0) & (area != 0.0)
-    return np.where(is_inside, s * u[:, 2] + t * v[:, 2] - w[:, 2], -np.inf)
+    return np.where(is_inside, s * u[2] + t * v[2] - w[2], -np.inf)

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..aliases import FloatArray
+from ..hardening.hardening import is_hardened
 from ..rest import RestMesh
 from ..result import Result
 from ..rotation_fit import fit_rotations, orthonormalize
@@ -195,7 +196,7 @@ class FrameSequence:
                 for _ in range(STEPS):
                     stylization.step()
                     yield
-        if stylization.style.is_hardened:
+        if is_hardened(stylization):
             # a mesh that does not move ends as it does alone
             before = self.state.facing if self.state is not None and self._forgotten else None
             run.harden(before if before is not None and len(before) else None)

@@ -11,7 +11,7 @@ three sides meet, or one ends, and where triangles would become slivers or cross
 import numpy as np
 import scipy.sparse as sp
 
-from ..contacts.crossings import crossings
+from ..contacts.crossings import Watched, boxes
 
 STEPS = 30
 FORWARD, BACKWARD = 0.5, -0.53
@@ -50,14 +50,17 @@ def straightening(U, F, graph, side, directions, fixed):
     beside = is_moved[F].any(axis=1)
     sided = np.flatnonzero(beside & (side >= 0))
     least = LEAST * _seen(U, F[sided], directions[sided])
+    watched = _watched(U, U + moves, F, beside)
+    before = watched.crossings(U)
     for number in range(_ROUNDS):
         X = U + moves
         thin = sided[_seen(X, F[sided], directions[sided]) < least]
-        bad = np.concatenate([thin, _newly_crossing(U, X, F, beside)])
+        crossing = watched.crossings(X)
+        is_old = np.isin(_keys(crossing, len(F)), _keys(before, len(F)))
+        bad = np.concatenate([thin, crossing[~is_old].ravel()])
         if not len(bad):
             break
         moves[F[bad]] *= 0.5 if number < _ROUNDS - 2 else 0.0
-        beside = np.isin(F, F[bad]).any(axis=1)
     return moves
 
 
@@ -98,13 +101,10 @@ def _seen(U, F, directions):
     return np.einsum("mj,mj->m", np.cross(b - a, c - a), directions)
 
 
-def _newly_crossing(U, X, F, is_asked):
-    """Return the triangles (k,) that cross others at positions X (n,3), and did not at U (n,3)."""
-    pairs = crossings(X, F, is_asked)
-    some = np.unique(pairs)
-    before = some[crossings(U, F[some])]
-    is_old = np.isin(_keys(pairs, len(F)), _keys(before, len(F)))
-    return pairs[~is_old].ravel()
+def _watched(U, X, F, is_moved):
+    """Return what may come to cross where triangles (m,) bool go from U (n,3) to X (n,3)."""
+    (low, high), (other_low, other_high) = boxes(U, F), boxes(X, F)
+    return Watched(F, np.minimum(low, other_low), np.maximum(high, other_high), is_moved)
 
 
 def _keys(pairs, m):

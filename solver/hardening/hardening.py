@@ -118,6 +118,13 @@ class Hardening:
         return fit_rotations(mixed.swapaxes(1, 2), R)
 
 
+def is_hardened(stylization):
+    """Return whether the soft shape of a Stylization is not its end, and more than thin parts."""
+    style, rest = stylization.style, stylization.rest
+    asked = style.crispness, style.detail_strength - 1.0
+    return any(x.any() and (x * _share_of_thickness(rest)).any() for x in asked)
+
+
 def hold_of(rest):
     """Return how firmly vertices (n,) are held near the soft shape, in the units of L."""
     component = rest.topology.component

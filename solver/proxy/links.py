@@ -74,19 +74,13 @@ class Links(Value):
         """
         c, w = self.coefficients, self.weights
         d = np.einsum("kj,kjx->kx", c, V[self.vertices])
-        row = np.repeat(self.vertices, 4, axis=1).ravel()
-        column = np.tile(self.vertices, 4).ravel()
-        products = c[:, :, None] * c[:, None, :]
-        laplacian = (w.sum(axis=1) / 3.0)[:, None, None] * products
-        pull = w[:, :, None] * c[:, None, :]
-        gather = pull[..., None] * d[:, None, None, :]
-        is_used = ((c[:, :, None] != 0.0) & (c[:, None, :] != 0.0)).ravel()
-        return (
-            row[is_used],
-            column[is_used],
-            laplacian.ravel()[is_used],
-            gather.reshape(-1, 3)[is_used],
-        )
+        is_used = c != 0.0
+        link, one, other = np.nonzero(is_used[:, :, None] & is_used[:, None, :])
+        at, to = 4 * link + one, 4 * link + other
+        ends, factor, c = self.vertices.ravel(), c.take(to), c.ravel()
+        laplacian = (w.sum(axis=1) / 3.0).take(link) * (c.take(at) * factor)
+        pull = w.take(at) * factor
+        return ends.take(at), ends.take(to), laplacian, pull[:, None] * d.take(link, axis=0)
 
 
 def no_links():

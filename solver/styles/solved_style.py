@@ -55,11 +55,6 @@ class SolvedStyle(Value):
     in_limb: FloatArray
     """(n,) share of each vertex in limbs, from 0 to 1"""
 
-    @property
-    def is_hardened(self) -> bool:
-        """Whether the soft shape is not the end."""
-        return bool(self.crispness.any() or (self.detail_strength != 1.0).any())
-
     @cached_property
     def captured(self) -> FloatArray | None:
         """(n,4) normals that those at rest are drawn to besides, and how strongly; or None."""

@@ -8,7 +8,7 @@ from proxy_shapes import joined, uv_sphere
 from scipy.sparse.csgraph import shortest_path
 
 from solver.contacts import push
-from solver.contacts.crossings import CrossingTriangles, Watched, crossings
+from solver.contacts.crossings import CrossingTriangles, Watched, boxes, crossings
 from solver.contacts.gaps import NEAR_EDGES, Gaps, graph_of
 from solver.contacts.shown import shown
 from solver.mesh import overlaps
@@ -58,7 +58,8 @@ def test_what_is_watched_has_the_crossings_that_a_new_search_finds():
     V, F = soup(800, 0.05)
     rng = np.random.default_rng(1)
     is_moved = rng.random(len(F)) < 0.3
-    watched = Watched(V, F, is_moved, 0.02, lambda pairs: np.ones(len(pairs), dtype=bool))
+    (low, high), margin = boxes(V, F), 0.02 * is_moved[:, None]
+    watched = Watched(F, low - margin, high + margin, is_moved)
     moves = rng.uniform(-0.02, 0.02, V.shape) * np.repeat(is_moved, 3)[:, None]
     found = np.sort(watched.crossings(V + moves), axis=1)
     expected = crossings(V + moves, F)

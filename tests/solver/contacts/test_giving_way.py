@@ -92,6 +92,31 @@ def ring(radius, thickness, height, count=40, around=12):
     return V, np.concatenate([np.stack([corners[k] for k in t], 1) for t in ((0, 1, 2), (0, 2, 3))])
 
 
+def test_studs_stay_on_their_bricks():
+    """They touch them at rest, and stand on what is seen of them, not on what is solved."""
+    cells = np.stack(np.meshgrid(*3 * [np.arange(-3, 4)]), axis=-1).reshape(-1, 3)
+    distance = np.linalg.norm(cells, axis=1)
+    V, F = joined(*(brick_with_stud(cell) for cell in cells[(distance > 1.5) & (distance < 3.5)]))
+    result = stylize(V, F, keep_rotation=True, crispness=0.9)
+    assert result.crossings == 0
+    stud = result.positions.reshape(-1, 8 + 25, 3)[:, 8:]
+    assert np.median(np.ptp(stud[:, :, 2], axis=1)) > 0.15
+
+
+def brick_with_stud(place):
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) - 0.5
+    quads = np.array(
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    )
+    angle = np.arange(12) * np.pi / 6
+    circle = 0.3 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rings = [np.column_stack([circle, np.full(12, z)]) for z in (0.5, 0.7)]
+    i, j = np.arange(12), (np.arange(12) + 1) % 12
+    stud = [(i, j, j + 12), (i, j + 12, i + 12), (i + 12, j + 12, np.full(12, 24))]
+    F = [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]], *(np.stack(t, axis=1) + 8 for t in stud)]
+    return np.vstack([corners, *rings, [[0, 0, 0.7]]]) + place, np.concatenate(F)
+
+
 def _below(U, n, F):
     """Return how many vertices of cards are inside the head, by solid angles."""
     a, b, c = (U[F[:, k]][None] - U[n:, None] for k in range(3))
@@ -129,7 +154,7 @@ def test_each_vertex_of_a_card_rides_on_what_is_nearest_to_it():
     V, F = uv_sphere(24, 12)
     heights = np.linspace(0.1, 0.5, 20)
     above = (1.0 + heights)[:, None] * V[40:60]
-    rest = SimpleNamespace(V=np.concatenate([V, above]), F=F, is_card=np.zeros(len(V), bool))
+    rest = SimpleNamespace(V=np.concatenate([V, above]), shown=F, is_card=np.zeros(len(V), bool))
     ridden = riding(rest, np.arange(len(rest.V)) >= len(V))
     assert ridden.vertices.tolist() == list(range(len(V), len(rest.V)))
     np.testing.assert_allclose(np.linalg.norm(ridden.offsets, axis=1), heights, atol=0.02)

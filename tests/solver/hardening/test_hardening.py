@@ -216,6 +216,23 @@ def test_another_crispness_has_the_end_of_a_new_run(together):
     assert first.with_crispness(0.0) is None, "other triangles have no side then"
 
 
+@pytest.mark.parametrize(("thickness", "is_hardened"), [(0.004, False), (0.2, True)])
+def test_what_is_thin_all_over_ends_with_the_soft_shape(thickness, is_hardened):
+    V, F = ring(thickness)
+    done = Run(Stylization(Setup(rest_mesh(V, F)), Style(0.4, crispness=0.9), options=KEPT))
+    done.complete()
+    assert (done.hard is not None) == is_hardened
+
+
+def ring(thickness, count=200, around=8):
+    i, j = (x.ravel() for x in np.indices((count, around)))
+    a, b = 2.0 * np.pi * i / count, 2.0 * np.pi * j / around
+    far = 1.0 + thickness * np.cos(b)
+    V = np.stack([far * np.cos(a), far * np.sin(a), thickness * np.sin(b)], axis=1)
+    ahead, up = (i + 1) % count * around, (j + 1) % around
+    return V, np.stack([i * around + j, ahead + j, ahead + up, i * around + up], axis=1)
+
+
 # -- details ---------------------------------------------------------------------------------------
 
 
