@@ -24,7 +24,7 @@ _ROUNDS = 4  # of moving less
 _SHORTEST = 1e-12
 
 
-def straightening(U, F, graph, side, directions, fixed):
+def straightening(U, F, graph, side, directions, fixed, *, may_cross=False):
     """Return how far vertices (n,3) have to move so that the borders of sides are straight.
 
     Parameters
@@ -39,6 +39,8 @@ def straightening(U, F, graph, side, directions, fixed):
         That the sides face.
     fixed : (k,) int array
         Vertices that stay.
+    may_cross : bool
+        Whether not to look for what comes to cross, which takes long.
     """
     at, neighbors = _between(graph, side, fixed, len(U))
     moves = np.zeros_like(U)
@@ -53,7 +55,9 @@ def straightening(U, F, graph, side, directions, fixed):
     for number in range(_ROUNDS):
         X = U + moves
         thin = sided[_seen(X, F[sided], directions[sided]) < least]
-        bad = np.concatenate([thin, _newly_crossing(U, X, F, beside)])
+        bad = thin
+        if not may_cross:
+            bad = np.concatenate([thin, _newly_crossing(U, X, F, beside)])
         if not len(bad):
             break
         moves[F[bad]] *= 0.5 if number < _ROUNDS - 2 else 0.0
