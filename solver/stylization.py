@@ -186,13 +186,15 @@ class Stylization(Stored):
             other._motion.step(still, still, other.options.keep_rotation)
         return other
 
-    def restyled(self, style: Style) -> Stylization:
-        """Return one that goes on from here with cubeness and crispness as of another style."""
-        other = copy(self)
-        other._style = self._style.with_strengths(style, self.setup)
-        other._begin(self.setup, self.positions.copy(), self.rotations.copy())
-        other.is_started = True
-        return other
+    def go_on_from(self, other: Stylization, setup: Setup) -> None:
+        """Go on from where another one is, of the same vertices.
+
+        `setup`: of the style and the pose of this one, and maybe with further links.
+        """
+        U = other.positions.copy()
+        U[setup.pinned] = self.positions[setup.pinned]
+        self._begin(setup, U, other.rotations.copy())
+        self.is_started = True
 
     def with_riding(self, riding: Riding) -> Stylization:
         """Return one at the same point, its end, in which some vertices ride on others."""

@@ -108,22 +108,32 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     `problem`: from `Problem.posed`, of what the other run was made for. Raises CubicCraftError: as
     `start`, without the name.
     """
+    from ...solver.restyled_run import RestyledRun, has_sides
+
     settings = settings_of_all(problem)
     stylization = run.soft.moved(problem.setup, problem.pose_of_handles)
+    if has_sides(run):
+        return RestyledRun(run, stylization, keeps_sides=False)
     return solver.Run(stylization, settings.max_iterations, settings.tolerance, keep_apart=False)
 
 
-def restyled(problem: MemberProblem, run: solver.Run) -> solver.Run | None:
-    """Return a Run that goes on from another, of the same setup, with the strengths of a problem.
+def restyled(
+    problem: MemberProblem, before: MemberProblem, run: solver.Run, *, keeps_sides: bool
+) -> solver.Run | None:
+    """Return a Run that goes on from another, of the problem `before`, with the settings of this.
 
-    None if that has no sides yet, or the problem is to have none.
+    `keeps_sides`: as of `RestyledRun`. None if that has no sides yet, the problem is to have none,
+    or other vertices are solved. Raises CubicCraftError: as `start`, without the name.
     """
     from ...solver.restyled_run import RestyledRun, has_sides
 
-    style = problem.style
-    if not (np.any(style.crispness) and has_sides(run)):
+    rest, known = problem.setup.rest, run.soft.rest
+    is_like = rest.V is known.V and rest.topology.F is known.topology.F
+    if not (is_like and has_sides(run) and np.any(problem.style.crispness)):
         return None
-    return RestyledRun(run, style)
+    soft = stylization_of(problem)
+    soft.go_on_from(run.soft, run.soft.setup if problem.setup is before.setup else problem.setup)
+    return RestyledRun(run, soft, keeps_sides=keeps_sides)
 
 
 def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> solver.Stylization:

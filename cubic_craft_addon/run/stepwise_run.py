@@ -77,7 +77,7 @@ class StepwiseRun:
         if problem is not None:
             self.problem = problem
             is_like &= known_problem is not None and problem.setup is known_problem.setup
-            self._start(before, is_same=is_same, is_like=is_like)
+            self._start(before, known_problem, is_same=is_same and is_like, keeps_sides=is_like)
 
     def restart_if_painted(self, tasks: Sequence[Task]) -> bool:
         """Restart if weights of relevant vertex groups have changed; return whether they have."""
@@ -97,7 +97,7 @@ class StepwiseRun:
         run = self._run_to_go_on
         self._reset(problems)
         self.problem = now
-        self._start(run, is_like=is_like)
+        self._start(run, before, keeps_sides=is_like)
         return True
 
     # -- objects that the artist works on meanwhile -----------------------------------------------
@@ -158,19 +158,26 @@ class StepwiseRun:
         """The run that another one may go on from, None if that is not of the problem."""
         return None if self._is_held or self._posed is not None else self._run
 
-    def _start(self, before: solver.Run | None = None, *, is_same=False, is_like=False):
+    def _start(
+        self,
+        run: solver.Run | None = None,
+        before: MemberProblem | None = None,
+        *,
+        is_same: bool = False,
+        keeps_sides: bool = False,
+    ):
         """Start a run.
 
-        With another crispness only, find the end of the one `before`. If the two are alike, go on
+        With another crispness only, find the end of the `run` of the problem `before`. Else go on
         from there first, so that a shape that was crisp is while a setting is dragged.
         """
         assert self.problem is not None
         self._starts += 1
         try:
-            if before is not None and is_same:
-                self._run = before.with_crispness(self.problem.style.crispness)
-            if self._run is None and before is not None and is_like:
-                self._run = pipeline.restyled(self.problem, before)
+            if run is not None and is_same:
+                self._run = run.with_crispness(self.problem.style.crispness)
+            if self._run is None and run is not None and before is not None:
+                self._run = pipeline.restyled(self.problem, before, run, keeps_sides=keeps_sides)
                 self._is_restyled = self._run is not None
             self._run = self._run or pipeline.start(self.problem)
             self._begin_to_count(self._run)
@@ -325,7 +332,7 @@ class StepwiseRun:
     @property
     def has_replaced(self):
         """Whether the end of another run has taken the place of what was shown."""
-        return self._has_replaced
+        return self._has_replaced or self._is_behind
 
     @property
     def _state(self):

@@ -15,7 +15,9 @@ from ..details import at_vertices, unit
 from ..limbs.turns import smallest_turns
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import triangle_areas_and_normals
+from ..rest import RestMesh
 from .corners import Corners
+from .linked_faces import LinkedFaces
 
 _STEPS = 3  # of the global step, to the base
 
@@ -26,6 +28,7 @@ class Base:
 
     Attributes
     ----------
+    rest : RestMesh
     graph : FaceGraph
         Of the surface as it is.
     corners : Corners
@@ -35,13 +38,16 @@ class Base:
         The same of the vertices.
     heights : (n,) array
         How far they are above the base, in the unit box.
+    links : LinkedFaces
     """
 
+    rest: RestMesh
     graph: FaceGraph
     corners: Corners
     normals: FloatArray
     upward: FloatArray
     heights: FloatArray
+    links: LinkedFaces
 
 
 def base_of(setup):
@@ -54,7 +60,7 @@ def base_of(setup):
     if rest.options.detail:
         away = rest.V - _integrated(setup, corners, graph.normals, normals)
         heights = dot(*columns(away), *columns(upward))
-    return Base(graph, corners, normals, upward, heights)
+    return Base(rest, graph, corners, normals, upward, heights, LinkedFaces(rest))
 
 
 def _integrated(setup, corners, at_rest, normals):

@@ -24,7 +24,7 @@ _ROUNDS = 4  # of moving less
 _SHORTEST = 1e-12
 
 
-def straightening(U, F, graph, side, directions, fixed):
+def straightening(U, F, graph, side, directions, fixed, *, may_cross=False):
     """Return how far vertices (n,3) have to move so that the borders of sides are straight.
 
     Parameters
@@ -39,6 +39,8 @@ def straightening(U, F, graph, side, directions, fixed):
         That the sides face.
     fixed : (k,) int array
         Vertices that stay.
+    may_cross : bool
+        Whether not to look for what comes to cross, which takes long.
     """
     at, neighbors = _between(graph, side, fixed, len(U))
     moves = np.zeros_like(U)
@@ -50,14 +52,16 @@ def straightening(U, F, graph, side, directions, fixed):
     beside = is_moved[F].any(axis=1)
     sided = np.flatnonzero(beside & (side >= 0))
     least = LEAST * _seen(U, F[sided], directions[sided])
-    watched = _watched(U, U + moves, F, beside)
-    before = watched.crossings(U)
+    watched = None if may_cross else _watched(U, U + moves, F, beside)
+    before = np.empty((0, 2), np.intp) if watched is None else watched.crossings(U)
     for number in range(_ROUNDS):
         X = U + moves
         thin = sided[_seen(X, F[sided], directions[sided]) < least]
-        crossing = watched.crossings(X)
-        is_old = np.isin(_keys(crossing, len(F)), _keys(before, len(F)))
-        bad = np.concatenate([thin, crossing[~is_old].ravel()])
+        bad = thin
+        if watched is not None:
+            crossing = watched.crossings(X)
+            is_old = np.isin(_keys(crossing, len(F)), _keys(before, len(F)))
+            bad = np.concatenate([thin, crossing[~is_old].ravel()])
         if not len(bad):
             break
         moves[F[bad]] *= 0.5 if number < _ROUNDS - 2 else 0.0

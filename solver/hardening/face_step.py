@@ -81,6 +81,11 @@ class FaceStep:
     ----------
     rest : RestMesh
     target : Target
+
+    Attributes
+    ----------
+    outward : (n,) array
+        How much farther out sides are held than in the soft shape.
     """
 
     device = "numpy"
@@ -91,6 +96,7 @@ class FaceStep:
         self._rest, self._target = rest, target
         self._corners = target.base.corners
         self._held = target.soft
+        self.outward = np.zeros(len(rest.V))
         self._free = np.flatnonzero(target.is_free)
         flatness = FLATNESS + target.slides[rest.F].min(axis=1) * (OF_PLATES - FLATNESS)
         self._flatness = np.where(target.is_free, 0.0, flatness)
@@ -145,32 +151,11 @@ class FaceStep:
         self._add_links()
 
     def _add_links(self):
-        """Let links pull at the triangles around their vertices, in equal shares.
-
-        Positions times ``_of_links`` (3n,n) are what pulls at the vertices, and that times
-        ``_around`` (k,n) what pulls at ``_linked`` (k,) triangles.
-        """
-        rest, F = self._rest, self._rest.F
-        n = len(rest.V)
-        row, column, _, gather = rest.links.entries(rest.V)
-        at = (3 * row[:, None] + np.arange(3)).ravel(), np.repeat(column, 3)
-        self._of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
-        is_linked = np.zeros(n, dtype=bool)
-        is_linked[row] = True
-        f, corner = np.nonzero(is_linked[F])
-        self._linked, number = np.unique(f, return_inverse=True)
-        shares = 1.0 / np.bincount(F.ravel(), minlength=n)[F[f, corner]]
-        at = number, F[f, corner]
-        self._around = sp.csr_matrix((shares, at), shape=(len(self._linked), n))
-        self._is_free = self._target.is_free[self._linked]
-        self._of_free = np.searchsorted(self._free, self._linked[self._is_free])
-        along, *self._linked_parts = (part[self._linked] for part in self._parts)
-        self._steady += self._pulled_by_links(along)
-
-    def _pulled_by_links(self, R):
-        """Return the pulls (n,3) at the vertices, for rotations (k,3,3) of what is linked."""
-        of_vertices = self._around.T @ R.swapaxes(1, 2).reshape(-1, 9)
-        return self._of_links.T @ of_vertices.reshape(-1, 3)
+        links = self._target.base.links
+        self._is_free = self._target.is_free[links.faces]
+        self._of_free = np.searchsorted(self._free, links.faces[self._is_free])
+        along, *self._linked_parts = (part[links.faces] for part in self._parts)
+        self._steady += links.pulls(along)
 
     @property
     def of_faces(self):
@@ -195,6 +180,13 @@ class FaceStep:
         means = R[self._rest.F[self._free]].sum(axis=1)
         self._free_R = svd_rotations(means.swapaxes(1, 2))
 
+    def go_on_with(self, rest, target):
+        """Return one with another Target, from the same rotations and held as far out."""
+        other = FaceStep(rest, target)
+        other._free_R = self.of_faces[other._free]
+        other.hold_outward(self.outward)
+        return other
+
     def motion(self, setup, U, constraints=()):
         """Return the Motion that follows these rotations, from positions U (n,3)."""
         self.update(U)
@@ -203,8 +195,9 @@ class FaceStep:
     def update(self, U):
         """Fit all rotations to the positions U (n,3); return energies as `NumpyLocalStep`."""
         xy = (self._angles @ U.ravel()).reshape(2, -1)
-        linked = (self._around @ (self._of_links @ U).reshape(-1, 9)).reshape(-1, 3, 3)
-        xy[:, self._linked] += [np.einsum("kij,kji->k", R, linked) for R in self._linked_parts]
+        links = self._target.base.links
+        linked = links.covariances(U)
+        xy[:, links.faces] += [np.einsum("kij,kji->k", R, linked) for R in self._linked_parts]
         gains = np.hypot(*xy)
         is_clear = gains > 0.0
         self._turn = np.where(is_clear, xy, [[1.0], [0.0]]) / np.where(is_clear, gains, 1.0)
@@ -215,11 +208,11 @@ class FaceStep:
             self._free_R = fit_rotations(S, self._free_R)
             gains[self._free] = np.einsum("mij,mji->m", self._free_R, S)
             turned += self._free_pulls.T @ self._free_R.swapaxes(1, 2).reshape(-1, 3)
-        cosine, sine = self._turn[:, self._linked, None, None]
+        cosine, sine = self._turn[:, links.faces, None, None]
         across, aside = self._linked_parts
         R = cosine * across + sine * aside
         R[self._is_free] = self._free_R[self._of_free]
-        turned += self._pulled_by_links(R)
+        turned += links.pulls(R)
         self._rhs = self._right_hand_side(U, turned)
         return self._energies(U, gains), np.zeros(self._rest.topology.component_count)
 
@@ -232,15 +225,21 @@ class FaceStep:
 
         What is cut off a rounded side is not all put on at its edges, which resist.
         """
-        rest, target = self._rest, self._target
-        corners = target.soft[rest.F], U[rest.F]
+        rest = self._rest
+        corners = self._target.soft[rest.F], U[rest.F]
         soft, hard = (np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]) for x in corners)
         moved = (corners[1] - corners[0]).mean(axis=1)
         lost = self._sums_over_faces(-0.25 * ((soft + hard) * moved).sum(axis=1))
         area = self._sums_over_faces(0.5 * np.linalg.norm(soft, axis=1))
         outward = GAIN * lost / np.where(area > 0.0, area, 1.0)
-        out, _ = at_vertices(target.directions, target.base.graph.areas, rest.F, len(rest.V))
-        self._held = self._held + outward[rest.topology.component][:, None] * out
+        self.hold_outward(outward[rest.topology.component])
+
+    def hold_outward(self, outward):
+        """Hold the sides farther out by so much at the vertices (n,)."""
+        F, target = self._rest.F, self._target
+        out, _ = at_vertices(target.directions, target.base.graph.areas, F, len(outward))
+        self._held = self._held + outward[:, None] * out
+        self.outward = self.outward + outward
 
     def hold_beside(self, moves):
         """Hold the shape near a soft one whose vertices have moved so far (n,3)."""

@@ -9,10 +9,10 @@ from dataclasses import replace
 from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray, IntArray
-from ..styles.style import Style
+from ..setup import Setup
 from ..stylization import Stylization
 from .face_step import FaceStep
-from .hardening import hardening_of
+from .hardening import Hardening, hardening_of
 
 
 class HardStylization(Stylization):
@@ -46,15 +46,17 @@ class HardStylization(Stylization):
         """Go on with the volume of the soft shape, see `FaceStep`."""
         self._local.give_back_volume(self._motion.positions)
 
-    def straighten_borders(self) -> None:
+    def straighten_borders(self, *, may_cross: bool = False) -> None:
         """Make the borders of the sides straight where they are now.
 
-        Not those of a cage, which follow its edges: it could not follow them elsewhere.
+        Not those of a cage, which follow its edges: it could not follow them elsewhere. Where they
+        `may_cross` others, that is not looked for.
         """
         if self.rest.is_cage:
             return
-        U = self._motion.positions
-        straight = U + self.hardening.straightening(U, self.rest.F, self.setup.pinned)
+        U, fixed = self._motion.positions, self.setup.pinned
+        moves = self.hardening.straightening(U, self.rest.F, fixed, may_cross=may_cross)
+        straight = U + moves
         self.impose(straight)
         self.hardening = replace(self.hardening, moves=straight - U)
 
@@ -71,14 +73,14 @@ class HardStylization(Stylization):
         other.hardening = self.hardening.with_crispness(style)
         return other
 
-    def restyled(self, style: Style) -> HardStylization:
-        """Return one at the same point with the cubeness and the crispness of another style.
+    def beside(self, soft: Stylization) -> HardStylization:
+        """Return one at the same point, with the same sides, which can `follow` another soft one.
 
-        Its sides stay as they are; see `follow`.
+        It has the crispness of that, and the places of what is pinned or loose.
         """
         other = copy(self)
-        other._style = self._style.with_strengths(style, self.setup)
-        other.hardening = self.hardening.restyled(self._style, other._style)
+        other.rest, other._style, other._targets = soft.rest, soft._style, soft._targets
+        other.hardening = self.hardening.with_crispness(soft._style)
         return other
 
     def follow(self, soft: Stylization) -> None:
@@ -88,6 +90,22 @@ class HardStylization(Stylization):
         moves = self.hardening.soft - before
         self._local.hold_beside(moves)
         self._motion.put(self._motion.positions + moves)
+
+    def found_anew(self, soft: Stylization) -> Hardening:
+        """Return the Hardening of another soft one of the same vertices, with sides found anew."""
+        return hardening_of(soft, last=self.hardening)
+
+    def go_on_with(self, soft: Stylization, found: Hardening, held: Setup) -> HardStylization:
+        """Return one that goes on from here with what was `found_anew`.
+
+        `held`: the setup of the soft one, drawn to its shape by the hold of `found`.
+        """
+        other, U = copy(self), self._motion.positions + found.soft - self.hardening.soft
+        other.__dict__.update(soft.__dict__)
+        other.iterations, other.hardening, other.setup = self.iterations, found, held
+        other._local = self._local.go_on_with(other.rest, found.target)
+        other._motion = other._local.motion(held, U, other._constraints)
+        return other
 
     def softened(self, vertices: IntArray) -> HardStylization:
         """Return one at the same point that is soft at vertices (k,) and around them."""

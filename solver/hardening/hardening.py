@@ -13,7 +13,7 @@ from .base import base_of
 from .borders import straightening
 from .face_step import Target
 from .rims import FREE, rims_and_flats
-from .sides import NO_SIDE, sides_of
+from .sides import CLEAR, NO_SIDE, STEADY, sides_of
 
 ROUNDS = 12
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
@@ -43,10 +43,11 @@ class Hardening:
         The same with the strength of details asked for.
     rotations : (n,3,3) array
         Of the soft shape.
-    firmness : (n,) array
-        How far vertices are thicker than details, or belong to the flats and rims of plates.
     crispness : (n,) array
         How far the vertices go from there to the hard shape, from 0 to 1.
+    firm : (n,) array
+        How far at a crispness of 1: less where they are thinner than details and belong to no plate,
+        and where they were softened.
     target : Target
     side : (m,) int array
     facing : (m,3) array
@@ -58,22 +59,16 @@ class Hardening:
     solved: FloatArray
     soft: FloatArray
     rotations: FloatArray
-    firmness: FloatArray
     crispness: FloatArray
+    firm: FloatArray
     target: Target
     side: IntArray
     facing: FloatArray
     moves: FloatArray
 
     def with_crispness(self, style):
-        """Return the same with the crispness of another SolvedStyle."""
-        return replace(self, crispness=self.firmness * _crispness_of(style))
-
-    def restyled(self, before, after):
-        """Return the same as one SolvedStyle becomes another: what was soft stays so."""
-        one, other = _crispness_of(before), _crispness_of(after)
-        ratio = np.where(one > 0.0, other, 0.0) / np.where(one > 0.0, one, 1.0)
-        return replace(self, crispness=ratio * self.crispness)
+        """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
+        return replace(self, crispness=self.firm * _crispness_of(style))
 
     def followed(self, solved, R):
         """Return the same beside another soft shape (n,3), with rotations (n,3,3)."""
@@ -100,12 +95,13 @@ class Hardening:
         share = np.minimum(share, np.clip((most - far) / (most - least), 0.0, 1.0))
         share[vertices] = 1.0
         soft = self.soft + share[:, None] * (self.solved - self.soft)
-        return replace(self, soft=soft, crispness=self.crispness * (1.0 - share))
+        left = 1.0 - share
+        return replace(self, soft=soft, crispness=left * self.crispness, firm=left * self.firm)
 
-    def straightening(self, U, F, fixed):
+    def straightening(self, U, F, fixed, *, may_cross=False):
         """Return the `straightening` of the end U (n,3), for triangles (m,3)."""
         graph, directions = self.target.base.graph, self.target.directions
-        return straightening(U, F, graph, self.side, directions, fixed)
+        return straightening(U, F, graph, self.side, directions, fixed, may_cross=may_cross)
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
@@ -132,7 +128,7 @@ def hold_of(rest):
     return np.maximum(rest.areas, _POINT * _POINT) / (reach * reach)
 
 
-def hardening_of(stylization, before=None):
+def hardening_of(stylization, before=None, last=None):
     """Return the Hardening of a Stylization at its present, soft shape.
 
     Parameters
@@ -140,12 +136,17 @@ def hardening_of(stylization, before=None):
     stylization : Stylization
     before : (m,3) array, optional
         What triangles faced in the frame of an animation before, see `sides_of`.
+    last : Hardening, optional
+        Of the same vertices, a moment ago: what was soft stays so, and sides change only where they
+        clearly are others. What takes long is not found anew: rims, and where the rest shape is the
+        same, its base.
     """
     style, rest = stylization.style, stylization.rest
-    F, base = rest.F, base_of(stylization.setup)
-    R = stylization.rotations.copy()
-    crispness, thick = _crispness_of(style), _share_of_thickness(rest)
-    is_free = ~(crispness * thick > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
+    base = base_of(stylization.setup) if last is None else _base_now(stylization.setup, last)
+    F, R = rest.F, stylization.rotations.copy()
+    crispness = _crispness_of(style)
+    firm = _share_of_thickness(rest) if last is None else last.firm
+    is_free = ~(firm * crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     is_free |= rest.is_sheet[F[:, 0]]
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
@@ -157,25 +158,35 @@ def hardening_of(stylization, before=None):
         np.sort(style.form_of[F], axis=1)[:, 1],  # of two corners, or of one
         is_free=is_free,
         whole=rest.whole,
-        before=before,
+        before=before if last is None else last.facing,
+        steady=STEADY if last is None else CLEAR,
     )
     if style.forms:  # what is inside out faces the other way
         directions = directions * rest.outward[F[:, 0]]
     solved = stylization.positions.copy()
     soft = solved.copy()
-    strength = 1.0 + (style.detail_strength - 1.0) * thick
+    strength = 1.0 + (style.detail_strength - 1.0) * firm
     if (strength != 1.0).any():
         added = (strength - 1.0) * base.heights
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
     heights = strength * base.heights
-    slides = 0.0 if rest.is_cage else 1.0  # a cage could not follow
-    rim, plate = slides * np.stack(rims_and_flats(base.graph, solved, F, side, facing))
-    hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
+    if last is None:
+        slides = 0.0 if rest.is_cage else 1.0  # a cage could not follow
+        rim, plate = slides * np.stack(rims_and_flats(base.graph, solved, F, side, facing))
+        hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
+        firm = np.maximum(firm, plate)
+    else:
+        hold, plate = last.target.hold, last.target.slides
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
-    firmness, moves = np.maximum(thick, plate), np.zeros_like(soft)
-    of_end = firmness * crispness, target, side, facing, moves
-    return Hardening(solved, soft, R, firmness, *of_end)
+    still = np.zeros_like(soft)
+    return Hardening(solved, soft, R, firm * crispness, firm, target, side, facing, still)
+
+
+def _base_now(setup, last):
+    """Return the Base of a Setup, which is that of the last Hardening if the rest shape is."""
+    base = last.target.base
+    return base if base.rest is setup.rest else base_of(setup)
 
 
 def _crispness_of(style):

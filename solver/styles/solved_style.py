@@ -70,19 +70,6 @@ class SolvedStyle(Value):
             return None
         return replace(self, crispness=values)
 
-    def with_strengths(self, style: Style, setup: Setup) -> "SolvedStyle":
-        """Return this with the cubeness and the crispness of a Style that is like it otherwise."""
-        cubeness = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0)
-        crispness = np.minimum(_at_free(style.crispness, "crispness", setup, at_pins=0.0), 1.0)
-        is_drawn = (cubeness > 0.0) & (self.mu == 0.0)
-        return replace(
-            self,
-            cubeness=cubeness,
-            lam=cubeness * setup.rest.cubic_shares,
-            crispness=np.where(is_drawn, crispness, 0.0),
-            is_drawn=is_drawn,
-        )
-
     def limited(self, most: float) -> FloatArray:
         """Return `lam` (n,) for a cubeness of at most so much."""
         is_more = self.cubeness > most

@@ -5,6 +5,7 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 import numpy as np
+from mathutils import Matrix
 
 FLAT = np.cos(np.radians(6.0))
 
@@ -59,15 +60,19 @@ def one_step(original):
 
 
 def share_flat():
-    """Return the share of the area that faces along an axis of the cube."""
+    """Return the share of the area along an axis of the cube, as it is now or was a moment ago."""
     mesh = bpy.data.objects[scene.NAME].data
     areas = np.array([polygon.area for polygon in mesh.polygons])
     normals = np.array([polygon.normal for polygon in mesh.polygons])
-    return areas[np.abs(normals).max(axis=1) > FLAT].sum() / areas.sum()
+    shares = []
+    for turn in np.linspace(0.0, bpy.context.window_manager.cubic_craft_live.orientation[2], 9):
+        local = normals @ np.array(Matrix.Rotation(turn, 3, "Z"))
+        shares.append(areas[np.abs(local).max(axis=1) > FLAT].sum() / areas.sum())
+    return max(shares)
 
 
 def stays_crisp(_original):
-    """Drag the slider once the shape is crisp: at no time is a soft one seen."""
+    """Drag the slider once the shape is crisp, and turn it: at no time is a soft one seen."""
     yield from scene.start_live()
     yield from scene.wait_idle()
     slider = yield from scene.cubeness_slider()
@@ -80,6 +85,17 @@ def stays_crisp(_original):
     assert min(seen) > 0.9 * at_rest, f"{min(seen):.2f} of {at_rest:.2f}"
     yield from scene.wait_idle()
     yield from gui.screenshot("live_rest.png")
+    seen.clear()
+    before = scene.positions()
+    turn = yield from gui.find_button("cubic_craft_live.orientation[2]")
+    yield from gui.drag_slider(turn, 0.5, -4.0, steps=16)
+    yield from gui.screenshot("live_turn.png")
+    assert scene.positions() != before, "nothing was seen"
+    least = min(seen)
+    yield from scene.wait_idle()
+    yield from gui.screenshot("live_turned.png")
+    gui.log(f"{least:.2f} of {share_flat():.2f} flat, in {len(seen)} ticks")
+    assert least > 0.8 * share_flat(), f"{least:.2f} of {share_flat():.2f}"
     yield from scene.end_by("ESC")
 
 

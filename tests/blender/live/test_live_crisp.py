@@ -5,30 +5,33 @@ import bpy
 import numpy as np
 import pytest
 from flat_balls import add_ball
-from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
+from live_steps import bits, check_same_as_cubify, confirm, follower_of, tick_to_rest
+from mathutils import Euler, Matrix
+from posing import pin
 from rich_mesh import position_of
 
 FLAT = np.cos(np.radians(6.0))
 STILL = 0.1  # of the size: a shape that begins again from the original jumps farther
 
 
-def share_flat(obj):
+def share_flat(obj, orientation=(0.0, 0.0, 0.0)):
     """Return the share of the area that faces along an axis of the cube."""
     areas = np.array([polygon.area for polygon in obj.data.polygons])
     normals = np.array([polygon.normal for polygon in obj.data.polygons])
-    return areas[np.abs(normals).max(axis=1) > FLAT].sum() / areas.sum()
+    local = normals @ np.array(Euler(orientation).to_matrix())
+    return areas[np.abs(local).max(axis=1) > FLAT].sum() / areas.sum()
 
 
-def drag(live, session, obj, values, ticks=3):
-    """Drag the cubeness; return the flat share of what was seen, and the largest step of it."""
+def drag(live, session, obj, values, ticks=3, name="cubeness"):
+    """Drag a setting; return the flat share of what was seen, and the largest step of it."""
     shares, steps, before = [], [], position_of(obj.data)
     for value in values:
-        live.live_properties().cubeness = value
+        setattr(live.live_properties(), name, value)
         for _ in range(ticks):
             session.tick(bpy.context)
             bpy.context.view_layer.update()
             now = position_of(obj.data)
-            shares.append(share_flat(obj))
+            shares.append(share_flat(obj, live.live_properties().orientation))
             steps.append(np.linalg.norm(now - before, axis=1).max())
             before = now
     return min(shares), max(steps) / np.ptp(before, axis=0).max()
@@ -46,6 +49,76 @@ def test_a_crisp_shape_stays_crisp_while_cubeness_is_dragged(live, begin, one_ph
     assert farthest < STILL
     confirm(live, session)
     check_same_as_cubify(obj)
+
+
+DRAGGED = {
+    "orientation": [(0.0, 0.0, angle) for angle in np.arange(0.05, 0.75, 0.05)],
+    "detail": [0.06, 0.08],
+    "detail_strength": [1.1, 1.5],
+    "solidity": [0.4, 0.5],
+    "form_weights": [(1.0, 1.0, weight) for weight in (0.95, 0.9, 0.8)],
+}
+
+
+@pytest.mark.parametrize("name", DRAGGED)
+def test_a_crisp_shape_stays_crisp_while_other_settings_are_dragged(live, begin, one_phase, name):
+    obj = add_ball()
+    form = "BOX" if name == "form_weights" else "CUBE"
+    session = tick_to_rest(begin(obj, cubeness=0.4, crispness=1.0, form=form))
+    shape = bits(obj)
+    least, farthest = drag(live, session, obj, DRAGGED[name], ticks=30, name=name)
+    assert bits(obj) != shape, "nothing was seen"
+    tick_to_rest(session)
+    end = share_flat(obj, live.live_properties().orientation)
+    assert least > 0.85 * end
+    assert farthest < STILL
+    confirm(live, session)
+    check_same_as_cubify(obj)
+
+
+def test_a_crisp_shape_stays_crisp_while_a_handle_is_dragged(live, begin, one_phase):
+    obj = add_ball()
+    heights = position_of(obj.data)[:, 2]
+    for name, vertices in (("Low", heights < -0.9), ("High", heights > 0.9)):
+        group = obj.vertex_groups.new(name=name)
+        group.add(np.flatnonzero(vertices).tolist(), 1.0, "REPLACE")
+        pin(obj, name)
+    session = tick_to_rest(begin(obj, cubeness=0.4, crispness=1.0))
+    shape, seen = bits(obj), []
+    for height in np.arange(0.05, 0.4, 0.05):
+        pose = np.array(Matrix.Translation((0.0, 0.0, height)), np.float32).astype(float)
+        live.set_pose(obj, obj.cubic_craft.handles[1], tuple(pose.ravel()))
+        for _ in range(30):
+            session.tick(bpy.context)
+            bpy.context.view_layer.update()
+            seen.append(share_flat(obj))
+    assert bits(obj) != shape, "nothing was seen"
+    tick_to_rest(session)
+    assert min(seen) > 0.85 * share_flat(obj)
+    confirm(live, session)
+    check_same_as_cubify(obj)
+
+
+def test_a_crisp_follower_stays_crisp_while_the_original_is_worked_on(
+    live, follow, one_phase, monkeypatch
+):
+    obj = add_ball()
+    session = tick_to_rest(follow(obj, cubeness=0.4, crispness=1.0))
+    monkeypatch.setattr(f"{live.__name__}.pace.LEAST_PAUSE", 1e6)
+    run, follower, seen = session.meshes[0].run, follower_of(obj), []
+    for _ in range(3):
+        points = position_of(obj.data)
+        points[:, 2] *= np.where(points[:, 2] > 0.0, 1.05, 1.0)
+        obj.data.vertices.foreach_set("co", points.ravel())
+        obj.data.update()
+        obj.update_tag(refresh={"DATA"})
+        bpy.context.view_layer.update()
+        before = run._run
+        while run._run is before or run.is_working:
+            session.tick(bpy.context)
+            bpy.context.view_layer.update()
+            seen.append(share_flat(follower))
+    assert min(seen) > 0.8
 
 
 def test_a_crisp_shape_stays_crisp_while_its_map_is_painted(live, begin, one_phase):
