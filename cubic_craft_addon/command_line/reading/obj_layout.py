@@ -7,6 +7,7 @@ once more for the indices alone; the loose vertices are put back into the meshes
 object in Blender where its objects would not have the vertices in that order.
 """
 
+import codecs
 import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -38,11 +39,15 @@ class ObjLayout:
 def read_layout(path: Path) -> ObjLayout:
     """Read positions and indices of an .obj file; faces that make no sense are passed over.
 
-    Raises InputError: a vertex without three finite coordinates, which Blender would read as zeros.
+    Raises InputError: a vertex without three finite coordinates, which Blender would read as zeros,
+    or a byte order mark, with which it would miss the first line.
     """
+    data = path.read_bytes()
+    if data.startswith(codecs.BOM_UTF8) and data[3:4] != b"#":
+        raise InputError(f"{path}: begins with a byte order mark; save it without")
     coordinates: list[list[bytes]] = []
     sections: list[tuple[int, set[int]]] = [(0, set())]  # first vertex, used vertices
-    for line in logical_lines(path.read_bytes().splitlines()):
+    for line in logical_lines(data.splitlines()):
         keyword, *words = line.partition(b"#")[0].split() or [b""]
         if keyword == b"v":
             coordinates.append(words[:3])
