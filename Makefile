@@ -229,17 +229,9 @@ $(VENV)-docs/.done: requirements/docs.txt
 figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else Blender's own shapes
 	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
-.PHONY: preset-pictures
-preset-pictures: setup ## The pictures of our presets, in cubic_craft_addon/assets
-	$(PY) scripts/preset_pictures $(ARGS)
-
-.PHONY: form-pictures
-form-pictures: setup ## The pictures of the forms, in cubic_craft_addon/assets
-	$(PY) scripts/form_pictures $(ARGS)
-
-.PHONY: platform-pictures
-platform-pictures: setup ## Icon and feature picture for the extensions platform, in docs/images
-	$(PY) scripts/platform_pictures $(ARGS)
+.PHONY: small-pictures
+small-pictures: setup ## Those in the panel and on the extensions platform; KIND=presets, forms, icon or feature
+	$(PY) scripts/small_pictures $(KIND) $(ARGS)
 
 example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_PICTURES=docs/images \

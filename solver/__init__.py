@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`stylize` turns a mesh into a cubic sculpture, and `stylize_mesh` one of trimesh or meshio.
+"""`stylize` turns a mesh into a cubic sculpture, and `stylize_mesh` one of trimesh.
 
     from solver import ball, stylize
 

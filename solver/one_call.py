@@ -126,7 +126,7 @@ def stylize(
 
     See Also
     --------
-    stylize_mesh : The same for a mesh of trimesh or meshio.
+    stylize_mesh : The same for a mesh of trimesh.
     run : The same for a prepared Stylization.
     auto_orient : Finds an orientation for ``orientation``.
 

@@ -5,7 +5,6 @@ import contextlib
 import time
 from argparse import Namespace
 from collections.abc import Iterator
-from pathlib import Path
 
 from ...solver.console.errors import InputError
 from ...solver.errors import CubicCraftError
@@ -54,7 +53,6 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
         bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
     if options.bake:
         _bake(loaded, options, bar, seconds, begin)
-        _say_if_moved(loaded, options.bake, bar)
         return
     try:
         sculptures = cubify_all(loaded, options, bar)
@@ -70,7 +68,6 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
                 bar.warn(problem)
             done = meshes(options.save_mesh, options.cubeness, levels)
             bar.say(f"wrote {', '.join(map(str, done))}")
-            _say_if_moved(loaded, options.save_mesh, bar)
     with _timed("render", seconds):
         if options.output:
             gallery = build_gallery(sculptures, options)
@@ -95,14 +92,6 @@ def _bake(
     if options.report:
         write_animation_report(options.report, animation, options, seconds)
         bar.say(f"wrote {options.report}")
-
-
-def _say_if_moved(loaded: Loaded, path: Path, bar: ProgressBar) -> None:
-    """Say of a file that lies far away what formats of 32 bits cannot hold."""
-    layout = loaded.obj_layout
-    if layout is not None and layout.offset.any() and path.suffix.lower() != ".obj":
-        offset = " ".join(f"{x:.16g}" for x in layout.offset)
-        bar.warn(f"{path}: lies at the origin, as 32 bits are too few at {offset} in the .obj file")
 
 
 @contextlib.contextmanager

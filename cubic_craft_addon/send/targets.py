@@ -138,6 +138,17 @@ def _stl(objects: list[bpy.types.Object], options: Options, is_modified: bool) -
     }
 
 
+def _obj(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
+    meshes: Any = objects
+    return {
+        "export_selected_objects": True,
+        "apply_modifiers": is_modified,
+        "export_normals": any(obj.data.has_custom_normals for obj in meshes),
+        "export_materials": any(slot.material for obj in meshes for slot in obj.material_slots),
+        "path_mode": "RELATIVE",
+    }
+
+
 def _ply(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
     return {
         "export_selected_objects": True,
@@ -251,7 +262,7 @@ TARGETS = {
         icon="MESH_ICOSPHERE",
         is_printed=True,
     ),
-    "OBJ": Target("OBJ", (".obj",)),
+    "OBJ": Target("OBJ", (".obj",), "wm.obj_export", _obj),
     "PLY": Target("PLY", (".ply",), "wm.ply_export", _ply),
     "USD": Target(
         "USD", (".usd", ".usdc", ".usda", ".usdz"), "wm.usd_export", _usd, is_animated=True

@@ -11,8 +11,7 @@ from solver.console.errors import InputError
 from solver.console.options import FORMS, OneLineParser
 from solver.method import IN_LIBRARY
 
-from .formats import FORMATS
-
+FORMATS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 DEFAULTS = {**method_options.defaults(*IN_LIBRARY), "together": ("parts", "off")}
 """name: by default, with ``--paper``"""
 
@@ -23,9 +22,8 @@ TOGETHER = {
 
 HELP = {
     "paths": f"surfaces ({', '.join(FORMATS)}) or folders of them, and at the end the result: a "
-    "file, or for several surfaces a folder, which is made; - is standard input or output",
+    "file, or for several surfaces a folder, which is made",
     "--report": "numbers of each file, written after it",
-    "--format": "of what is written to standard output (default: that of the input)",
     "--quiet": "say nothing but what is wrong",
     "--paper": method_options.as_in_paper(DEFAULTS),
 }
@@ -70,7 +68,6 @@ def _parser() -> argparse.ArgumentParser:
     add("paths", nargs="+", metavar="INPUT ... OUTPUT")
     method_options.add_settings(add, *IN_LIBRARY, form={"choices": FORMS}, together=TOGETHER)
     add("--paper", action="store_true")
-    add("--format", choices=[suffix.removeprefix(".") for suffix in FORMATS])
     add("--report", type=Path, metavar="FILE.json")
     add("--quiet", action="store_true")
     parser.add_argument("--version", action="version", version=_version())

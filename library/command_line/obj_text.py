@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wavefront .obj files as text, of which only the positions of vertices are replaced.
 
-meshio refuses files whose UVs are split at seams, as nearly all are, reads relative indices wrong,
-and drops objects, groups and materials. From .obj to .obj, all of them stay as they are here.
+From .obj to .obj, UVs, polygons, objects, groups and materials stay as they are.
 """
 
 import codecs
@@ -14,6 +13,7 @@ import numpy as np
 
 from solver.console.errors import InputError
 from solver.console.obj_lines import logical_lines, vertex_of
+from solver.mesh.polygons import triangulate
 
 PRECISION = 1e-9
 """of the positions that are written, relative to the largest extent of the mesh"""
@@ -33,11 +33,14 @@ class ObjText:
     points : (n,3) numpy array
     faces : list of (k,s) numpy int arrays
         Consecutive faces with the same number s of corners, in the order of the file.
+    triangles : (m,3) numpy int array
+        A virtual triangulation of the faces.
+    face_count : int
 
     Raises
     ------
     InputError
-        A vertex or a face makes no sense; the message has the line.
+        A vertex or a face makes no sense; the message lacks the path, and has the line.
     """
 
     def __init__(self, path: Path) -> None:
@@ -66,7 +69,11 @@ class ObjText:
         highest = max((int(block.max()) for block in self.faces), default=-1)
         if highest >= len(points):
             message = f"a face refers to vertex {highest + 1}, but there are only {len(points)}"
-            raise InputError(f"{path}: {message}; export it again")
+            raise InputError(f"{message}; export it again")
+        with np.errstate(over="ignore", invalid="ignore"):  # infinite ones the solver refuses
+            parts = [triangulate(self.points, block) for block in self.faces]
+        self.triangles = np.concatenate([np.empty((0, 3), np.int64), *parts])
+        self.face_count = sum(map(len, self.faces))
 
     def write(self, path: Path, positions: np.ndarray) -> None:
         """Write the file with other positions (n,3), and without normals if any of them moved.
@@ -112,7 +119,7 @@ class ObjText:
 
     def _error(self, number: int, reason: str) -> InputError:
         line = self._lines[number].decode(errors="replace").strip()[:60]
-        return InputError(f"{self._path}: {reason} ({line!r}); export it again")
+        return InputError(f"{reason} ({line!r}); export it again")
 
 
 def _without_normals(line: bytes) -> bytes:

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The run of the command, from its options to its exit code."""
 
-import contextlib
 import stat
 import sys
 import time
 from argparse import Namespace
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +14,9 @@ from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
 from solver.console.output import check_folder, check_place
 from solver.console.report import DONE, FAILED, BatchReport, counts_of, in_words
-from solver.console.temporary import replacing, temporary_folder
+from solver.console.temporary import replacing
 
-from .arguments import parse
-from .formats import FORMATS
-from .standard_streams import STANDARD, input_file, write_to_standard_output
+from .arguments import FORMATS, parse
 
 PROGRAM = "cubic-craft"
 _WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
@@ -88,13 +84,9 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
     output, is_batch = options.output, inputs != options.inputs or len(inputs) > 1
     jobs = [(inputs[0], output)]
     if is_batch or Path(output).is_dir():
-        if output == STANDARD:
-            raise InputError("standard output can be only one result; give a folder")
         jobs = [(source, str(Path(output) / Path(source).name)) for source in inputs]
     written: set[str] = set()
     for source, target in jobs:
-        if len(jobs) > 1 and source == STANDARD:
-            raise InputError("standard input can be only one; give it alone")
         _check_kinds(source, target)
         if target in written:
             raise InputError(f"{target}: two inputs have this name; give them one by one")
@@ -114,7 +106,7 @@ def _surfaces(inputs: list[str]) -> tuple[list[str], Counter[str]]:
     """Return the inputs with the files of folders in their place, in order of name."""
     found, kinds = [], Counter()
     for given in inputs:
-        if given == STANDARD or not Path(given).is_dir():
+        if not Path(given).is_dir():
             found.append(given)
             continue
         paths = [p for p in sorted(Path(given).iterdir()) if p.name[0] != "." and p.is_file()]
@@ -140,11 +132,11 @@ def _make_folder(folder: Path) -> None:
 
 
 def _check_kinds(source: str, output: str) -> None:
-    for path in (Path(name) for name in (source, output) if name != STANDARD):
+    for path in map(Path, (source, output)):
         if path.suffix.lower() not in FORMATS:
             kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
             raise InputError(f"{path}: {kind} are not supported; give {', '.join(FORMATS)}")
-    if source != STANDARD and not Path(source).exists():
+    if not Path(source).exists():
         raise InputError(f"{source}: there is no such file; check the path")
 
 
@@ -156,15 +148,14 @@ def _check_writable(path: Path) -> None:
     if path.exists() and not path.stat().st_mode & _WRITABLE:
         raise InputError(f"{path}: this file is write-protected; give another name")
     if path.exists() and not path.is_file():
-        raise InputError(f"{path}: is a device or a pipe; give a file, or - for standard output")
+        raise InputError(f"{path}: is a device or a pipe; give a file")
     check_folder(str(path), path.parent)
 
 
 def _check_output(source: str, output: str) -> None:
-    if output != STANDARD:
-        _check_writable(Path(output))
-        if Path(source).resolve() == Path(output).resolve():
-            raise InputError(f"{output}: this is the input; give another name")
+    _check_writable(Path(output))
+    if Path(source).resolve() == Path(output).resolve():
+        raise InputError(f"{output}: this is the input; give another name")
 
 
 def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], list[str]]:
@@ -174,14 +165,12 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
     from .style import stylized
 
     begin = time.perf_counter()
-    with input_file(source) as path:
-        file = mesh_files.read(path)
-        try:
-            result = stylized(file.surface, options)
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from None
-        suffix = f".{options.format}" if options.format else path.suffix
-    with _output_file(output, suffix) as temporary:
+    file = mesh_files.read(Path(source))
+    try:
+        result = stylized(file.points, file.triangles, options)
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from None
+    with replacing(Path(output)) as temporary:
         try:
             notes = mesh_files.write(file, temporary, result.positions, result.rotations)
         except InputError as error:
@@ -189,15 +178,15 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
     seconds = time.perf_counter() - begin
     end = end_words("converged" if result.converged else "NOT converged", result)
     summary = (
-        f"{output}: {len(file.surface.points)} vertices, {file.surface.face_count} faces, "
+        f"{output}: {len(file.points)} vertices, {file.face_count} faces, "
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.5g}, "
         f"{result.device}, {seconds:.1f} s"
     )
     numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
     about = {
         "seconds": seconds,
-        "vertices": len(file.surface.points),
-        "faces": file.surface.face_count,
+        "vertices": len(file.points),
+        "faces": file.face_count,
         "iterations": result.iterations,
         "converged": bool(result.converged),
         "crossings": result.crossings,
@@ -206,16 +195,3 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
         "notes": notes,
     }
     return about, [summary, *(f"note: {note}" for note in notes)]
-
-
-@contextlib.contextmanager
-def _output_file(output: str, suffix: str) -> Iterator[Path]:
-    """Give a path to write to, which becomes the output when the block succeeds."""
-    if output != STANDARD:
-        with replacing(Path(output)) as temporary:
-            yield temporary
-        return
-    with temporary_folder() as folder:
-        path = folder / f"output{suffix}"
-        yield path
-        write_to_standard_output(path)

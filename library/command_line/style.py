@@ -13,19 +13,17 @@ from solver.method import IN_LIBRARY, Method
 from solver.proxy.options import proxy_of
 from solver.styles import forms
 
-from .surface import Surface
 
-
-def stylized(surface: Surface, options: Namespace) -> Result:
-    """Return the result for a surface.
+def stylized(points: np.ndarray, triangles: np.ndarray, options: Namespace) -> Result:
+    """Return the result for a surface of points (n,3) and triangles (m,3).
 
     Raises InputError: the solver refuses the mesh or an option; the message lacks the path.
     """
     method = Method(**settings_from(vars(options), *IN_LIBRARY))
     try:
         return stylize(
-            surface.points,
-            surface.triangles,
+            points,
+            triangles,
             method.cubeness,
             max_iterations=method.max_iterations,
             tolerance=method.tolerance,

@@ -6,7 +6,6 @@ Without a folder of meshes Blender's own shapes take their place.
 
 import argparse
 import os
-import shutil
 import sys
 from pathlib import Path
 
@@ -20,22 +19,8 @@ from cubic_craft.solver.console.errors import InputError  # noqa: E402
 from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
 
 PROGRAM = "figures"
-RENDERED = (
-    "1",
-    "2",
-    "3",
-    "5",
-    "6",
-    "character",
-    "forms",
-    "targets",
-    "captures",
-    "rigs",
-    "low_poly",
-)
-"""figures that Blender renders; what is left, other commands have made"""
-ALL = (*RENDERED, "4")
-SCREENSHOT = "*/test_first_sculpture/first_3_live.png"
+ALL = ["1", "2", "3", "5", "6", "character", "forms", "targets", "captures", "rigs", "low_poly"]
+"""figures; the fourth is a picture of the window tests"""
 
 
 def arguments() -> argparse.Namespace:
@@ -56,8 +41,6 @@ def arguments() -> argparse.Namespace:
     add("--samples", type=int, default=24, help="of Cycles, denoised")
     add("--rough", action="store_true", help="few iterations and small textures, to try things out")
     add("--engine", choices=("cycles", "workbench"), default="cycles", help="of Blender")
-    shots = "folder that the window tests wrote, for figure 4"
-    add("--screenshots", type=Path, default=ROOT / "build" / "gui", help=shots)
     scenes = "folder to save the scene of each rendered figure in, to look at it in Blender"
     add("--save-blend", type=Path, help=scenes)
     add("--verbose", action="store_true", help="show Blender's own messages")
@@ -78,29 +61,13 @@ def main() -> int:
         for folder in (options.output, options.save_blend):
             if folder is not None:
                 folder.mkdir(parents=True, exist_ok=True)
-        if "4" in options.only:
-            print(copy_screenshot(options.screenshots, options.output), file=sys.stderr)
-        wanted = [name for name in RENDERED if name in options.only]
-        if wanted:
-            from figures.rendered import render_figures  # late: it takes Blender a second to start
+        from figures.rendered import render_figures  # late: it takes Blender a second to start
 
-            render_figures(wanted, options)
+        render_figures([name for name in ALL if name in options.only], options)
     except InputError as error:
         print(f"{PROGRAM}: error: {error}", file=sys.stderr)
         return 2
     return 0
-
-
-def copy_screenshot(screenshots: Path, output: Path) -> str:
-    """Copy the last one of the window tests, or keep what is there; return what has been done."""
-    target = output / "figure_4_interface.png"
-    shots = list(screenshots.glob(SCREENSHOT))
-    if not shots:
-        kept = f"{target} stays as it is" if target.exists() else "there is none"
-        return f"figure 4: no window test has run here (make test-gui), {kept}"
-    newest = max(shots, key=lambda path: path.stat().st_mtime)
-    shutil.copyfile(newest, target)
-    return f"figure 4: {target} is the screenshot {newest}"
 
 
 if __name__ == "__main__":

@@ -4,21 +4,19 @@
 import bmesh
 import bpy
 import numpy as np
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
 from cubic_craft.cubic_craft_addon.mesh_bridge import read_values
 
-from .figure_meshes import FigureMeshes, moved
+from .figure_meshes import FigureMeshes, stand_beside
 
 STRENGTH = 0.6
 SIDES = 14
 """planes that the hewn ball is cut along"""
 RADIUS = 0.17
 """of a ball, relative to the largest side of the mesh"""
-AWAY = (-0.62, -0.30)
-"""middle of the ball from that of the mesh, to the right and away from the camera, so relative"""
 
 
 def hewn(d: np.ndarray) -> np.ndarray:
@@ -54,7 +52,8 @@ def compose(meshes: FigureMeshes) -> list[Group]:
         settings = {"capture_object": ball, "capture_strength": STRENGTH}
         positions = meshes.cubified(model, 0.0, **settings)
         group = meshes.group(model, positions, label, "green")
-        _stand_beside(group, ball)
+        size = RADIUS * group.extent
+        stand_beside(group, ball, Matrix.Scale(size, 4))
         groups.append(group)
     return groups
 
@@ -71,18 +70,3 @@ def _ball(shape, clay: bpy.types.Material) -> bpy.types.Object:
     mesh.vertices.foreach_set("co", shape(directions).astype(np.float32).ravel())
     mesh.materials.append(clay)
     return bpy.data.objects.new("Ball", mesh)
-
-
-def _stand_beside(group: Group, ball: bpy.types.Object) -> None:
-    """Put the ball on the floor, before the mesh and to its left."""
-    points = (
-        RADIUS * group.extent * read_values(ball.data.vertices, "co", width=3).astype(np.float64)
-    )
-    low, high = group.points.min(axis=0), group.points.max(axis=0)
-    away = Vector((*AWAY, 0.0)) * group.extent
-    away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
-    middle = Vector((low + high) / 2) + away
-    middle.z = low[2] - points[:, 2].min()
-    group.copies.append(ball)
-    group.places.append(Matrix.Translation(middle) @ Matrix.Scale(RADIUS * group.extent, 4))
-    group.points = np.concatenate([group.points, moved(points, Matrix.Translation(middle))])

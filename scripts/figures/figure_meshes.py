@@ -14,7 +14,7 @@ from typing import Any
 
 import bpy
 import numpy as np
-from mathutils import Euler, Matrix
+from mathutils import Euler, Matrix, Vector
 
 from cubic_craft.cubic_craft_addon.command_line.options.handles_file import read_handles
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import YAW, Group, extent_of
@@ -23,7 +23,7 @@ from cubic_craft.cubic_craft_addon.command_line.process.progress import Progress
 from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded, load
 from cubic_craft.cubic_craft_addon.command_line.solving.pose import handles_of_all
 from cubic_craft.cubic_craft_addon.command_line.writing.detached import detached_copy
-from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions
+from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions, read_values
 from cubic_craft.cubic_craft_addon.read.member import read_member
 from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
@@ -36,6 +36,9 @@ from . import shapes
 AS_IN_THE_PAPER = {**PAPER, "keep_symmetric": True, "hold_rest": True}
 """settings for figures that show what the energy of the paper does; what is symmetric stays so"""
 
+AWAY = (-0.62, -0.30)
+"""middle of what stands beside a mesh from that of the mesh, to the right and away from the camera,
+relative to its largest side"""
 ROUGH_ITERATIONS = 8
 """after which meshes are about as cubic as they become"""
 
@@ -174,6 +177,20 @@ def moved(points: np.ndarray, matrix: Matrix) -> np.ndarray:
     """Return points (n,3) float64 where a matrix takes them."""
     array = np.array(matrix)
     return points @ array[:3, :3].T + array[:3, 3]
+
+
+def stand_beside(group: Group, obj: bpy.types.Object, matrix: Matrix) -> None:
+    """Put an object in no scene, turned or scaled by a matrix, on the floor beside a group."""
+    points = moved(read_values(obj.data.vertices, "co", width=3).astype(np.float64), matrix)
+    low, high = group.points.min(axis=0), group.points.max(axis=0)
+    away = Vector((*AWAY, 0.0)) * group.extent
+    away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
+    middle = Vector((low + high) / 2) + away
+    middle.z = low[2] - points[:, 2].min()
+    place = Matrix.Translation(middle)
+    group.copies.append(obj)
+    group.places.append(place @ matrix)
+    group.points = np.concatenate([group.points, moved(points, place)])
 
 
 def colored_by(kind: str, roughness: float, **settings: Any) -> bpy.types.Material:

@@ -5,13 +5,12 @@ import math
 
 import bmesh
 import bpy
-import numpy as np
-from mathutils import Euler, Matrix, Vector
+from mathutils import Euler
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
 
-from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, moved
+from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, Model, stand_beside
 
 CUBENESS = 0.6
 ORIENTATIONS = {
@@ -25,8 +24,6 @@ EDGE = 0.2
 """of the cube, relative to the largest side of the mesh"""
 BEVEL = 0.06
 """relative to the edge"""
-AWAY = (-0.62, -0.30)
-"""middle of the cube from that of the mesh, to the right and away from the camera, so relative"""
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
@@ -50,17 +47,7 @@ def _add_cube(
     """Put a cube of the orientation on the floor, before the mesh and to its left."""
     axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
     upright = model.place.to_3x3().normalized() @ axes
-    cube = _cube(EDGE * group.extent, clay)
-    corners = np.array([vertex.co for vertex in cube.data.vertices])
-    low, high = group.points.min(axis=0), group.points.max(axis=0)
-    away = Vector((*AWAY, 0.0)) * group.extent
-    away.rotate(Matrix.Rotation(-group.yaw, 3, "Z"))
-    middle = Vector((low + high) / 2) + away
-    middle.z = low[2] - moved(corners, upright.to_4x4())[:, 2].min()
-    place = Matrix.Translation(middle) @ upright.to_4x4()
-    group.copies.append(cube)
-    group.places.append(place)
-    group.points = np.concatenate([group.points, moved(corners, place)])
+    stand_beside(group, _cube(EDGE * group.extent, clay), upright.to_4x4())
 
 
 def _cube(edge: float, clay: bpy.types.Material) -> bpy.types.Object:

@@ -7,7 +7,6 @@ import platform
 import re
 import shutil
 import sys
-import tempfile
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -41,14 +40,6 @@ def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
             temporary = begin / path.name
         yield temporary
         move_into_place(temporary, path)
-
-
-@contextlib.contextmanager
-def temporary_folder() -> Iterator[Path]:
-    """Give a new folder, which is removed with all that is in it."""
-    folder = Path(tempfile.mkdtemp(prefix="cubic_craft-"))
-    with _removed_at_end(folder):
-        yield folder
 
 
 def remove_temporaries() -> None:

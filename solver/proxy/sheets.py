@@ -100,11 +100,11 @@ def working_extent(V, F, part):
     """Return the extent that counts as 1 while solving: that of the whole, unless it is a scene.
 
     A ground of 50 m, or a stray triangle, must not make a figure so small that its run ends before
-    it is cubic.
+    it is cubic. What has no extent at all counts as it is.
     """
     sizes = extents(V, part)
     largest = float(sizes[~planar_sheets(V, F, part)].max())
-    whole = float(np.ptp(V, axis=0).max())
+    whole = float(np.ptp(V, axis=0).max()) or 1.0
     return min(whole, SCENE * largest) if largest > 0.0 else whole
 
 

@@ -8,7 +8,6 @@ that its annotations do not say.
 import importlib.util
 import inspect
 import json
-import re
 import shutil
 import subprocess
 import sys
@@ -55,19 +54,6 @@ def test_pyright_finds_the_mistakes_and_nothing_else(environment):
     found = json.loads(said[said.index("{") :])["generalDiagnostics"]
     lines = {each["range"]["start"]["line"] + 1 for each in found}
     assert lines == WRONG, [each["message"] for each in found]
-
-
-def test_mypy_finds_the_mistakes_and_nothing_else(environment):
-    pytest.importorskip("mypy")
-    config = "[mypy]\nstrict = True\n[mypy-cubic_craft.*]\nignore_errors = True\n"
-    (environment / "mypy.ini").write_text(config)
-    (packages,) = environment.glob("env/lib/*/site-packages")
-    (environment / "checked" / "cubic_craft").symlink_to(packages / "cubic_craft")
-    words = [sys.executable, "-m", "mypy", "--config-file", "../mypy.ini", SCRIPT.name]
-    folder = environment / "checked"
-    said = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False).stdout
-    lines = re.findall(rf"^{SCRIPT.name}:(\d+): error", said, re.MULTILINE)
-    assert set(map(int, lines)) == WRONG, said
 
 
 def members(value):

@@ -12,7 +12,7 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
 
-IN_ALL = 90
+IN_ALL = 80
 """examples that all tests together try in continuous integration"""
 
 _WANTED = int(os.environ.get("CUBIC_CRAFT_EXAMPLES", "0"))

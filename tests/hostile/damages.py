@@ -52,13 +52,6 @@ def coincident_vertices(mesh, rng):
     return replace(mesh, V=V)
 
 
-def nearly_coincident_vertices(mesh, rng):
-    """Put some vertices next to where others are."""
-    V = mesh.V.copy()
-    V[_some(rng, len(V))] = V[rng.integers(len(V))] + 10.0 ** -rng.integers(5, 17)
-    return replace(mesh, V=V)
-
-
 def spikes(mesh, rng):
     """Pull a vertex far away."""
     V = mesh.V.copy()
@@ -79,13 +72,6 @@ def isolated_edges(mesh, rng):
     return replace(mesh, V=V, edges=mesh.edges + [(n, n + 1), (0, n + 2)])
 
 
-def first_vertices_isolated(mesh, rng):
-    """Put three vertices in front that are in no face."""
-    V = np.concatenate([rng.random((3, 3)), mesh.V])
-    faces = [tuple(i + 3 for i in face) for face in mesh.faces]
-    return replace(mesh, V=V, faces=faces, edges=[(i + 3, j + 3) for i, j in mesh.edges])
-
-
 def shuffled(mesh, rng):
     """Renumber vertices and faces at random."""
     number = rng.permutation(len(mesh.V))
@@ -101,20 +87,9 @@ def flat(mesh, rng):
     return replace(mesh, V=mesh.V * _direction_weights(rng, 1))
 
 
-def nearly_flat(mesh, rng):
-    """Press it almost into a plane."""
-    weights = _direction_weights(rng, 1)
-    return replace(mesh, V=mesh.V * np.where(weights == 0.0, 10.0 ** -rng.integers(4, 16), 1.0))
-
-
 def line(mesh, rng):
     """Press it into a line."""
     return replace(mesh, V=mesh.V * _direction_weights(rng, 2))
-
-
-def coarse_steps(mesh, rng):
-    """Round it to a coarse raster, on which many vertices and faces coincide."""
-    return replace(mesh, V=np.round(mesh.V * 4) / 4)
 
 
 def _direction_weights(rng, zeros):
@@ -127,8 +102,7 @@ DAMAGES = {
     damage.__name__: damage
     for damage in (
         *(duplicate_faces, flipped_faces, missing_faces, wild_faces, coincident_vertices),
-        *(nearly_coincident_vertices, spikes, isolated_vertices, isolated_edges),
-        *(first_vertices_isolated, shuffled, flat, nearly_flat, line, coarse_steps),
+        *(spikes, isolated_vertices, isolated_edges, shuffled, flat, line),
     )
 }
 FOR_THE_SOLVER_ONLY = {"degenerate_faces": degenerate_faces}

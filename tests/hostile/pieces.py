@@ -66,23 +66,6 @@ def moebius(rng, size):
     return BrokenMesh(V, _grid_faces(columns, rows, closed_rows=True, number=number))
 
 
-def klein(rng, size):
-    """Return a Klein bottle in its figure-eight immersion: closed, through itself, no inside."""
-    columns, rows = 4 * size + 5, 2 * size + 6
-    u = np.linspace(0, 2 * np.pi, columns, endpoint=False)[:, None]
-    v = np.linspace(0, 2 * np.pi, rows, endpoint=False)[None, :]
-    eight = np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v)
-    height = np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v)
-    V = np.stack([(2 + eight) * np.cos(u), (2 + eight) * np.sin(u), height], -1).reshape(-1, 3)
-
-    def number(c, r):
-        # half a turn of the figure eight swaps v and -v
-        return c * rows + r % rows if c < columns else -r % rows
-
-    faces = _grid_faces(columns, rows, closed_rows=True, closed_columns=True, number=number)
-    return BrokenMesh(V / 3, faces)
-
-
 def book(rng, size):
     """Return pages on one edge, which has more than two faces."""
     pages = size + 2
@@ -90,16 +73,6 @@ def book(rng, size):
     outer = [[[np.cos(a), np.sin(a), 0], [np.cos(a), np.sin(a), 1]] for a in angles]
     V = np.concatenate([[[0, 0, 0], [0, 0, 1]], np.array(outer).reshape(-1, 3)])
     return BrokenMesh(V, [(0, 1, 3 + 2 * p, 2 + 2 * p) for p in range(pages)])
-
-
-def cones(rng, size):
-    """Return cones that meet in their tips, one vertex."""
-    V, faces = [np.zeros(3)], []
-    for _ in range(size + 1):
-        axis, first = rng.normal(size=3), len(V)
-        V += list(axis / np.linalg.norm(axis) + 0.3 * rng.normal(size=(3, 3)))
-        faces += [(0, first + k, first + (k + 1) % 3) for k in range(3)]
-    return BrokenMesh(np.array(V), faces)
 
 
 def dust(rng, size):
@@ -133,14 +106,6 @@ def needles(rng, size):
     return BrokenMesh(V, [(0, k, k + 1) for k in range(1, n)])
 
 
-def slivers(rng, size):
-    """Return a strip whose triangles have almost or exactly no height."""
-    n = 2 * size + 3
-    height = rng.choice([0.0, 1e-12, 1e-7, 1e-4], n)
-    V = np.stack([np.linspace(0, 1, n), height, np.zeros(n)], -1)
-    return BrokenMesh(V, [(k, k + 1, k + 2) for k in range(n - 2)])
-
-
 def concave(rng, size):
     """Return one n-gon, a comb with deep notches."""
     teeth = size + 1
@@ -160,27 +125,12 @@ def crossed(rng, size):
     return BrokenMesh(V, [tuple(range(n))])
 
 
-def touching(rng, size):
-    """Return one n-gon that touches itself: two of its vertices lie at the same place."""
-    V = np.array([(0, 0), (1, 0), (0.5, 0.5), (1, 1), (0, 1), (0.5, 0.5)], float)
-    return BrokenMesh(np.column_stack([V, np.zeros(6)]), [tuple(range(6))])
-
-
 def holed(rng, size):
     """Return one n-gon with a hole, which a bridge of two coincident edges leads to."""
     outer = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], float)
     inner = np.array([(0.3, 0.3), (0.3, 0.7), (0.7, 0.7), (0.7, 0.3), (0.3, 0.3)], float)
     V = np.concatenate([outer, inner])
     return BrokenMesh(np.column_stack([V, np.zeros(10)]), [tuple(range(10))])
-
-
-def hub(rng, size):
-    """Return a disc around a vertex with very many neighbours."""
-    n = 12 * size
-    angles = np.linspace(0, 2 * np.pi, n, endpoint=False)
-    rim = np.stack([np.cos(angles), np.sin(angles), 0.2 * np.sin(3 * angles)], -1)
-    V = np.concatenate([[[0, 0, 0.5]], rim])
-    return BrokenMesh(V, [(0, 1 + k, 1 + (k + 1) % n) for k in range(n)])
 
 
 def double_cover(rng, size):
@@ -197,7 +147,7 @@ def point(rng, size):
 PIECES = {
     piece.__name__: piece
     for piece in (
-        *(triangle, sheet, ball, moebius, klein, book, cones, dust, soup, needles, slivers),
-        *(concave, crossed, touching, holed, hub, double_cover, point),
+        *(triangle, sheet, ball, moebius, book, dust, soup, needles),
+        *(concave, crossed, holed, double_cover, point),
     )
 }

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays and meshes as trimesh and meshio hand them out just work, and keep what they have."""
+"""Arrays and meshes as trimesh hands them out just work, and keep what they have."""
 
 from types import SimpleNamespace
 
-import meshio
 import numpy as np
 import pytest
 import trimesh
@@ -78,7 +77,6 @@ def test_the_input_is_never_written_to():
 V, F = blob(2)
 QUICK = {"device": "numpy", "proxy": PAPER}
 RESULT = stylize(V, F, 0.4, **QUICK)
-NORMALS = V / np.linalg.norm(V, axis=1, keepdims=True)
 
 
 def test_a_trimesh_keeps_all():
@@ -107,37 +105,6 @@ def test_uvs_of_a_trimesh_stay():
     visual = trimesh.visual.TextureVisuals(uv=uv)
     made = stylize_mesh(trimesh.Trimesh(V, F, visual=visual, process=False), **QUICK)
     assert np.array_equal(made.visual.uv, uv)
-
-
-@pytest.mark.parametrize("kind", [np.float32, np.float64])
-def test_a_meshio_mesh_keeps_all(kind):
-    mesh = meshio.Mesh(
-        V.astype(kind),
-        [("line", [[0, 1]]), ("triangle", F)],
-        point_data={"heat": np.arange(len(V)), "Normals": NORMALS.astype(np.float32)},
-        cell_data={"material": [np.zeros(1), np.arange(len(F))]},
-        field_data={"body": np.array([1, 2])},
-    )
-    made = stylize_mesh(mesh, 0.4, **QUICK)
-    assert type(made) is meshio.Mesh and made.points.dtype == kind
-    assert np.allclose(made.points, RESULT.positions, atol=1e-4 if kind == np.float32 else 0)
-    assert [(block.type, block.data.tolist()) for block in made.cells] == [
-        *(("line", [[0, 1]]), ("triangle", F.tolist()))
-    ]
-    assert np.array_equal(made.cell_data["material"][1], np.arange(len(F)))
-    assert np.array_equal(made.field_data["body"], [1, 2])
-    assert np.array_equal(made.point_data["heat"], np.arange(len(V)))
-    turned = np.einsum("nij,nj->ni", RESULT.rotations, NORMALS)
-    assert np.allclose(made.point_data["Normals"], turned, atol=1e-3)
-    assert np.array_equal(mesh.points, V.astype(kind)) and "Normals" in mesh.point_data
-
-
-def test_quads_and_polygons_of_meshio_are_solved_as_they_are():
-    cells = [("triangle", F[:100]), ("triangle", F[100:]), ("quad", [[0, 1, 2, 3]])]
-    pinned = np.arange(len(V)) < 4  # the corners of the quad
-    made = stylize_mesh(meshio.Mesh(V, cells), 0.4, pinned, **QUICK)
-    assert np.array_equal(made.points[:4], V[:4])
-    assert [len(block.data) for block in made.cells] == [100, len(F) - 100, 1]
 
 
 def test_seams_of_a_texture_stay_closed():
@@ -178,9 +145,6 @@ def test_a_scene_is_solved_as_it_stands():
 @pytest.mark.parametrize(
     ("mesh", "words"),
     [
-        (meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])]), "cells of the type tetra"),
-        (meshio.Mesh(np.eye(4, 3), [("line", [[0, 1]])]), "no faces"),
-        (meshio.Mesh(np.eye(4, 2), [("triangle", [[0, 1, 2]])]), r"shape \(n, 3\)"),
         ("bunny.obj", "which a str does not"),
         (SimpleNamespace(vertices=V, faces=F + 1), "triangles refer to vertices"),
         (trimesh.Scene(), "no faces"),

@@ -9,7 +9,6 @@ import trimesh
 from command import QUICK, cubic_craft, quick, refused
 from scipy.spatial.transform import Rotation
 
-from cubic_craft.command_line.gltf_file import GltfFile
 from cubic_craft.command_line.mesh_files import read
 from scripts.benchmark.shapes import blob
 
@@ -59,10 +58,10 @@ def test_materials_and_uvs_stay_and_normals_turn(to, tmp_path):
 def test_nodes_place_their_meshes(tmp_path):
     name = save(tmp_path / "blob.glb", TURN)
     placed = trimesh.transform_points(V, TURN)
-    assert np.allclose(read(tmp_path / name).surface.points, placed, atol=1e-5)
+    assert np.allclose(read(tmp_path / name).points, placed, atol=1e-5)
     cubic_craft(name, "cubic.glb", *QUICK, folder=tmp_path)
     result = quick(placed, F)
-    assert np.allclose(GltfFile(tmp_path / "cubic.glb").points, result.positions, atol=1e-4)
+    assert np.allclose(read(tmp_path / "cubic.glb").points, result.positions, atol=1e-4)
     R = TURN[:3, :3] / 2.0
     turned = np.einsum("nij,nj->ni", result.rotations, NORMALS @ R.T) @ R
     assert np.allclose(loaded(tmp_path / "cubic.glb").vertex_normals, turned, atol=1e-4)
@@ -70,7 +69,7 @@ def test_nodes_place_their_meshes(tmp_path):
 
 def test_a_mirrored_node_is_as_if_its_vertices_were_mirrored(tmp_path):
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    file = GltfFile(tmp_path / save(tmp_path / "blob.glb", mirror))
+    file = read(tmp_path / save(tmp_path / "blob.glb", mirror))
     assert np.allclose(file.points, V * [-1, 1, 1])
     assert np.array_equal(file.triangles, F[:, ::-1])
 
@@ -91,7 +90,7 @@ def test_other_formats_become_gltf_and_back(tmp_path):
     cubic_craft("blob.ply", "a.glb", *QUICK, folder=tmp_path)
     cubic_craft("a.glb", "b.obj", "--cubeness", "0", *QUICK, folder=tmp_path)
     for name in ("a.glb", "b.obj"):
-        surface = read(tmp_path / name).surface
+        surface = read(tmp_path / name)
         assert np.allclose(surface.points, quick(V, F).positions, atol=1e-5)
         assert np.array_equal(surface.triangles, F)
 

@@ -84,7 +84,7 @@ def test_it_can_be_run_as_a_module():
 
 def test_it_says_what_it_needs_and_its_licence():
     needed = {re.match(r"[\w-]+", line)[0] for line in requires("cubic-craft") if ";" not in line}
-    assert needed == {"numpy", "scipy", "meshio", "trimesh", "mapbox-earcut", "threadpoolctl"}
+    assert needed == {"numpy", "scipy", "trimesh", "mapbox-earcut", "threadpoolctl"}
     metadata = distribution("cubic-craft").metadata
     assert metadata["License-Expression"] == "GPL-3.0-or-later"
     licence = INSTALLED.parent / f"cubic_craft-{version('cubic-craft')}.dist-info"
@@ -117,7 +117,7 @@ def test_it_works_with_and_without_what_is_optional():
 def test_importing_it_is_quick_and_loads_neither_blender_nor_what_is_optional():
     script = "import sys, cubic_craft; print(*sys.modules)"
     text = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
-    assert {"bpy", "taichi", "quadrants", "scipy", "meshio", "solver"}.isdisjoint(text.split())
+    assert {"bpy", "taichi", "quadrants", "scipy", "trimesh", "solver"}.isdisjoint(text.split())
 
 
 def test_the_page_lists_the_options_of_the_command():

@@ -97,25 +97,3 @@ def test_handles_are_painted(pictures):
     picture = pictures["figure_3_handles"]
     assert (picture[..., RED] > picture[..., GREEN] + 0.2).sum() > 10, "moved handles are orange"
     assert (picture[..., BLUE] > picture[..., RED] + 0.1).sum() > 10, "pinned handles are blue"
-
-
-def test_figure_4_is_the_last_screenshot(tmp_path):
-    for number, suite in enumerate(("trixie", "sid")):
-        shot = tmp_path / "gui" / suite / "test_first_sculpture" / "first_3_live.png"
-        shot.parent.mkdir(parents=True)
-        shot.write_bytes(suite.encode())
-        os.utime(shot, (number, number))
-    process = figures(
-        "--only", 4, "--screenshots", tmp_path / "gui", "--output", tmp_path / "figures"
-    )
-    assert process.returncode == 0, process.stderr
-    assert (tmp_path / "figures" / "figure_4_interface.png").read_bytes() == b"sid"
-
-
-def test_what_was_not_made_stays_and_is_told(tmp_path):
-    kept = tmp_path / "figure_4_interface.png"
-    kept.write_bytes(b"kept")
-    process = figures("--only", 4, "--output", tmp_path, "--screenshots", tmp_path / "nowhere")
-    assert process.returncode == 0, process.stderr
-    assert kept.read_bytes() == b"kept"
-    assert "make test-gui" in process.stderr

@@ -224,15 +224,24 @@ f 2 \\
 """
 
 
-@pytest.mark.parametrize(
-    ("third", "names"),
-    [("f 5 3 9", ["two"]), ("", ["second", "third"])],
-    ids=["shared vertices", "own vertices"],
+IN_ORDER = TWO_OBJECTS.replace("second", "later").replace(
+    "f 2 \\\n3 4", "v 1 1 1\nv 0 1 0\nf -3 -2 -1"
 )
-def test_objects_of_an_obj_keep_their_place_in_the_file(tmp_path, third, names):
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        (TWO_OBJECTS.format(third="f 5 3 9"), ["two"]),
+        (TWO_OBJECTS.format(third=""), ["two"]),
+        (IN_ORDER.format(third="").replace("third", "be fore"), ["be fore", "later"]),
+    ],
+    ids=["shared vertices", "another order", "own vertices"],
+)
+def test_objects_of_an_obj_keep_their_place_in_the_file(tmp_path, text, names):
     """The second object comes before the first one has a face; loose vertices lie between."""
     source = tmp_path / "two.obj"
-    source.write_text(TWO_OBJECTS.format(third=third), encoding="utf-8")
+    source.write_text(text, encoding="utf-8")
     headless_ok(
         *(source, "--cubeness", 0.0, *FAST),
         *("--save-mesh", "out.obj", "--report", "out.json"),
@@ -243,52 +252,22 @@ def test_objects_of_an_obj_keep_their_place_in_the_file(tmp_path, third, names):
     np.testing.assert_allclose(
         obj_positions(tmp_path / "out.obj"), obj_positions(source), atol=1e-6
     )
+    written = [" ".join(row) for row in obj_rows(tmp_path / "out.obj", "o")]
+    assert written == names[::-1], "in the order of the file"
     faces = {tuple(face) for face in obj_rows(tmp_path / "out.obj", "f")}
-    assert faces == {("5", "7", "8"), ("2", "3", "4")} | ({("5", "3", "9")} if third else set())
+    wanted = {("5", "7", "8"), ("9", "10", "11") if len(names) > 1 else ("2", "3", "4")}
+    assert faces == wanted | ({("5", "3", "9")} if "f 5 3 9" in text else set())
 
 
-TETRAHEDRON = np.array([[0, 0, 0], [4.125, 0, 0], [0, 4.125, 0], [0, 0, 4.125]])
-FAR_AWAY = np.array([512345.25, 5412345.5, 321.75])
-"""where a house is in the coordinates of its country, in metres"""
-
-
-def tetrahedron_obj(path, place):
-    """Write a tetrahedron at a place, and a loose vertex at the origin."""
-    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in (TETRAHEDRON + place).tolist()]
-    faces = ["f 1 3 2", "f 1 2 4", "f 2 3 4", "f 3 1 4"]
-    path.write_text("\n".join([*rows, *faces, "v 0 0 0"]) + "\n")
-
-
-def test_what_lies_far_away_is_not_rounded(tmp_path):
-    found = {}
-    for name, place in (("near", np.zeros(3)), ("far", FAR_AWAY)):
-        tetrahedron_obj(tmp_path / f"{name}.obj", place)
-        box = [(place - 0.1).tolist(), (place + 0.1).tolist()]
-        pose = [{"box": box, "translate": [0.5, 0, 0], "rotate": [0, 9, 0]}]
-        (tmp_path / "pose.json").write_text(json.dumps(pose))
-        outputs = ("--handles", "pose.json", "--save-mesh", f"{name}_cubic.obj")
-        headless_ok(f"{name}.obj", "--orientation", 20, 30, 0, *FAST, *outputs, cwd=tmp_path)
-        rows = obj_rows(tmp_path / f"{name}_cubic.obj", "v")
-        assert max(len(word) for row in rows for word in row) < 20
-        found[name] = np.array(rows, float)[:4] - place
-    np.testing.assert_allclose(found["far"], found["near"], rtol=0.0, atol=1e-4)
-    assert np.abs(found["far"] - TETRAHEDRON).max() > 0.5
-
-
-def test_what_32_bits_cannot_hold_is_said(tmp_path):
-    tetrahedron_obj(tmp_path / "far.obj", FAR_AWAY)
-    process = headless_ok("far.obj", *FAST, "--save-mesh", "moved.ply", cwd=tmp_path)
-    (line,) = (line for line in process.stderr.splitlines() if "32 bits" in line)
-    assert line.startswith("moved.ply: lies at the origin") and "512347 5412348 0 " in line
-    header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
-    header += (
-        "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header"
-    )
-    rows = [" ".join(map(repr, row)) for row in (TETRAHEDRON + FAR_AWAY).tolist()]
-    faces = ["3 0 2 1", "3 0 1 3", "3 1 2 3", "3 2 0 3"]
-    (tmp_path / "far.ply").write_text("\n".join([header, *rows, *faces]) + "\n")
-    process = headless_ok("far.ply", *FAST, "--save-mesh", "result.ply", cwd=tmp_path)
-    assert "far.ply: lies 5.41e+06 from its origin" in process.stderr
+def test_what_is_rounded_as_it_lies_far_away_is_said(tmp_path):
+    rows = [
+        "v 512345.25 5412345.5 321.75",
+        "v 512349 5412345.5 321.75",
+        "v 512345.25 5412349 321.75",
+    ]
+    (tmp_path / "far.obj").write_text("\n".join([*rows, "f 1 2 3", ""]))
+    process = headless_ok("far.obj", *FAST, "--save-mesh", "result.ply", cwd=tmp_path)
+    assert "far.obj: lies 5.41e+06 from its origin" in process.stderr
     assert "rounds coordinates to 0.5; move it to the origin" in process.stderr
 
 

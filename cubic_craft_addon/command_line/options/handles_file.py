@@ -4,8 +4,8 @@
 import itertools
 import json
 import math
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -37,19 +37,6 @@ class GivenHandle:
     """where it is turned and scaled about; None is the middle of its bounding box"""
     cubic: bool = False
     """whether its surface becomes cubic, and only its place and rotation are held"""
-
-    def moved(self, by: Iterable[float]) -> "GivenHandle":
-        """Return the handle for an object that is moved by a vector (3,)."""
-        x, y, z = by
-
-        def place(point: Point) -> Point:
-            return (point[0] + x, point[1] + y, point[2] + z)
-
-        return replace(
-            self,
-            box=self.box and (place(self.box[0]), place(self.box[1])),
-            pivot=self.pivot and place(self.pivot),
-        )
 
 
 def read_handles(path: Path) -> list[GivenHandle]:

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes far from the origin, such as houses in the coordinates of their country.
 
-Blender has 32 bits for a coordinate. An .obj is read from the text, moved to the origin and back;
-of other formats it can only be said that their importers round.
+Blender has 32 bits for a coordinate, so its importers round.
 """
 
-import math
 import sys
 from pathlib import Path
 
@@ -18,21 +16,6 @@ FAR = 1000.0
 """times its largest extent: there 32 bits round to 6e-5 of the extent"""
 
 
-def middle_if_far(points: np.ndarray) -> np.ndarray:
-    """Return the middle (3,) of points (k,3) float64, about as exact as they are large.
-
-    Zero along axes on which it is not far from the origin.
-    """
-    if not len(points):
-        return np.zeros(3)
-    low, high = points.min(axis=0), points.max(axis=0)
-    middle, extent = (low + high) / 2, float((high - low).max())
-    if not extent > 0.0:
-        return np.zeros(3)
-    decimals = min(-math.floor(math.log10(extent)), 300)  # rounding would overflow
-    return np.where(np.abs(middle) > FAR * extent, np.round(middle, decimals), 0.0)
-
-
 def warn_if_rounded(path: Path, objects: list[bpy.types.Object]) -> None:
     """Say in one line that meshes are so far from their origins that their shapes were rounded."""
     boxes = [(p.min(axis=0), p.max(axis=0)) for o in objects if len(p := read_position(o.data))]
@@ -41,6 +24,6 @@ def warn_if_rounded(path: Path, objects: list[bpy.types.Object]) -> None:
     if away > FAR * extent > 0.0:
         print(
             f"{path}: lies {away:.3g} from its origin, where Blender rounds coordinates to "
-            f"{np.spacing(np.float32(away)):.2g}; move it to the origin, or export it as .obj",
+            f"{np.spacing(np.float32(away)):.2g}; move it to the origin",
             file=sys.stderr,
         )

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bring a file's mesh objects into an otherwise empty Blender."""
 
-import contextlib
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,12 +8,10 @@ from pathlib import Path
 import bpy
 
 from ....solver.console.errors import InputError
-from ..process.one_line import one_line
 from ..process.quiet import captured
 from .blender_operator import operator, reason
 from .far_away import warn_if_rounded
 from .finite_check import refuse_infinite
-from .obj_copy import readable_copy
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .seen_objects import is_in_picture, show_as_meshes
 from .weld import weld
@@ -87,26 +84,17 @@ def load(
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
     if path.suffix.lower() in (".ply", ".stl"):
         refuse_infinite(path)
-    with contextlib.ExitStack() as copies:
-        source = path.resolve()
-        if layout is not None and not layout.is_plain:
-            copy = readable_copy(source, layout.encoding, layout.offset)
-            source = copies.enter_context(copy)
-        copies.enter_context(captured(verbose))
-        _import(path, source, layout)
+    with captured(verbose):
+        _import(path, layout)
         bpy.context.view_layer.update()
     covered = []
     if is_seen:
         taken = show_as_meshes(only_covered=not is_all_seen)
         covered = [] if is_all_seen else taken
     found = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+    warn_if_rounded(path, found)
     if layout is not None:
-        if layout.missing:
-            words = f"{path}: there is no such material library: {', '.join(layout.missing)}"
-            print(one_line(words), file=sys.stderr)
-        match_objects(layout, found)
-    else:
-        warn_if_rounded(path, found)
+        found = match_objects(layout, found)
     if path.suffix.lower() in (".glb", ".gltf"):
         for mesh in {obj.data for obj in found}:
             weld(mesh)
@@ -133,15 +121,15 @@ def _importer(path: Path) -> str:
     return IMPORTERS[suffix]
 
 
-def _import(path: Path, source: Path, layout: ObjLayout | None) -> None:
-    """Run Blender's importer for a file, on this one in its place."""
+def _import(path: Path, layout: ObjLayout | None) -> None:
+    """Run Blender's importer for a file."""
     how = {}
     if layout is not None:
-        how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
+        how = {"use_split_objects": len(layout.parts) > 1, "import_vertex_groups": True}
     elif path.suffix.lower() == ".blend":
         how = {"load_ui": False, "use_scripts": False}  # nothing in a file runs
     try:
-        result = operator(_importer(path), path)(filepath=str(source), **how)
+        result = operator(_importer(path), path)(filepath=str(path.resolve()), **how)
     except RuntimeError as error:
         message = f"{path}: cannot be read ({reason(error)}); export it again"
         raise InputError(message) from error

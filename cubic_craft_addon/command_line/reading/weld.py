@@ -16,7 +16,8 @@ from ...mesh_bridge import read_position, read_values
 def weld(mesh: bpy.types.Mesh) -> None:
     """Join vertices with bit-identical coordinates; UVs and normals of the faces stay."""
     positions = read_position(mesh) + np.float32(0.0)  # no -0.0, which has other bits
-    first, place = distinct_rows(positions)
+    keys = np.ascontiguousarray(positions).view("V12").ravel()
+    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
     if len(first) == len(positions):
         return
     normals = read_values(mesh.corner_normals, "vector", width=3)
@@ -24,7 +25,7 @@ def weld(mesh: bpy.types.Mesh) -> None:
     try:
         edited.from_mesh(mesh)
         edited.verts.ensure_lookup_table()
-        targets = first[place].tolist()
+        targets = first[place.ravel()].tolist()
         bmesh.ops.weld_verts(
             edited,
             targetmap={
@@ -38,10 +39,3 @@ def weld(mesh: bpy.types.Mesh) -> None:
         edited.free()
     if len(mesh.loops) == len(normals):  # no face has collapsed
         mesh.normals_split_custom_set(normals.tolist())
-
-
-def distinct_rows(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first of each of the rows that differ in a bit, and which of them each row is."""
-    keys = np.ascontiguousarray(values).view(f"V{values.itemsize * values.shape[1]}").ravel()
-    _, first, row = np.unique(keys, return_index=True, return_inverse=True)
-    return first, row.ravel()

@@ -42,8 +42,7 @@ def handles_of_all(loaded: Loaded, options: Namespace) -> dict[str, tuple[Handle
         obj.name: [Handle(group) for group in options.pin if group in obj.vertex_groups]
         for obj in loaded.objects
     }
-    offset = np.zeros(3) if loaded.obj_layout is None else loaded.obj_layout.offset
-    for given in (given.moved(-offset) for given in options.handles):
+    for given in options.handles:
         is_anywhere = False
         for obj in loaded.objects:
             original = mesh_bridge.original_positions(obj.data, start_of(obj))
@@ -120,8 +119,6 @@ def _why_nothing(given: GivenHandle, loaded: Loaded) -> str:
         return "none of its vertices is part of the mesh"
     if given.box is not None:
         points = np.concatenate([read_position(obj.data) for obj in loaded.objects], dtype=float)
-        if loaded.obj_layout is not None:
-            points += loaded.obj_layout.offset
         low, high = (np.round(f(axis=0), 6).tolist() for f in (points.min, points.max))
         return f"no vertex lies in its box; the input extends from {low} to {high}"
     there, has = groups_of(loaded.objects)

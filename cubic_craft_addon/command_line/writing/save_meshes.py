@@ -9,13 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import numpy as np
-from mathutils import Matrix
 
 from ....solver.console.errors import InputError
 from ....solver.console.temporary import replacing
 from ....solver.errors import CubicCraftError
-from ...mesh_bridge import read_position
 from ...run import pipeline
 from ...send.file import ready
 from ...send.targets import TARGETS, Options, exporter, settings, target_of
@@ -23,15 +20,10 @@ from ..process.output_files import leveled
 from ..process.quiet import captured
 from ..reading.blender_operator import reason
 from ..reading.load_meshes import Loaded
-from ..reading.obj_layout import ObjLayout
 from ..solving.cubify_all import Sculpture
 from .detached import detached_copy
 from .low_poly import low_poly
-from .write_mtl import relative, write_mtl
-from .write_obj import ObjPart, write_obj
-
-TO_Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
-"""Blender's Z-up space to that of .obj files, as Blender's own exporter has it"""
+from .write_obj import write_obj
 
 
 def save_meshes(
@@ -61,11 +53,10 @@ def save_meshes(
                 with captured(verbose), low_poly(sculptures, triangles, place) as (low, own):
                     problems += own + _send(place, low, verbose)
         else:
+            if target == "OBJ":
+                _check_rows(path, sculptures, loaded)
             with _copies(sculptures, number) as copies:
-                if target == "OBJ":
-                    _save_obj(path, copies, loaded)
-                else:
-                    _export(path, [copy for copy, _ in copies], verbose)
+                _export(path, copies, verbose)
     return problems
 
 
@@ -111,10 +102,8 @@ def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
 
 
 @contextlib.contextmanager
-def _copies(
-    sculptures: list[Sculpture], number: int
-) -> Iterator[list[tuple[bpy.types.Object, bpy.types.Object]]]:
-    """Give copies with the results, each with its original, whose name it has in the block."""
+def _copies(sculptures: list[Sculpture], number: int) -> Iterator[list[bpy.types.Object]]:
+    """Give copies with the results, which have the names of their originals in the block."""
     copies = []
     renamed = []
     try:
@@ -123,7 +112,7 @@ def _copies(
             for user in sculpture.users:
                 copy = detached_copy(user, shape, keep_modifiers=False)
                 bpy.context.scene.collection.objects.link(copy)
-                copies.append((copy, user))
+                copies.append(copy)
                 for original, twin in ((user, copy), (user.data, copy.data)):
                     name = original.name
                     original.name = uuid.uuid4().hex  # short: of a long one, the end is cut off
@@ -132,48 +121,20 @@ def _copies(
         bpy.context.view_layer.update()
         yield copies
     finally:
-        for copy, _ in copies:
+        for copy in copies:
             bpy.data.meshes.remove(copy.data)  # takes the object along
         for original, name in reversed(renamed):
             original.name = name
 
 
-def _save_obj(
-    path: Path, copies: list[tuple[bpy.types.Object, bpy.types.Object]], loaded: Loaded
-) -> None:
-    layout = loaded.obj_layout
-    is_as_in_file = layout is not None and loaded.is_whole
-    parts, count = [], 0
-    for copy, original in copies:
-        rows = np.arange(count, count + len(copy.data.vertices))
-        count += len(rows)
-        if is_as_in_file:
-            rows = _rows_in_file(path, layout, original.session_uid, copy.name)
-        parts.append(ObjPart(copy.name, copy.data, _placed_positions(copy), rows))
-    positions = layout.positions if is_as_in_file else np.zeros((count, 3), np.float32)
-    if layout is None:
-        libraries = write_mtl(path, [copy.data for copy, _ in copies])
-    else:
-        libraries = [relative(library, path.parent) for library in layout.libraries]
-    offset, encoding = (layout.offset, layout.encoding) if layout else (np.zeros(3), "utf-8")
-    with replacing(path) as temporary:
-        write_obj(temporary, parts, positions, libraries, offset, encoding)
-
-
-def _rows_in_file(path: Path, layout: ObjLayout, uid: int, name: str) -> np.ndarray:
-    if uid not in layout.rows:
-        message = f'{path}: Blender has changed the vertices of "{name}" on reading'
-        raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
-    return layout.rows[uid]
-
-
-def _placed_positions(copy: bpy.types.Object) -> np.ndarray:
-    """Return (n,3) positions in the space of an .obj; if one was read, bit for bit as in it."""
-    positions = read_position(copy.data)
-    to_file = np.array(TO_Y_UP @ copy.matrix_world)
-    if np.allclose(to_file, np.eye(4), rtol=0.0, atol=1e-6):
-        return positions
-    return positions.astype(np.float64) @ to_file[:3, :3].T + to_file[:3, 3]
+def _check_rows(path: Path, sculptures: list[Sculpture], loaded: Loaded) -> None:
+    """Refuse an .obj whose vertices Blender has changed: what is written would not fit it."""
+    users = [user for sculpture in sculptures for user in sculpture.users]
+    if loaded.obj_layout is not None and loaded.is_whole:
+        for user in users:
+            if user.session_uid not in loaded.obj_layout.rows:
+                message = f'{path}: Blender has changed the vertices of "{user.name}" on reading'
+                raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
 
 
 def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
@@ -182,4 +143,8 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
         obj.select_set(obj in copies)
     target, options = target_of(path.suffix), Options(with_animation=False, suffix=path.suffix)
     chosen = settings(target, copies, options, is_modified=False)
-    _write(path, partial(exporter(target), **chosen), verbose)
+    export = partial(exporter(target), **chosen)
+    if target == "OBJ":
+        _write(path, lambda filepath: write_obj(path, Path(filepath), copies, export), verbose)
+    else:
+        _write(path, export, verbose)

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface in a file that trimesh reads: nodes, materials, textures, UVs and colors stay.
+
+trimesh drops bones, animations and morph targets. glTF files with such are refused, as Blender's
+command keeps them.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from trimesh.exchange import gltf
+
+from solver.console.errors import InputError
+from solver.errors import CubicCraftError
+from solver.meshes import placed_surface, with_positions
+
+GLTF = (".glb", ".gltf")
+_DROPPED = {b'"skins":': "bones", b'"animations":': "animations", b'"targets":': "morph targets"}
+
+
+class SceneFile:
+    """A file of any format but .obj.
+
+    Parameters
+    ----------
+    path : Path
+
+    Attributes
+    ----------
+    points : (n,3) numpy array
+        In the coordinates of the scene, where each node shows them.
+    triangles : (m,3) numpy int array
+    face_count : int
+
+    Raises
+    ------
+    InputError
+        It has no surface that can be replaced; the message lacks the path.
+    """
+
+    def __init__(self, path: Path) -> None:
+        kind = path.suffix.lower()
+        if kind in GLTF:
+            content = path.read_bytes().replace(b'" :', b'":')
+            if found := [what for mark, what in _DROPPED.items() if mark in content]:
+                cure = "the command of Blender keeps them, blender -c cubic_craft"
+                raise InputError(f"has {' and '.join(found)}, which would be lost; {cure}")
+        try:
+            self._scene: Any = trimesh.load_scene(path, process=False)
+            if kind == ".stl":
+                self._scene.geometry = {n: _joined(m) for n, m in self._scene.geometry.items()}
+            self.points, self.triangles, self._parts = placed_surface(self._scene)
+        except CubicCraftError as error:
+            raise InputError(str(error)) from error
+        except Exception as error:  # its readers raise anything
+            reason = (f"{type(error).__name__}: {error}".splitlines())[0]
+            raise InputError(f"cannot be read as {kind} ({reason}); export it again") from error
+        if not len(self.points):
+            raise InputError("has no vertices on faces; is the file cut off? Export it again")
+        if self.triangles.max(initial=-1) >= len(self.points) or self.triangles.min(initial=0) < 0:
+            raise InputError(f"a face refers to a vertex not among the {len(self.points)}")
+        self.face_count = len(self.triangles)
+
+    def write(self, path: Path, positions: np.ndarray, rotations: np.ndarray) -> None:
+        """Write the file with other positions (n,3), and normals turned by rotations (n,3,3).
+
+        A mesh that several nodes show becomes one for each. Of several nodes, formats without nodes
+        get the surface alone.
+        """
+        scene = with_positions(self._scene, self._parts, positions)
+        for part in self._parts:
+            given, made = self._scene.geometry[part.name], scene.geometry[scene.graph[part.node][1]]
+            if "vertex_normals" in given._cache:
+                L = part.place[:3, :3]
+                turn = L.T @ rotations[part.rows] @ np.linalg.inv(L).T
+                made.vertex_normals = (turn @ given.vertex_normals[..., None])[..., 0]
+        if path.suffix.lower() in GLTF:
+            _export_gltf(scene, path)
+        elif len(self._parts) > 1 or not np.array_equal(self._parts[0].place, np.eye(4)):
+            write_surface(path, positions, self.triangles)
+        else:
+            made.export(path)
+
+
+def write_surface(path: Path, points: np.ndarray, triangles: np.ndarray) -> None:
+    """Write positions (n,3) and triangles (m,3) as a file with one mesh."""
+    mesh = trimesh.Trimesh(points, triangles, process=False)
+    if path.suffix.lower() in GLTF:
+        _export_gltf(trimesh.Scene(mesh), path)
+    else:
+        mesh.export(path)
+
+
+def _joined(mesh: Any) -> Any:
+    """Return a mesh whose corners at the same place are one vertex, as in no .stl file."""
+    points, vertex = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    return trimesh.Trimesh(points, vertex.ravel()[mesh.faces], process=False)
+
+
+def _export_gltf(scene: Any, path: Path) -> None:
+    if path.suffix.lower() == ".gltf":
+        files = gltf.export_gltf(scene, embed_buffers=True)  # else there are several
+        path.write_bytes(files["model.gltf"])
+    else:
+        path.write_bytes(gltf.export_glb(scene))
