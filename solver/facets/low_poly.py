@@ -10,20 +10,15 @@ from numpy.typing import ArrayLike
 from ..aliases import BoolArray, Faces, FloatArray, IntArray
 from ..mesh.face_graph import FaceGraph
 from ..mesh.mesh_checks import check_mesh
-from ..mesh.nearest_on_planes import MOST, nearest_on_planes
 from ..mesh.unit_box import unit_box
 from ..proxy.weld import weld
 from ..values import Value
-from .outlines import Outlines
+from .corners import FLATNESS, Corners
 from .polygons import filled
 from .regions import regions_of
 from .straight import straightened
 
-COURSE = 0.01
-"""of the size: how far the border of two sides may leave its course"""
-FLATNESS = 2e-4
-"""of the size: how far the corners of a polygon may be from its plane"""
-STRAY = 0.6
+STRAY = 0.5
 """of the tolerance: how far a side may stray from its plane"""
 
 
@@ -109,40 +104,28 @@ def low_poly(
     tolerance /= box.size
     regions = regions_of(W, G, graph, directions, STRAY * tolerance, counts)
     walls = [(is_inside[first], normal / np.linalg.norm(normal)) for is_inside, normal in walls]
-    P = _corners(W, G, regions, tolerance, walls)
-    region, parts = regions.of_triangle, _parts(graph, regions.of_triangle, charts)
-    outlines = Outlines(P, G, parts, COURSE)
-    region_of_part = np.zeros(parts.max() + 1, np.int64)
-    region_of_part[parts] = region
+    parts = _parts(graph, regions.of_triangle, charts)
+    corners = Corners(W, G, graph, regions, parts, tolerance, walls)
+    P = corners.positions
     found = {}
-    for part, loops in outlines.loops.items():
-        made = filled(P, loops, regions.normals[region_of_part[part]], FLATNESS)
-        for loop in made:
+    for part, around in corners.loops.items():
+        for loop in filled(P, around, corners.normals[part], FLATNESS):
             back = found.pop(frozenset(loop), None)  # of a wall without thickness: both go
             if back is None:
                 found[frozenset(loop)] = loop, part
     loops, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
-    chart_of = np.zeros(parts.max() + 1, np.int64)
-    chart_of[parts] = 0 if charts is None else charts
-    loops, kept = straightened(P, loops, chart_of[part_of].tolist(), FLATNESS)
+    about = np.zeros((parts.max() + 1, 2), np.int64)  # the region and the chart of each part
+    about[parts, 0] = regions.of_triangle
+    about[parts, 1] = 0 if charts is None else charts
+    loops, kept = straightened(P, loops, about[part_of, 1].tolist(), FLATNESS)
     part_of = [part_of[k] for k in kept]
+    loops = corners.anchored(loops)
     result = V.copy()
-    used = np.unique(np.concatenate(loops)) if loops else []
+    used = sorted({v for loop in loops for v in loop})
     result[first[used]] = box.from_unit(P[used])
     polygons = [first[loop].tolist() for loop in loops]
-    region_of = region_of_part[part_of].tolist()
+    region_of = about[part_of, 0].tolist()
     return LowPoly(result, polygons, part_of, region_of, parts, first[group])
-
-
-def _corners(W, G, regions, tolerance, walls):
-    """Move the vertices into the planes of their regions, those of the larger ones first."""
-    count = len(regions.areas)
-    keys = np.unique(G.astype(np.int64) * count + regions.of_triangle[:, None])
-    vertex, plane = np.divmod(keys, count)
-    most = np.full(len(W), MOST)
-    return nearest_on_planes(
-        W, vertex, plane, regions.normals, regions.offsets, most, tolerance, walls
-    )[0]
 
 
 def _parts(graph, region, charts):

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..mesh.edges import Edges
 
+MOST_LEFT = 3.0
 _FEWEST = 3  # corners of a loop
 
 
@@ -26,8 +27,11 @@ class Outlines:
         Where the vertices go that are kept.
     F : (m,3) int array
     part : (m,) int array
+    facing : (k,3) array
+        The unit normal of the plane of each part.
     course : float
-        How far a chain may leave its course.
+        How far a chain may leave its course, where planes meet at a right angle; the flatter they
+        meet, the farther, up to `MOST_LEFT` times, since the shape changes the less.
 
     Attributes
     ----------
@@ -35,12 +39,15 @@ class Outlines:
         Of each part, the vertices around it and around its holes, counterclockwise and clockwise.
     """
 
-    def __init__(self, P, F, part, course):
+    def __init__(self, P, F, part, facing, course):
         self._P, self._F, self._part = P, F, part
         self._find_border(Edges(F, len(P)))
         dense = self._dense_loops()
         self._chains = self._find_chains()
-        self._kept = [self._simplified(chain, course) for chain in self._chains]
+        courses = self._courses(facing, course)
+        self._kept = [
+            self._simplified(chain, one) for chain, one in zip(self._chains, courses, strict=True)
+        ]
         self._keep_distinct()
         self._keep_open(dense)
         self.loops = {}
@@ -108,6 +115,21 @@ class Outlines:
                 done.update(pairwise(chain[::-1]))
                 chains.append(chain)
         return chains
+
+    def _courses(self, facing, course):
+        """Return how far each chain may leave its course."""
+        parts = {}
+        ends = self._F[:, [1, 2, 0]].ravel()
+        for h in self._border.tolist():
+            pair = frozenset((int(self._start[h]), int(ends[h])))
+            parts.setdefault(pair, []).append(int(self._part[h // 3]))
+        found = []
+        for chain in self._chains:
+            beside = parts[frozenset(chain[:2])]
+            cosine = facing[beside[0]] @ facing[beside[-1]] if len(beside) == 2 else 0.0
+            sine = np.sqrt(max(0.0, 1.0 - cosine**2)) if cosine > 0.0 else 1.0
+            found.append(min(course[p] for p in beside) / max(sine, 1.0 / MOST_LEFT))
+        return found
 
     def _simplified(self, chain, course):
         """Return which entries of a chain are kept, in ascending order."""

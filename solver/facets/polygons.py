@@ -27,6 +27,11 @@ def filled(P, loops, normal, flatness):
     return _merged(P, _triangles(at, loops, vertices[is_off]), flatness, normal)
 
 
+def edges_of(loop):
+    """Return pairs of the vertices of a loop, each with the next."""
+    return list(zip(loop, [*loop[1:], loop[0]], strict=True))
+
+
 def normal_of(P, loop):
     """Return the normal of a loop, of the length of twice its area."""
     X = P[loop] - P[loop[0]]
@@ -42,6 +47,17 @@ def is_polygon(P, loop, flatness, normal):
     if not size > 0.0 or own @ normal <= 0.0:
         return False
     return float(np.ptp(P[loop] @ (own / size))) <= 2.0 * flatness
+
+
+def crossings(P, loops, normal):
+    """Return pairs of edges that meet, seen along the normal, and have no corner in common."""
+    turn = np.linalg.svd(normal[None])[2][1:]
+    edges = np.array([edge for loop in loops for edge in edges_of(loop)])
+    A, B = (P[edges[:, k]] @ turn.T for k in (0, 1))
+    ways = _side(A[:, None], B[:, None], A) * _side(A[:, None], B[:, None], B)
+    is_met = (ways <= 0.0) & (ways <= 0.0).T
+    is_met &= (edges[:, None, :, None] != edges[None, :, None, :]).all(axis=(2, 3))
+    return edges[np.argwhere(np.triu(is_met))].tolist()
 
 
 def _plane_coordinates(P, loops, normal):
@@ -99,7 +115,10 @@ def _bridged(at, outer, hole, others):
         if not (is_crossed & is_other).any():
             i, j = a, b
             break
-    return [*outer[: i + 1], *hole[j:], *hole[: j + 1], *outer[i:]]
+    around = [*hole[j:], *hole[:j]]
+    if hole[j] == outer[i]:  # they touch
+        return [*outer[:i], *around, *outer[i:]]
+    return [*outer[: i + 1], *around, hole[j], *outer[i:]]
 
 
 def _side(a, b, c):
@@ -130,7 +149,7 @@ def _merged(P, polygons, flatness, normal):
     is_changed = True
     while is_changed:
         is_changed = False
-        owner = {edge: k for k, loop in polygons.items() for edge in _edges(loop)}
+        owner = {edge: k for k, loop in polygons.items() for edge in edges_of(loop)}
         pairs = {
             (min(k, o), max(k, o))
             for (a, b), k in owner.items()
@@ -147,13 +166,9 @@ def _merged(P, polygons, flatness, normal):
     return list(polygons.values())
 
 
-def _edges(loop):
-    return list(zip(loop, [*loop[1:], loop[0]], strict=True))
-
-
 def _joined(one, other):
     """Return the loop around two neighbors, or None if it is not a single one."""
-    edges = set(_edges(one)) | set(_edges(other))
+    edges = set(edges_of(one)) | set(edges_of(other))
     outer = [(a, b) for a, b in edges if (b, a) not in edges]
     follows = dict(outer)
     if not outer or len(follows) < len(outer):

@@ -3,25 +3,32 @@
 
 Each triangle gets the label of the direction that it is nearest to, made smooth as the sides of
 hardening are, and connected triangles of one label are a region. A region that strays from its
-plane is parted where it does, and one that is too small goes to the neighbor with the longest
-common border.
+plane becomes two, and triangles change over to the neighbor whose plane fits them better, so that
+borders are where planes meet (Cohen-Steiner, Alliez and Desbrun, "Variational Shape
+Approximation", 2004). A region that is too small goes to a neighbor that it fits.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..aliases import FloatArray, IntArray
+from ..aliases import BoolArray, FloatArray, IntArray
 from ..details import unit
-from ..hardening.sides import CURVED, NEVER, border_shares, smooth_labels, straightened
+from ..hardening.sides import CURVED, NEVER, border_shares, settled_labels, straightened
+from .fitting import exchanged, halves
 
 FEWEST = 6
 """triangles of a region; fewer go to a neighbor if they are no larger than `CLEAR`"""
 CLEAR = 5e-3
 """share of the surface of a region that is a side, however few its triangles are"""
 SMALLEST = 8e-4
-"""the same of one that is none, however many they are"""
-_ROUNDS = 4  # of parting
+"""the same of one that is none, however many they are, if it fits a neighbor"""
+LEAST = 5e-5
+"""the same, whether it fits or not"""
+WHOLE = 0.6
+"""share of a side of a region that counts as all of it"""
+_ROUNDS = 6  # of parting
+_SMOOTH = 0.1, 0.1, 0.3, 1.0  # of the borders, while planes are fitted again and again
 _TURNED = np.cos(np.radians(50.0))  # from its plane: a triangle beyond is of another region
 _MERGES = 30
 
@@ -38,12 +45,15 @@ class Regions:
     offsets : (r,) array
         Their distances from the origin.
     areas : (r,) array
+    is_faced : (r,) bool array
+        Which of them face a direction exactly.
     """
 
     of_triangle: IntArray
     normals: FloatArray
     offsets: FloatArray
     areas: FloatArray
+    is_faced: BoolArray
 
 
 def nearest_labels(graph, directions, counts=None):
@@ -61,7 +71,8 @@ def nearest_labels(graph, directions, counts=None):
     costs = (1.0 - graph.normals @ directions.T) / max(apart, 1e-9)
     if counts is not None:
         costs[~counts] += NEVER / max(apart, 1e-9)
-    return smooth_labels(costs, border_shares(graph, np.ones(len(graph.one), bool)))
+    shares = border_shares(graph, np.ones(len(graph.one), bool))
+    return settled_labels(np.float32(costs), shares)
 
 
 def regions_of(V, F, graph, directions, tolerance, counts=None):
@@ -78,24 +89,38 @@ def regions_of(V, F, graph, directions, tolerance, counts=None):
         Vertices farther from the plane of a region belong to another one, if they are many.
     counts : (m,k) bool array, optional
     """
-    label = nearest_labels(graph, directions, counts)
-    ways = directions
-    region = _merged(graph, _connected(graph, label))
+    X, label = V[F], nearest_labels(graph, directions, counts)
+    side = _connected(graph, label)
+    ways = directions[label[np.unique(side, return_index=True)[1]]]
+
+    def planes(region):
+        return _planes(X, graph, region, side, ways)
+
+    region = _merged(graph, X, side, planes, tolerance)
     for _ in range(_ROUNDS):
-        region, found = _planes(V, F, graph, region, label, ways)
-        heights = np.einsum("mcj,mj->mc", V[F], found.normals[region])
-        heights -= found.offsets[region][:, None]
-        cosines = np.einsum("mj,mj->m", graph.normals, found.normals[region])
-        is_off = (np.abs(heights).max(axis=1) > tolerance) | (cosines < _TURNED)
-        above = np.where(is_off, np.sign(heights.sum(axis=1)), 0.0)
-        parted = _connected(graph, 3 * region + above.astype(np.int64) + 1)
-        is_new = np.bincount(parted[is_off], minlength=parted.max() + 1) > 0
-        after = _merged(graph, parted)
-        if after.max() == region.max() and (after == region).all():
+        found = planes(region)
+        region = found.of_triangle
+        is_off = _is_off(X, graph.normals, found, tolerance)
+        area = np.bincount(region, graph.areas * is_off, len(found.areas))
+        strays = np.flatnonzero(area > SMALLEST * graph.areas.sum())
+        if not len(strays):
             break
-        label = np.where(is_new[parted], len(directions), label)
-        region = after
-    return _planes(V, F, graph, region, label, ways)[1]
+        for number in strays:
+            rows = np.flatnonzero(region == number)
+            is_second = halves(X[rows], graph.normals[rows], graph.areas[rows], tolerance)
+            region[rows[is_second]] = region.max() + 1
+        region = _connected(graph, region)
+        for smooth in _SMOOTH:
+            region = exchanged(graph, X, planes(region), tolerance, smooth)
+        region = _merged(graph, X, _connected(graph, region), planes, tolerance)
+    return planes(region)
+
+
+def _is_off(X, N, regions, tolerance):
+    """Return which triangles (m,3,3) with normals (m,3) do not fit their regions."""
+    normals = regions.normals[regions.of_triangle]
+    heights = np.einsum("mcj,mj->mc", X, normals) - regions.offsets[regions.of_triangle][:, None]
+    return (np.abs(heights).max(axis=1) > tolerance) | ((N * normals).sum(axis=1) < _TURNED)
 
 
 def _connected(graph, label):
@@ -103,30 +128,27 @@ def _connected(graph, label):
     return graph.regions(label[graph.one] == label[graph.other])[1].astype(np.int64)
 
 
-def _merged(graph, region):
-    """Return regions (m,) of which the small ones have gone to neighbors."""
+def _merged(graph, X, region, planes, tolerance):
+    """Return regions (m,) of which the small ones have gone to neighbors that they fit."""
     total = graph.areas.sum()
     for _ in range(_MERGES):
-        count = region.max() + 1
-        area = np.bincount(region, graph.areas, count)
+        found = planes(region)  # the largest come first
+        region, area = found.of_triangle, found.areas
+        count = len(area)
         is_few = np.bincount(region, minlength=count) < FEWEST
         is_small = area < np.where(is_few, CLEAR, SMALLEST) * total
-        rank = np.empty(count, np.int64)
-        rank[np.lexsort((np.arange(count), -area))] = np.arange(count)  # the largest first
         one, other = region[graph.one], region[graph.other]
-        is_border = one != other
-        one, other = (
-            np.concatenate(p)[np.tile(is_border, 2)] for p in ((one, other), (other, one))
-        )
-        length = np.tile(graph.length[is_border], 2)
-        is_up = is_small[one] & (rank[other] < rank[one])
-        one, other, length = one[is_up], other[is_up], length[is_up]
-        if not len(one):
-            break
-        keys, where = np.unique(one * count + other, return_inverse=True)
-        length = np.bincount(where.ravel(), length)
+        ends = np.maximum(one, other), np.minimum(one, other)
+        rows = np.flatnonzero(is_small[ends[0]] & (one != other))
+        keys, where = np.unique(ends[0][rows] * count + ends[1][rows], return_inverse=True)
+        length = np.bincount(where.ravel(), graph.length[rows], len(keys))
         small, into = np.divmod(keys, count)
-        order = np.lexsort((-length, small))
+        fits = _fits(graph, X, found, small, into, tolerance)
+        goes = fits | (area[small] < LEAST * total)
+        if not goes.any():
+            break
+        small, into, length, fits = (each[goes] for each in (small, into, length, fits))
+        order = np.lexsort((-length, ~fits, small))
         first = order[np.unique(small[order], return_index=True)[1]]
         target = np.arange(count)
         target[small[first]] = into[first]
@@ -136,22 +158,44 @@ def _merged(graph, region):
     return region
 
 
-def _planes(V, F, graph, region, label, directions):
-    """Return regions numbered by size, and the Regions with the planes that fit them best."""
+def _fits(graph, X, regions, small, into, tolerance):
+    """Return which regions (k,), in ascending order, would be in the planes of others (k,)."""
+    order = np.argsort(regions.of_triangle, kind="stable")
+    starts, ends = (
+        np.searchsorted(regions.of_triangle[order], small, side) for side in ("left", "right")
+    )
+    found = np.zeros(len(small), bool)
+    for k, plane in enumerate(into):
+        rows = order[starts[k] : ends[k]]
+        heights = X[rows] @ regions.normals[plane] - regions.offsets[plane]
+        faces = graph.areas[rows] @ (graph.normals[rows] @ regions.normals[plane])
+        is_near = np.abs(heights).max() <= tolerance
+        found[k] = is_near and faces > _TURNED * graph.areas[rows].sum()
+    return found
+
+
+def _planes(X, graph, region, side, ways):
+    """Return Regions numbered by size, with the planes that fit them best.
+
+    A region that is as good as a whole side faces exactly the way (3,) of that, or nearly.
+    """
     count = region.max() + 1
-    area = np.bincount(region, graph.areas, count)
     number = np.empty(count, np.int64)
-    number[np.argsort(-area, kind="stable")] = np.arange(count)
+    number[np.argsort(-np.bincount(region, graph.areas, count), kind="stable")] = np.arange(count)
     region = number[region]
     area = np.bincount(region, graph.areas, count)
+    keys, where = np.unique(region * len(ways) + side, return_inverse=True)
+    common = np.bincount(where.ravel(), graph.areas, len(keys))
+    is_whole = common > WHOLE * np.bincount(side, graph.areas, len(ways))[keys % len(ways)]
+    keys = keys[is_whole][np.argsort(common[is_whole], kind="stable")]  # the largest has its way
     weighted = graph.areas[:, None] * graph.normals
     mean = unit(np.stack([np.bincount(region, x, count) for x in weighted.T], axis=1))
-    votes = np.zeros((count, len(directions) + 1))
-    np.add.at(votes, (region, label), graph.areas)
-    own = votes.argmax(axis=1)
-    is_faced = own < len(directions)
-    faced = np.where(is_faced[:, None], directions[np.where(is_faced, own, 0)], mean)
+    faced = mean.copy()
+    faced[keys // len(ways)] = ways[keys % len(ways)]
     normals = straightened(mean, faced)
-    heights = np.einsum("mj,mj->m", V[F].mean(axis=1), normals[region])
+    is_faced = np.zeros(count, bool)
+    is_faced[keys // len(ways)] = True
+    is_faced &= (normals == faced).all(axis=1)
+    heights = np.einsum("mj,mj->m", X.mean(axis=1), normals[region])
     offsets = np.bincount(region, graph.areas * heights, count) / np.where(area > 0.0, area, 1.0)
-    return region, Regions(region, normals, offsets, np.asarray(area, dtype=np.float64))
+    return Regions(region, normals, offsets, np.asarray(area, dtype=np.float64), is_faced)

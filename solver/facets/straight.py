@@ -6,9 +6,7 @@ from another part. Where such two have more than one edge in common, the border 
 turn that nothing in the shape asks for: corners between them go.
 """
 
-import numpy as np
-
-from .polygons import is_polygon, normal_of
+from .polygons import crossings, edges_of, is_polygon, normal_of
 
 
 def straightened(P, polygons, chart_of, flatness):
@@ -26,7 +24,7 @@ def straightened(P, polygons, chart_of, flatness):
         How far the corners of a polygon may be from a plane.
     """
     loops = dict(enumerate(map(list, polygons)))
-    owner = {edge: k for k, loop in loops.items() for edge in _edges(loop)}
+    owner = {edge: k for k, loop in loops.items() for edge in edges_of(loop)}
     around = {}
     for k, loop in loops.items():
         for v in loop:
@@ -44,14 +42,14 @@ def straightened(P, polygons, chart_of, flatness):
             del around[v]
             for k, loop in zip(pair, made, strict=True):
                 again.update(loop)
-                for edge in _edges(loops.pop(k)):
+                for edge in edges_of(loops.pop(k)):
                     owner.pop(edge, None)
                 if len(loop) < 3:
                     for other in loop:
                         around[other].remove(k)
                 else:
                     loops[k] = loop
-            owner.update({e: k for k in pair if k in loops for e in _edges(loops[k])})
+            owner.update({e: k for k in pair if k in loops for e in edges_of(loops[k])})
         open_ones = sorted(again & around.keys())
     kept = sorted(loops)
     return [loops[k] for k in kept], kept
@@ -68,7 +66,7 @@ def _without(P, loops, owner, v, pair, flatness):
     for (a, b), loop, k in zip((one, other), found, pair, strict=True):
         if len(loop) >= 3:
             normal = normal_of(P, loops[k])
-            if not is_polygon(P, loop, flatness, normal) or _crosses_itself(P[loop], normal):
+            if not is_polygon(P, loop, flatness, normal) or crossings(P, [loop], normal):
                 return None
             if owner.get((a, b), k) not in pair:
                 return None
@@ -78,22 +76,3 @@ def _without(P, loops, owner, v, pair, flatness):
 def _beside(loop, v):
     at = loop.index(v)
     return loop[at - 1], loop[(at + 1) % len(loop)]
-
-
-def _edges(loop):
-    return zip(loop, [*loop[1:], loop[0]], strict=True)
-
-
-def _crosses_itself(X, normal):
-    """Return whether edges of a polygon (c,3) meet others than those beside them, seen along."""
-    turn = np.linalg.svd(normal[None])[2][1:]
-    A = X @ turn.T
-    B = np.roll(A, -1, axis=0)
-
-    def sides(p):
-        along, away = (B - A)[:, None], p[None] - A[:, None]
-        return along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0]
-
-    is_met = (sides(A) * sides(B) <= 0.0) & (sides(A) * sides(B) <= 0.0).T
-    apart = np.abs(np.subtract.outer(np.arange(len(X)), np.arange(len(X))))
-    return bool((is_met & (apart > 1) & (apart < len(X) - 1)).any())

@@ -187,7 +187,7 @@ def _of_groups(graph, costs, is_followed, group):
     one, other = group[graph.one], group[graph.other]
     shares = _shares(one, other, graph.length * (is_followed & (one != other)), count)
     costs = np.float32((gather @ costs) / area)
-    return _without_teeth(smooth_labels(costs, shares), costs, shares)[group]
+    return settled_labels(costs, shares)[group]
 
 
 def _flat_and_round(form):
@@ -233,12 +233,15 @@ def _shares(one, other, length, count):
     return sp.csr_matrix(shares, dtype=np.float32)
 
 
-def smooth_labels(costs, shares):
-    """Return the likeliest label (m,) of each triangle, by costs (m,k) and `border_shares`."""
+def settled_labels(costs, shares):
+    """Return the likeliest label (m,) of each triangle, without teeth along the borders.
+
+    `costs`: (m,k) float32. `shares`: of `border_shares`.
+    """
     p, before = _likely(-costs), 0.0
     for _ in range(ROUNDS):
         p, before = _likely(WEIGHT * (shares @ p) - costs), p
-    return (p + before).argmax(axis=1)
+    return _without_teeth((p + before).argmax(axis=1), costs, shares)
 
 
 def _without_teeth(label, costs, shares):

@@ -5,14 +5,16 @@ import numpy as np
 
 MOST = 3
 """planes that a vertex can be moved into"""
-_LEAST_ANGLE = 0.1
+LEAST_ANGLE = 0.1
 """sine of the angle between a plane and the earlier ones of its vertex, below which it is skipped:
 their intersection would be far away"""
 _ROUNDING = 1e-12
 """of the largest coordinate: a vertex closer to a plane than this lies in it"""
 
 
-def nearest_on_planes(V, vertex, plane, normals, offsets, most, limit, walls=()):
+def nearest_on_planes(
+    V, vertex, plane, normals, offsets, most, limit, walls=(), least_angle=LEAST_ANGLE
+):
     """Move vertices to the nearest points that lie in their planes.
 
     The planes of a vertex are accepted one after the other. One that is almost parallel to those
@@ -25,15 +27,15 @@ def nearest_on_planes(V, vertex, plane, normals, offsets, most, limit, walls=())
     in the unit of the positions. `most`: (n,) int, how many planes each vertex can be moved into, 0
     to 3. `limit`: float, the largest distance that a vertex may be moved by, in the unit of the
     positions. `walls`: sequence of ((n,) bool, (3,)), vertices that move only along a plane, and
-    its unit normal. Returns `positions`: (n,3); `is_in`: (p,) bool, whether the vertex of each pair
-    now lies in its plane.
+    its unit normal. `least_angle`: as `LEAST_ANGLE`. Returns `positions`: (n,3); `is_in`: (p,)
+    bool, whether the vertex of each pair now lies in its plane.
     """
     step = np.zeros_like(V)
     basis = np.zeros((len(V), MOST + len(walls), 3))
     for number, (is_inside, normal) in enumerate(walls):
         along = _across(basis, np.broadcast_to(normal, V.shape))
         size = np.linalg.norm(along, axis=1)
-        is_new = is_inside & (size > _LEAST_ANGLE)
+        is_new = is_inside & (size > LEAST_ANGLE)
         basis[is_new, MOST + number] = along[is_new] / size[is_new, None]
     rounding = _ROUNDING * max(np.abs(V).max(initial=0.0), np.abs(offsets).max(initial=0.0))
     is_in = np.zeros(len(vertex), dtype=bool)
@@ -44,7 +46,7 @@ def nearest_on_planes(V, vertex, plane, normals, offsets, most, limit, walls=())
         is_in[pairs[np.abs(gap) <= rounding]] = True
         along = _across(basis[v], normal)
         size = np.linalg.norm(along, axis=1)
-        is_free = (count[v] < most[v]) & (size > _LEAST_ANGLE)
+        is_free = (count[v] < most[v]) & (size > least_angle)
         squared = np.where(is_free, size, 1.0) ** 2
         moved = step[v] + (gap / squared)[:, None] * along
         is_taken = is_free & (np.linalg.norm(moved, axis=1) <= limit)

@@ -9,6 +9,8 @@ import pytest
 from shapes import blob, extent, rotation, sheet
 
 from solver import PAPER, low_poly, stylize
+from solver.facets.joining import crowded, joined, without_needless
+from solver.facets.polygons import crossings
 from solver.facets.straight import straightened
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
@@ -64,6 +66,87 @@ def test_a_crisp_blob_becomes_few_planar_polygons(seed):
     assert max(off_plane(made.positions, loop) for loop in made.polygons) < 5e-4 * size
     moves = np.linalg.norm(made.positions - U, axis=1)
     assert 0.0 < moves.max() <= 0.02 * size * (1 + 1e-9)
+
+
+def test_the_eyes_of_a_head_stay_boxes():
+    V, F = rounded_box()
+    eye, sides = rounded_box(6, seed=1)
+    eye = 0.04 * eye + [0.53, 0.2, 0.2]
+    head, size = np.concatenate([V, eye]), extent(V)
+    made = low_poly(head, np.concatenate([F, len(V) + sides]), SIDES, 0.02 * size)
+    loops = [loop for loop in made.polygons if min(loop) >= len(V)]
+    assert len(loops) == 6 and {len(loop) for loop in loops} == {4}
+    corners = made.positions[sorted({v for loop in loops for v in loop})]
+    np.testing.assert_allclose(np.abs(corners - [0.53, 0.2, 0.2]), 0.02, atol=0.002)
+
+
+@pytest.mark.parametrize("by, most", [(0.02, 80), (0.05, 180)])
+def test_sides_that_bulge_are_cut_where_planes_meet(by, most):
+    V, F = rounded_box(24)
+    waves = np.cos(np.pi * V)
+    for axis, (a, b) in enumerate([(1, 2), (2, 0), (0, 1)]):
+        out = np.sign(V[:, axis]) * by * waves[:, a] * waves[:, b]
+        V[:, axis] += np.where(np.abs(V[:, axis]) > 0.42, out, 0.0)
+    size = extent(V)
+    made = low_poly(V, F, SIDES, 0.02 * size)
+    assert len(made.polygons) < most
+    edges = edges_of(made.polygons)
+    assert len(set(edges)) == len(edges) and {edge[::-1] for edge in edges} == set(edges)
+    assert max(off_plane(made.positions, loop) for loop in made.polygons) < 5e-4 * size
+    assert straightness(made) < 1e-3 * size
+    assert distances(V, made).max() < 0.015 * size
+
+
+def straightness(made):
+    """Return how far a corner between two polygons is from the line between those beside it."""
+    own = {edge: k for k, loop in enumerate(made.polygons) for edge in edges_of([loop])}
+    worst = 0.0
+    for loop in made.polygons:
+        for a, v, b in zip([loop[-1], *loop], loop, [*loop[1:], loop[0]], strict=False):
+            if own[v, a] == own[b, v]:
+                p, q = made.positions[v] - made.positions[a], made.positions[b] - made.positions[a]
+                worst = max(worst, np.linalg.norm(np.cross(p, q)) / np.linalg.norm(q))
+    return worst
+
+
+def distances(points, made):
+    """Return how far points (n,3) are from the polygons, convex ones or nearly."""
+    found = np.full(len(points), np.inf)
+    for loop in made.polygons:
+        for b, c in pairwise(loop[1:]):
+            found = np.minimum(found, to_triangle(points, *made.positions[[loop[0], b, c]]))
+    return found
+
+
+def to_triangle(points, *corners):
+    """Return the distances (n,) of points to a triangle."""
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    normal = normal / max(np.linalg.norm(normal), 1e-30)
+    edges, is_inside = [], np.ones(len(points), bool)
+    for p, q in pairwise([*corners, corners[0]]):
+        away, along = points - p, q - p
+        is_inside &= away @ np.cross(normal, along) >= 0.0
+        t = np.clip(away @ along / max(along @ along, 1e-30), 0.0, 1.0)
+        edges.append(np.linalg.norm(away - t[:, None] * along, axis=1))
+    return np.where(is_inside, np.abs((points - corners[0]) @ normal), np.min(edges, axis=0))
+
+
+def test_corners_without_room_become_one_and_needless_ones_go():
+    W = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [2, 0.01, 0]], float)
+    loops = {0: [[0, 1, 2, 5, 3, 4]], 1: [[2, 1, 0, 6, 7]], 2: [[3, 5, 2, 7, 8]]}
+    W = np.concatenate([W, [[0, 0, -2], [2, 0, -2], [2, 2, -2]]])
+    made, is_changed = without_needless(W, loops, 1e-6)
+    assert is_changed and made == {0: [[0, 2, 3, 4]], 1: [[2, 0, 6, 7]], 2: [[3, 2, 7, 8]]}
+    made = {0: [[0, 2, 5, 3, 4]], 1: [[2, 0, 6, 7]], 2: [[3, 5, 2, 7, 8]]}
+    P = np.where(np.arange(len(W))[:, None] == 5, [2.0, -0.02, 0.0], W)
+    assert crowded(W, P, made)[0] == [2, 5]
+    made, is_changed = joined(W, made, [[2, 5]])
+    assert is_changed and made == {0: [[0, 2, 3, 4]], 1: [[2, 0, 6, 7]], 2: [[3, 2, 7, 8]]}
+    assert joined(W, made, [[0, 3]])[1] is False  # far apart
+    P = np.where(np.arange(len(W))[:, None] == 2, [3.0, 1.0, 0.0], W)
+    assert crossings(P, made[0], np.array([0.0, 0, 1])) == []
+    P = np.where(np.arange(len(W))[:, None] == 3, [-1.0, 1.0, 0.0], W)
+    assert crossings(P, made[0], np.array([0.0, 0, 1])) == [[[2, 3], [4, 0]]]
 
 
 def test_charts_and_holes_part_sides():

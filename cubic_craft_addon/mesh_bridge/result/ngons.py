@@ -84,13 +84,7 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
     if "custom_normal" in mesh.attributes:  # of the smooth shape
         mesh.attributes.remove(mesh.attributes["custom_normal"])
     face_of = faces_of_triangles(mesh).tolist()
-    source: dict[Any, tuple[int, int]] = {
-        (part, polygons.places[vertex]): (face, vertex)
-        for part, face, corners in zip(
-            polygons.parts.tolist(), face_of, polygons.triangles.tolist(), strict=True
-        )
-        for vertex in corners
-    }
+    source = _Sources(polygons, face_of)
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)
@@ -103,9 +97,9 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
             verts = [edited.verts[v] for v in loop]
             face = edited.faces.get(verts)
             if face is None:
-                face = edited.faces.new(verts, old[source[part, loop[0]][0]])
+                face = edited.faces.new(verts, old[source.of(part, loop[0])[0]])
             for corner in face.loops:
-                number, vertex = source[part, corner.vert.index]
+                number, vertex = source.of(part, corner.vert.index)
                 corner.copy_from(next(c for c in old[number].loops if c.vert.index == vertex))
             face.smooth = False
             made[face] = part
@@ -115,6 +109,37 @@ def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
     finally:
         edited.free()
     mesh.update()
+
+
+class _Sources:
+    """The corners of faces that those of polygons come from."""
+
+    def __init__(self, polygons: Polygons, face_of: list[int]):
+        self._positions, self._parts = polygons.positions, polygons.parts
+        self._triangles = polygons.triangles
+        self._face_of = np.asarray(face_of)
+        self._found: dict[Any, tuple[int, int]] = {
+            (part, polygons.places[vertex]): (face, vertex)
+            for part, face, corners in zip(
+                polygons.parts.tolist(), face_of, polygons.triangles.tolist(), strict=True
+            )
+            for vertex in corners
+        }
+
+    def of(self, part: int, vertex: int) -> tuple[int, int]:
+        """Return a face of a part and its vertex at a place, or else the nearest one of the part.
+
+        Some corners lie beyond the border of their part, where planes meet.
+        """
+        found = self._found.get((part, vertex))
+        if found is None:
+            rows = np.flatnonzero(self._parts == part)
+            corners = self._triangles[rows]
+            gaps = np.linalg.norm(self._positions[corners] - self._positions[vertex], axis=2)
+            row, corner = divmod(int(gaps.argmin()), 3)
+            found = int(self._face_of[rows[row]]), int(corners[row, corner])
+            self._found[part, vertex] = found
+        return found
 
 
 def _marks(edited: bmesh.types.BMesh, part_of: dict[int, int]) -> dict[tuple[int, int], np.ndarray]:
