@@ -46,8 +46,8 @@ class Hardening:
     crispness : (n,) array
         How far the vertices go from there to the hard shape, from 0 to 1.
     firm : (n,) array
-        How far at a crispness of 1: less where they are thinner than details and belong to no plate,
-        and where they were softened.
+        How far at a crispness of 1: less where they are thinner than details, but for plates, and
+        where they were softened.
     target : Target
     side : (m,) int array
     facing : (m,3) array
