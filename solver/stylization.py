@@ -141,15 +141,17 @@ class Stylization(Stored):
         self.setup, self.rest = setup, setup.rest
         self.is_limited = most_cubeness < math.inf
         self._local = self._local_step_of(setup.rest, most_cubeness)
-        constraints: list[Mirror | Holds] = list(setup.mirrors)
-        if setup.hold_fields is not None:
-            constraints.insert(0, Holds(setup.hold_fields, self._hold_matrices))
-        self._constraints = constraints
-        self._motion = self._local.motion(setup, U, constraints)
+        self._constraints = self._constraints_of(setup)
+        self._motion = self._local.motion(setup, U, self._constraints)
         self._acceleration = self._momentum()
         self._riding: Riding | None = None
         if R is not None:
             self._local.start_from(R)
+
+    def _constraints_of(self, setup: Setup) -> list[Mirror | Holds]:
+        fields = setup.hold_fields
+        held = [] if fields is None else [Holds(fields, self._hold_matrices)]
+        return [*held, *setup.mirrors]
 
     def _local_step_of(self, rest, most_cubeness):
         style, options = self._style, self.options

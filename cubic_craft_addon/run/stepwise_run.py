@@ -41,6 +41,7 @@ class StepwiseRun:
         self.problem: MemberProblem | None = None
         self._posed: MemberProblem | None = None
         self._is_held = self._is_behind = False
+        self._seen: tuple[MemberProblem | None, solver.Run | None] | None = None
         self._starts = 0
         self._solutions: dict[int, pipeline.Solution] | None = None
         self._run: solver.Run | None = None
@@ -107,31 +108,32 @@ class StepwiseRun:
         self._is_held = True
 
     def follow(self, originals: Mapping[int, np.ndarray]) -> bool:
-        """Go on from here, with other positions (n,3) of the same vertices, by ``session_uid``.
+        """Go on from what is seen, with other positions (n,3) of its vertices, by ``session_uid``.
 
         Nothing is factorized anew, so the end is only near that of Cubify; see `renew`. False if
         this is not possible: the run has hardly begun, or the weights have changed too much.
         """
-        if self.problem is None or self._run is None or self._run.is_on_coarser_mesh:
+        problem, run = self._seen or (self.problem, self._run)
+        if problem is None or run is None or run.is_on_coarser_mesh:
             return False
         members = []
-        for member in self.problem.pieces:
+        for member in problem.pieces:
             original = originals.get(member.uid, member.shape.original)
             if member.is_symmetric_by_itself and not member.whole.suits(original):
                 return False
             members.append(replace(member, shape=replace(member.shape, original=original)))
-        if not self.problem.suits(members):
+        if not problem.suits(members):
             return False
-        posed = self.problem.posed(members)
-        if not self.problem.setup.serves(posed.setup):
+        posed = problem.posed(members)
+        if not problem.setup.serves(posed.setup):
             return False
         try:
-            run = pipeline.go_on(posed, self._run)
+            run = pipeline.go_on(posed, run)
         except solver.CubicCraftError as error:
-            self.problems = [f"{self.problem.name}: {error}"]
+            self.problems = [f"{problem.name}: {error}"]
             return False
         self._reset(self.problems)
-        self._posed, self._run = posed, run
+        self.problem, self._posed, self._run = problem, posed, run
         self._starts += 1
         return True
 
@@ -147,11 +149,12 @@ class StepwiseRun:
         if is_same and not was_followed and self._run is not None and not self.is_changed(tasks):
             return
         is_like = before is not None and now is not None and _has_vertices_of(now, before)
+        seen = self._seen or (before, self._run)
         self._reset(problems)
         self._key, self.problem = key_of(tasks), now
         if now is not None:
             self._start()
-            self._is_behind = is_like
+            self._is_behind, self._seen = is_like, seen if is_like else None
 
     @property
     def _run_to_go_on(self):
@@ -198,7 +201,7 @@ class StepwiseRun:
     def _reset(self, problems):
         self.problems, self._solutions, self._run = problems, None, None
         self._behind, self._is_restyled, self._has_replaced = None, False, False
-        self._posed, self._is_held, self._is_behind = None, False, False
+        self._posed, self._is_held, self._is_behind, self._seen = None, False, False, None
         self._intermediate_moment, self._intermediate, self._so_far = None, {}, None
 
     def forget(self) -> None:
@@ -241,7 +244,7 @@ class StepwiseRun:
             else:
                 solutions = pipeline.solutions_of(self.problem, self._run)
                 uids = [member.uid for member in self.problem.pieces]
-                self._solutions = dict(zip(uids, solutions, strict=True))
+                self._solutions, self._seen = dict(zip(uids, solutions, strict=True)), None
         except solver.CubicCraftError as error:
             self._reset([f"{self.problem.name}: {error}"])
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray, IntArray
+from ..global_step.motion import Motion
 from ..setup import Setup
 from ..stylization import Stylization
 from .face_step import FaceStep
@@ -76,10 +77,14 @@ class HardStylization(Stylization):
     def beside(self, soft: Stylization) -> HardStylization:
         """Return one at the same point, with the same sides, which can `follow` another soft one.
 
-        It has the crispness of that, and the places of what is pinned or loose.
+        It has the crispness of that, and the places of what is pinned, held or loose.
         """
         other = copy(self)
         other.rest, other._style, other._targets = soft.rest, soft._style, soft._targets
+        if len(soft._hold_matrices) == len(self._hold_matrices):
+            other._hold_matrices = soft._hold_matrices
+        other._constraints = other._constraints_of(self.setup)
+        other._motion = Motion(self.setup, self._local, self._motion.positions, other._constraints)
         other.hardening = self.hardening.with_crispness(soft._style)
         return other
 
@@ -104,6 +109,7 @@ class HardStylization(Stylization):
         other.__dict__.update(soft.__dict__)
         other.iterations, other.hardening, other.setup = self.iterations, found, held
         other._local = self._local.go_on_with(other.rest, found.target)
+        other._constraints = other._constraints_of(held)
         other._motion = other._local.motion(held, U, other._constraints)
         return other
 

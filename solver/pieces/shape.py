@@ -38,9 +38,10 @@ class Shape:
             return True
         is_same = self.original.tobytes() == other.original.tobytes()
         is_same &= other.cage is None if self.cage is None else self.cage.is_like(other.cage)
-        if (self.faces is None) != (other.faces is None):
-            return False
-        is_same &= self.faces is None or np.array_equal(self.faces, other.faces)
+        if self.faces is None or other.faces is None:
+            is_same &= self.faces is other.faces
+        else:
+            is_same &= np.array_equal(self.faces, other.faces)
         return is_same and np.array_equal(self.triangles, other.triangles)
 
     def whole(

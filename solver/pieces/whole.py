@@ -109,25 +109,25 @@ class Whole:
         """Return which handle (n,) takes each vertex along, those around held vertices included."""
         return handle_of
 
-    @property
+    @cached_property
     def triangles(self) -> IntArray:
         """(M,3) int triangles of the whole."""
         return self._triangles_and_faces[0]
 
     @cached_property
     def _triangles_and_faces(self):
-        F, of = self._triangles, self._face_of
-        found, faces = [F], [of]
+        F, count = self._triangles, len(self._triangles)
+        face_of = np.arange(count) if self._face_of is None else self._face_of
+        found, faces = [F], [face_of]
         for element in range(1, len(self._numbers)):
             images = self._numbers[element][F]
             if bin(element).count("1") % 2:
                 images = images[:, ::-1]
-            is_new = (images >= len(self._original)).any(
-                axis=1
-            )  # in the plane, it is its own image
+            is_new = (images >= len(self._original)).any(axis=1)  # one in the plane is its own
             found.append(images[is_new])
-            faces.append(None if of is None else len(F) * element + of[is_new])
-        return np.concatenate(found), None if of is None else np.concatenate(faces)
+            faces.append(count * element + face_of[is_new])
+        are_whole = self._face_of is None
+        return np.concatenate(found), None if are_whole else np.concatenate(faces)
 
     def images(self, points: FloatArray) -> FloatArray:
         """Return points (n,3) of the mesh, float64, with their images (N,3)."""
