@@ -125,7 +125,7 @@ def _import(path: Path, layout: ObjLayout | None) -> None:
     """Run Blender's importer for a file."""
     how = {}
     if layout is not None:
-        how = {"use_split_objects": len(layout.parts) > 1, "import_vertex_groups": True}
+        how = {"use_split_objects": layout.is_split, "import_vertex_groups": True}
     elif path.suffix.lower() == ".blend":
         how = {"load_ui": False, "use_scripts": False}  # nothing in a file runs
     try:

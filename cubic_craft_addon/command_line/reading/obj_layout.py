@@ -31,6 +31,8 @@ class ObjLayout:
     parts: list[tuple[np.ndarray, np.ndarray]]
     """per object in Blender the indices, ascending, that its faces and lines use, and these with
     those that lie in its part of the file and that nothing uses"""
+    is_split: bool
+    """whether Blender may split the file into its objects, which also have their names then"""
     rows: dict[int, np.ndarray] = field(default_factory=dict)
     """for each Blender object, by its session_uid, as names may change, the index in the file of
     each of its vertices"""
@@ -58,12 +60,12 @@ def read_layout(path: Path) -> ObjLayout:
     positions = _positions(coordinates, path)
     sections = [section for section in sections if section[1]]
     parts = _parts(sections, len(positions))
-    if not np.array_equal(
-        np.concatenate([[], *(rows for _, rows in parts)]), range(len(positions))
-    ):
+    order = np.concatenate([[], *(rows for _, rows in parts)])
+    is_split = np.array_equal(order, range(len(positions)))
+    if not is_split:
         everything = set().union(*(used for _, used in sections))
         parts = _parts([(0, everything)], len(positions))
-    return ObjLayout(positions, parts)
+    return ObjLayout(positions, parts, is_split)
 
 
 def _parts(sections: list[tuple[int, set[int]]], count: int) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -71,9 +73,7 @@ def _parts(sections: list[tuple[int, set[int]]], count: int) -> list[tuple[np.nd
 
     Those go to the object that they lie in, or to the one before.
     """
-    loose = np.array(
-        sorted(set(range(count)).difference(*(used for _, used in sections))), np.int64
-    )
+    loose = np.setdiff1d(np.arange(count), [v for _, used in sections for v in used])
     part_of_loose = np.searchsorted([first for first, _ in sections[1:]], loose, side="right")
     parts = []
     for number, (_, used) in enumerate(sections):
