@@ -250,7 +250,7 @@ class KeepApart:
         asked = np.unique(F[pairs[found]])
         is_beside = np.zeros(len(V), dtype=bool)
         is_beside[asked] = KDTree(V[crossed]).query(V[asked])[0] < BESIDE
-        found[found] = is_beside[F[pairs[found]]].any(axis=2).all(axis=1)
+        found[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
         return found
 
     def _is_too_dear(self, stylization, before):
