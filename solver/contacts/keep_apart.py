@@ -241,15 +241,14 @@ class KeepApart:
         if not found.any():
             return found
         V, F = self._rest.V, self._shown
-        places = KDTree(V[np.unique(F[pairs[found]])])
-        is_near = places.query(V, distance_upper_bound=BESIDE)[0] < BESIDE
+        corners = np.unique(F[pairs[found]])
+        is_near = KDTree(V[corners]).query(V, distance_upper_bound=BESIDE)[0] < BESIDE
         asked = np.flatnonzero(is_near[F].any(axis=1))
         crossed = np.unique(F[asked[self._rest.crosses_at_rest(asked)]])
         if not len(crossed):
             return np.zeros(len(pairs), dtype=bool)
-        asked = np.unique(F[pairs[found]])
         is_beside = np.zeros(len(V), dtype=bool)
-        is_beside[asked] = KDTree(V[crossed]).query(V[asked])[0] < BESIDE
+        is_beside[corners] = KDTree(V[crossed]).query(V[corners])[0] < BESIDE
         found[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
         return found
 
