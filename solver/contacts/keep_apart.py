@@ -49,7 +49,9 @@ the triangles that cross before it"""
 BETWEEN = 0.8
 """share of the pairs that have to be of two parts, or each round is worth it"""
 BESIDE = 0.03
-"""of the size: how far from where two parts cross at rest they may come to cross"""
+"""of the size: how far from where two parts cross at rest they may come to cross,..."""
+LONG = 0.1
+"""...if one has triangles with longer edges there"""
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
 
@@ -232,25 +234,30 @@ class KeepApart:
         return (one != other) & ~is_worn[one] & ~is_worn[other]
 
     def _are_where_parts_crossed(self, pairs):
-        """Return which pairs (k,2) are of two parts, and near where surfaces cross at rest.
+        """Return which pairs (k,2) are of two parts, one long, and near where they cross at rest.
 
-        A stick in a hand goes into it elsewhere as both become square, which is no fault.
+        A stick in a hand goes into it elsewhere as both become square. It would stay round all
+        along its long triangles; small ones may stay soft, or an eye would come through its lid.
         """
-        part = self._rest.topology.part[self._shown[:, 0]]
-        found = part[pairs[:, 0]] != part[pairs[:, 1]]
-        if not found.any():
-            return found
         V, F = self._rest.V, self._shown
+        part = self._rest.topology.part[F[pairs, 0]]
+        found = np.flatnonzero(part[:, 0] != part[:, 1])
+        corners = V[F[pairs[found]]]
+        is_long = np.linalg.norm(corners - np.roll(corners, 1, axis=2), axis=3).max(axis=2) > LONG
+        found = found[is_long.any(axis=1)]
+        are_all = np.zeros(len(pairs), dtype=bool)
+        if not len(found):
+            return are_all
         corners = np.unique(F[pairs[found]])
         is_near = KDTree(V[corners]).query(V, distance_upper_bound=BESIDE)[0] < BESIDE
         asked = np.flatnonzero(is_near[F].any(axis=1))
         crossed = np.unique(F[asked[self._rest.crosses_at_rest(asked)]])
         if not len(crossed):
-            return np.zeros(len(pairs), dtype=bool)
+            return are_all
         is_beside = np.zeros(len(V), dtype=bool)
         is_beside[corners] = KDTree(V[crossed]).query(V[corners])[0] < BESIDE
-        found[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
-        return found
+        are_all[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
+        return are_all
 
     def _is_too_dear(self, stylization, before):
         """Return whether the first round has taken back too much of what the style had done."""
