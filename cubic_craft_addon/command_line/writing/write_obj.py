@@ -34,20 +34,22 @@ def write_obj(
     for image in bpy.data.images:
         if image.packed_file is not None and image.users:
             _unpack(image, path)
-    rough = temporary.with_suffix(".blender.obj")
-    export(filepath=str(rough))
+    export(filepath=str(temporary))
     rows = (words for obj in objects for words in _placed_positions(obj))
     names, library = (obj.name for obj in objects), path.with_suffix(".mtl")
-    with rough.open("rb") as source, temporary.open("wb") as target:
-        for line in source:
+    with temporary.open("r+b") as file:  # which is not made again if the process ends meanwhile
+        lines = file.readlines()
+        file.seek(0)
+        for line in lines:
             if line.startswith(b"v "):
                 line = b"v %s\n" % " ".join(map(str, next(rows))).encode()
             elif line.startswith(b"o "):  # where spaces are underscores
                 line = b"o %s\n" % " ".join(next(names).splitlines()).encode()
             elif line.startswith(b"mtllib "):
                 line = b"mtllib %s\n" % library.name.encode(errors="surrogateescape")
-            target.write(line)
-    materials = rough.with_suffix(".mtl")
+            file.write(line)
+        file.truncate()
+    materials = temporary.with_suffix(".mtl")
     if materials.is_file():
         materials.replace(library)
 

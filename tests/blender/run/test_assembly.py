@@ -180,9 +180,9 @@ def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkey
     looked = []
     rest_mesh = rest.rest_mesh
 
-    def counted(*arguments):
+    def counted(*arguments, **others):
         looked.append(arguments)
-        return rest_mesh(*arguments)
+        return rest_mesh(*arguments, **others)
 
     monkeypatch.setattr(rest, "rest_mesh", counted)
     session = begin(*trio)
