@@ -2,6 +2,7 @@
 """One mesh that becomes cubic: figure 5 at growing cubeness, and the README's first picture."""
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
+from cubic_craft.cubic_craft_addon.mesh_bridge.access.sharp_edges import ANGLE
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
@@ -25,5 +26,8 @@ def compose_character(meshes: FigureMeshes) -> list[Group]:
     (model,) = meshes.there([], instead=["fox"])
     groups = [meshes.group(model, model.original, "original", "grey")]
     for name, settings in LOOKS.items():
-        groups.append(meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green"))
+        group = meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green")
+        if name != "soft":  # *Shade Edges Sharp*
+            group.copies[0].data.set_sharp_from_angle(angle=ANGLE)
+        groups.append(group)
     return groups

@@ -110,7 +110,7 @@ for suite in "${SUITES[@]}"; do prepare "$suite" & done
 wait
 export HERE OUTPUT WORK EXPECT_DEVICE
 export -f run_test run_script expected_device
-if ! cat "$WORK"/*.tests 2>/dev/null | grep -q . && [ ! -e "$WORK/failed" ]; then
+if [ -z "$(cat "$WORK"/*.tests 2>/dev/null)" ] && [ ! -e "$WORK/failed" ]; then
     echo "no test's name matches TESTS=${TESTS:-test_*}" >&2
     exit 2
 fi
