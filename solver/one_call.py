@@ -155,11 +155,12 @@ def stylize(
     >>> gem = stylize(V, F, form="octahedron", device="numpy")
     >>> soft = stylize(V, F, 0.6, proxy=PAPER, device="numpy")
     """
-    faces, (V, F) = F, check_mesh(V, F)
+    polygons = F
+    V, F = check_mesh(V, polygons)
     check_winding(F, len(V))
     proxy = ProxyOptions() if proxy is None else proxy
     is_paper = proxy == PAPER
-    setup = Setup(rest_mesh(V, F, proxy, faces_of_triangles(faces)), pinned)
+    setup = Setup(rest_mesh(V, F, proxy, faces_of_triangles(polygons)), pinned)
     style = Style(
         cubeness,
         np.eye(3) if orientation is None else orientation,

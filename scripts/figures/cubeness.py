@@ -2,7 +2,7 @@
 """One mesh that becomes cubic: figure 5 at growing cubeness, and the README's first picture."""
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
-from cubic_craft.cubic_craft_addon.mesh_bridge.access.sharp_edges import ANGLE
+from cubic_craft.cubic_craft_addon.mesh_bridge import let_edges_follow
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
@@ -28,6 +28,6 @@ def compose_character(meshes: FigureMeshes) -> list[Group]:
     for name, settings in LOOKS.items():
         group = meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green")
         if name != "soft":  # *Shade Edges Sharp*
-            group.copies[0].data.set_sharp_from_angle(angle=ANGLE)
+            let_edges_follow(group.copies[0].data)
         groups.append(group)
     return groups

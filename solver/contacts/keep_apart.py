@@ -75,7 +75,6 @@ class _State:
 class _Before(NamedTuple):
     """What the first round begins from, until it has been judged."""
 
-    stylization: Any
     state: _State
     fall: float
     """of the cubic energy, from rest"""
@@ -175,7 +174,7 @@ class KeepApart:
         found = mirrored(found, stylization.setup.mirrors)
         if not self._rounds and self._are_of_two_parts(pairs).mean() > BETWEEN:
             fall = _energy_at_rest(stylization).cubic - stylization.energy.cubic
-            self._before = _Before(stylization, self._now, fall)
+            self._before = _Before(self._now, fall)
         self._first = self._first or stylization
         self._links = merged(self._links, found)
         self._rounds += 1
@@ -263,7 +262,7 @@ class KeepApart:
         """Return whether the first round has taken back too much of what the style had done."""
         least, by_share = WORTH
         worth = least + by_share * before.state.count / len(self._shown)
-        return stylization.energy.cubic - before.stylization.energy.cubic > worth * before.fall
+        return stylization.energy.cubic - self._first.energy.cubic > worth * before.fall
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""

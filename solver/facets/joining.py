@@ -7,7 +7,7 @@ between two others. All polygons around lose them alike, so no gap opens.
 
 import numpy as np
 
-from .polygons import crossings, edges_of, normal_of
+from .polygons import beside, crossings, edges_of, normal_of
 
 SHORT = 0.004
 """of the size: shorter edges go"""
@@ -72,7 +72,7 @@ def tangled(P, loops, normals):
         near = {}
         for loop in of:
             for v in loop:
-                near.setdefault(v, set()).update(_beside(loop, v))
+                near.setdefault(v, set()).update(beside(loop, v))
         for one, other in crossings(P, of, normals[part]):
             pairs = [(a, b) for a in one for b in other if b in near[a]]
             found += pairs or [(a, v) for a in one for v in near[a] if near[v] & {*other}]
@@ -92,7 +92,7 @@ def without_needless(P, loops, off):
         pair = [loop for part in around[v] for loop in loops[part] if v in loop]
         if len(pair) != 2 or min(map(len, pair)) < 4:
             continue
-        (a, b), others = (_beside(loop, v) for loop in pair)
+        (a, b), others = (beside(loop, v) for loop in pair)
         if others != (b, a) or edges & {(a, b), (b, a)}:
             continue
         along, away = P[b] - P[a], P[v] - P[a]
@@ -131,8 +131,3 @@ def _replaced(loops, kept, gone):
 
 def _is_small(W, loops):
     return sum(np.linalg.norm(normal_of(W, loop)) for loop in loops) < 2.0 * LEAST_AREA
-
-
-def _beside(loop, v):
-    at = loop.index(v)
-    return loop[at - 1], loop[(at + 1) % len(loop)]

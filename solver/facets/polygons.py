@@ -32,6 +32,12 @@ def edges_of(loop):
     return list(zip(loop, [*loop[1:], loop[0]], strict=True))
 
 
+def beside(loop, v):
+    """Return the vertices of a loop before and after one of them."""
+    at = loop.index(v)
+    return loop[at - 1], loop[(at + 1) % len(loop)]
+
+
 def normal_of(P, loop):
     """Return the normal of a loop, of the length of twice its area."""
     X = P[loop] - P[loop[0]]

@@ -6,7 +6,7 @@ from another part. Where such two have more than one edge in common, the border 
 turn that nothing in the shape asks for: corners between them go.
 """
 
-from .polygons import crossings, edges_of, is_polygon, normal_of
+from .polygons import beside, crossings, edges_of, is_polygon, normal_of
 
 
 def straightened(P, polygons, chart_of, flatness):
@@ -57,7 +57,7 @@ def straightened(P, polygons, chart_of, flatness):
 
 def _without(P, loops, owner, v, pair, flatness):
     """Return both polygons (2 lists) without a corner that they share, None if it has to stay."""
-    one, other = (_beside(loops[k], v) for k in pair)
+    one, other = (beside(loops[k], v) for k in pair)
     if one != other[::-1]:
         return None
     found = [[x for x in loops[k] if x != v] for k in pair]
@@ -71,8 +71,3 @@ def _without(P, loops, owner, v, pair, flatness):
             if owner.get((a, b), k) not in pair:
                 return None
     return found
-
-
-def _beside(loop, v):
-    at = loop.index(v)
-    return loop[at - 1], loop[(at + 1) % len(loop)]

@@ -55,8 +55,8 @@ class Shape:
             while len(self._wholes) >= _KEPT:  # the object of a Mirror modifier may be dragged
                 del self._wholes[next(iter(self._wholes))]
             own = self.original, self.triangles, *given
-            own_faces = self.faces
-            self._wholes[key] = Whole(*own, own_faces) if cage is None else Subdivided(*own, cage)
+            made = Whole(*own, self.faces) if cage is None else Subdivided(*own, cage)
+            self._wholes[key] = made
         return self._wholes[key]
 
     @cached_property

@@ -72,7 +72,7 @@ def mark_moved(mesh: bpy.types.Mesh) -> None:
 
     ``foreach_set`` notifies nobody, and ``mesh.update()`` would keep the cached triangulation and
     bounding box of the old shape. Setting a single coordinate, even to the same value, drops all
-    caches, tags the mesh for evaluation and redraws.
+    caches, tags the mesh for evaluation and redraws. Sharp edges that follow the shape do so now.
     """
     if mesh.vertices:
         first = mesh.vertices[0]

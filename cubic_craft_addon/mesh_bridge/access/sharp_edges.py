@@ -49,4 +49,5 @@ def forget_edges(mesh: bpy.types.Mesh) -> None:
     """Remove the marks that follow the shape."""
     if has_following_edges(mesh):
         leave_edges(mesh)
-        mesh.attributes.remove(mesh.attributes[_MARKS])
+        if marks := mesh.attributes.get(_MARKS):  # the artist may have removed them
+            mesh.attributes.remove(marks)

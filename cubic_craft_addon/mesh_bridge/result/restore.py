@@ -44,10 +44,10 @@ def restore(obj: bpy.types.Object) -> None:
     cubic_key = find_cubic_key(mesh)
     original = original_shapes(mesh, "ORIGINAL")
     with all_or_nothing(mesh):
-        forget_edges(mesh)
         write_shapes(mesh, original)
         drop_stored(mesh)
         remove_cubic_key(mesh, cubic_key)
+        forget_edges(mesh)
 
 
 def restore_first(obj: bpy.types.Object) -> None:
@@ -67,11 +67,11 @@ def restore_first(obj: bpy.types.Object) -> None:
         raise CubicCraftError(f'The first original of "{obj.name}" {how}: use Restore')
     cubic_key = find_cubic_key(mesh)
     with all_or_nothing(mesh):
-        forget_edges(mesh)
         write_shapes(mesh, first)
         drop_stored(mesh)
         drop_first(mesh)
         remove_cubic_key(mesh, cubic_key)
+        forget_edges(mesh)
 
 
 def has_traces(mesh: bpy.types.Mesh | None) -> bool:

@@ -53,6 +53,14 @@ def test_a_second_click_takes_them_back_and_apply_keeps_them(monkey):
     assert np.array_equal(sharp(mesh), marks) and not list(mesh.keys())
 
 
+def test_marks_that_the_artist_has_removed_do_not_keep_restore_from_its_work(monkey):
+    mesh = monkey.data
+    bpy.ops.cubic_craft.shade_edges()
+    mesh.attributes.remove(mesh.attributes["sharp_edge"])
+    assert bpy.ops.cubic_craft.restore() == {"FINISHED"}
+    assert sharp(mesh) is None and not list(mesh.keys())
+
+
 def test_what_looks_as_the_artist_wants_is_not_touched(monkey, part):
     seen, mesh = part("ui.seen"), monkey.data
     subdivision = monkey.modifiers.new("Subdivision", "SUBSURF")
