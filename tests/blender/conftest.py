@@ -64,7 +64,11 @@ def live(extension):
 
 @pytest.fixture
 def one_phase(live, monkeypatch):
-    """Let a tick end after one phase of the solver: else a fast machine does all in the first."""
+    """Let a tick end after one phase of the solver: else a fast machine does all in the first.
+
+    Each one looks for changes: else a fast machine does many before it sees that of a setting.
+    """
+    monkeypatch.setattr(f"{live.__name__}.session._CHECK_SHARE", float("inf"))
     for name in ("SLICE", "LONGEST"):
         monkeypatch.setattr(f"{live.__name__}.slices.{name}", 0.0)
 
