@@ -31,7 +31,6 @@ from .restore_first import CUBIC_CRAFT_OT_restore_first
 from .select_crossing import CUBIC_CRAFT_OT_select_crossing
 from .select_worn import CUBIC_CRAFT_OT_select_worn
 from .send_to import CUBIC_CRAFT_OT_send_to
-from .shade_edges import CUBIC_CRAFT_OT_shade_edges
 from .show_source import CUBIC_CRAFT_OT_show_source
 
 register, unregister = bpy.utils.register_classes_factory(
@@ -47,7 +46,6 @@ register, unregister = bpy.utils.register_classes_factory(
         CUBIC_CRAFT_OT_restore_first,
         CUBIC_CRAFT_OT_apply,
         CUBIC_CRAFT_OT_show_source,
-        CUBIC_CRAFT_OT_shade_edges,
         CUBIC_CRAFT_OT_flatten,
         CUBIC_CRAFT_OT_select_crossing,
         CUBIC_CRAFT_OT_select_worn,

@@ -127,6 +127,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         layout.prop(self, "result")
         if self.result == "NEW_OBJECT":
             layout.prop(self, "with_modifiers")
+        layout.prop(self, "sharp_edges")
         draw_solver(layout, self)
 
 

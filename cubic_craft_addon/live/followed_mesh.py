@@ -221,5 +221,6 @@ class FollowedMesh(LiveMesh):
             return False
         run = self.run
         noted = {"values": values, "run": run.outcome} if run and run.is_started else None
-        self._preview.show(mesh, solved.carried(self.original), solved.rotations, noted)
+        carried, has_edges = solved.carried(self.original), mesh_bridge.are_wanted(obj, values)
+        self._preview.show(mesh, carried, solved.rotations, noted, has_edges)
         return True

@@ -169,7 +169,9 @@ class LiveMesh:
         if is_next and self.run.has_replaced:
             self._ease.begin(positions, now)
         outcome = {"values": values, "run": self.run.outcome}
-        self._preview.show(mesh, self._ease.shown(positions, now), rotations, outcome=outcome)
+        shown = self._ease.shown(positions, now)
+        has_edges = mesh_bridge.are_wanted(obj, values)
+        self._preview.show(mesh, shown, rotations, outcome, has_edges)
         return True
 
     def arrive(self) -> None:

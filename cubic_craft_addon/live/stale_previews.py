@@ -81,6 +81,7 @@ def _keep_one(mesh: bpy.types.Mesh, outcome: Any) -> None:
         what_matters(settings_of(objects[0])), **outcome["run"], own_vertices=len(mesh.vertices)
     )
     mesh_bridge.keep_preview(mesh, asdict(run), start)
+    mesh_bridge.shade_edges(objects[0], values["sharp_edges"])
 
 
 _HANDLERS = (("undo_post", _heal), ("redo_post", _heal), ("load_post", _keep))

@@ -2,7 +2,8 @@
 """Everything that reads or writes mesh data-blocks.
 
 Only positions are ever written, the ``position`` attribute and the points of shape keys, and free
-normals, which point somewhere in object space; and sharp edges, if the artist asks for them.
+normals, which point somewhere in object space; and sharp edges of a crisp shape, on a mesh that has
+none of its own (see `sharp_edges`).
 Besides them, the bridge keeps its own attributes and one custom property on the mesh (see `note`),
 which Restore and Apply remove without a trace (a first original is removed by Apply and *Restore
 First*).
@@ -18,10 +19,10 @@ from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.sharp_edges import (
-    forget_edges,
+    are_wanted,
     has_following_edges,
-    let_edges_follow,
-    may_have_following_edges,
+    only_shades,
+    rounds,
 )
 from .access.triangulation import faces_of_triangles, triangles
 from .access.vertex_groups import group_weights, vertex_group, weights_of_groups
@@ -52,4 +53,5 @@ from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import carry_result, mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
+from .result.shading import shade_edges, shade_shape
 from .result.transferred_keys import key_offsets, transfer_keys

@@ -279,3 +279,4 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
                 task.written = pipeline.write(
                     task.obj, solution, task.settings.result, remember, note
                 )
+    mesh_bridge.shade_edges(task.written, task.settings.sharp_edges)

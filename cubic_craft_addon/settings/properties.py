@@ -13,7 +13,7 @@ from ..form.properties import form_property
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
-from ..mesh_bridge import KINDS, last_run
+from ..mesh_bridge import KINDS, last_run, shade_edges
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..regions.properties import CubicCraftRegion
@@ -22,7 +22,19 @@ from ..screen import glimpse
 from .values import SETTINGS, Settings
 
 _LISTS = ("handles", "regions")
-_MORE = {"form": {"items": form_items}, "orientation": {"update": glimpse.on_turn}}
+
+
+def _on_edges(properties, _context):
+    """Shade the result of an object at once: nothing has to be solved for it."""
+    if isinstance(properties.id_data, bpy.types.Object):
+        shade_edges(properties.id_data, properties.sharp_edges)
+
+
+_MORE = {
+    "form": {"items": form_items},
+    "orientation": {"update": glimpse.on_turn},
+    "sharp_edges": {"update": _on_edges},
+}
 
 
 def _status(properties):

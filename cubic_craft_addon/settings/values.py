@@ -50,6 +50,11 @@ class Output:
         "Apply the modifiers to the new object, including the pose of an Armature. When off, the"
         " mesh without its modifiers becomes cubic",
     )
+    sharp_edges: bool = setting(True, in_animation=False, keeps_result=True)(
+        "Sharp Edges",
+        "Mark edges of crisp shapes that turn by more than 30 degrees as sharp, as smooth shading"
+        " makes them look round. Only on meshes that are smooth all over; Restore takes it back",
+    )
     # Who sculpts on a result and then moves a slider wants to keep both.
     start: Start = setting(  # noqa: RUF009
         "EDITS", numbers=(2, 0, 1), in_animation="HERE", keeps_result=True

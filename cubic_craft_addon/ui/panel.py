@@ -100,7 +100,6 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
-    seen.draw_shading(layout, obj)
     worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)
@@ -165,6 +164,7 @@ def _draw_result(layout, obj):
     layout.prop(properties, "result")
     if properties.result == "NEW_OBJECT":
         layout.prop(properties, "with_modifiers")
+    layout.prop(properties, "sharp_edges")
     if last_run(obj) is not None and not live.current():
         layout.operator("cubic_craft.flatten", icon="MESH_GRID")
 

@@ -17,7 +17,6 @@ _MAKING = {"ARRAY", "BOOLEAN", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY", "
 _COARSE = 2000  # vertices
 MAIN = 1.5
 """height of the button to click, in those of others"""
-_ONLY_SHADES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
 def can_be_seen(obj: bpy.types.Object) -> bool:
@@ -36,13 +35,6 @@ class Hint:
     """whether the cubic mesh itself will not look cubic"""
 
 
-def _rounds(modifier):
-    """Return whether what is seen of a coarse mesh is much rounder; a bevel leaves sides flat."""
-    if not isinstance(modifier, bpy.types.SubsurfModifier):
-        return False
-    return modifier.levels > 0 and modifier.subdivision_type != "SIMPLE"
-
-
 def hint_for(obj: bpy.types.Object) -> Hint | None:
     """Return what the visible mesh of an object makes of the cubic one; None if little."""
     covers = mesh_bridge.covers(obj)
@@ -51,10 +43,10 @@ def hint_for(obj: bpy.types.Object) -> Hint | None:
     shown = [each for each in obj.modifiers if each.show_viewport]
     if len(mesh_bridge.mesh_of(obj).vertices) < _COARSE:
         is_fitted = object_properties(obj).refine == "AUTO" and subdivision_of(obj) is not None
-        rounding = next((each for each in shown if _rounds(each)), None)
+        rounding = next((each for each in shown if mesh_bridge.rounds(each)), None)
         if rounding is not None and not is_fitted:
             return Hint(f"{rounding.name} will round it again", is_needed=True)
-    if any(each.type in _MAKING and not _only_shades(each) for each in shown):
+    if any(each.type in _MAKING and not mesh_bridge.only_shades(each) for each in shown):
         return Hint("Modifiers are ignored", is_needed=False)
     return None
 
@@ -71,28 +63,6 @@ def draw_hint(layout: bpy.types.UILayout, hint: Hint) -> None:
     box = layout.box()
     box.label(text=hint.text, icon="ERROR" if hint.is_needed else "INFO")
     _draw_button(box, "Cubify What You See", is_main=hint.is_needed)
-
-
-def is_rounded(obj: bpy.types.Object) -> bool:
-    """Return whether smooth shading makes the straight edges of a crisp shape look round.
-
-    Or would do so without sharp edges that follow the shape.
-    """
-    run, mesh = mesh_bridge.last_run(obj), obj.data
-    if run is None or not run.settings.get("crispness") or not isinstance(mesh, bpy.types.Mesh):
-        return False
-    if mesh_bridge.find_cubic_key(mesh) is not None:
-        return False  # edges of the basis are others
-    shown = [each for each in obj.modifiers if each.show_viewport]
-    is_shaded = any(_only_shades(each) or _rounds(each) for each in shown)
-    return not is_shaded and mesh_bridge.may_have_following_edges(mesh)
-
-
-def draw_shading(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """Offer to shade the edges of a crisp shape as what they are: a coarse one looks soft."""
-    if is_rounded(obj):
-        is_on = mesh_bridge.has_following_edges(mesh_bridge.mesh_of(obj))
-        layout.operator("cubic_craft.shade_edges", icon="MOD_EDGESPLIT", depress=is_on)
 
 
 def draw_source(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
@@ -124,8 +94,3 @@ def _draw_button(layout, text, *, is_main):
     row.scale_y = MAIN if is_main else 1.0
     button = row.operator("cubic_craft.cubify", text=text, icon="MESH_CUBE")
     button.result, button.with_modifiers = "NEW_OBJECT", True
-
-
-def _only_shades(modifier):
-    group = modifier.node_group if modifier.type == "NODES" else None
-    return modifier.type == "NODES" and (group is None or group.name.startswith(_ONLY_SHADES))

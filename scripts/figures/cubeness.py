@@ -2,7 +2,7 @@
 """One mesh that becomes cubic: figure 5 at growing cubeness, and the README's first picture."""
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
-from cubic_craft.cubic_craft_addon.mesh_bridge import let_edges_follow
+from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
@@ -27,7 +27,6 @@ def compose_character(meshes: FigureMeshes) -> list[Group]:
     groups = [meshes.group(model, model.original, "original", "grey")]
     for name, settings in LOOKS.items():
         group = meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green")
-        if name != "soft":  # *Shade Edges Sharp*
-            let_edges_follow(group.copies[0].data)
+        shade_shape(group.copies[0], {"crispness": 0.9, **settings})
         groups.append(group)
     return groups

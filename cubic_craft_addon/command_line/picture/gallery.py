@@ -126,6 +126,8 @@ def _groups(sculptures: list[Sculpture], options: Namespace, scene: bpy.types.Sc
             shape = original if number is None else sculpture.shape(number)
             for user in sculpture.users:
                 copy = detached_copy(user, shape, keep_modifiers=True)
+                if number is not None:
+                    mesh_bridge.shade_shape(copy, vars(options))
                 scene.collection.objects.link(copy)
                 copies.append(copy)
                 places.append(turn @ user.matrix_world)

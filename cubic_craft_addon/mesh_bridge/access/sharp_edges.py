@@ -1,18 +1,51 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sharp edges that follow the shape: smooth shading would make the edges of a crisp one look round.
 
-Only if the artist asks for it, and of a mesh that has no sharp edges of its own. Whenever a shape
-is written, edges that turn by more than `ANGLE` are marked; *Restore* takes the marks back.
+Only on a mesh that has no sharp edges, flat faces or custom normals of its own. Whenever a shape is
+written, edges that turn by more than `ANGLE` are marked; *Restore* takes the marks back.
 """
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import bpy
+import numpy as np
 
 ANGLE = math.radians(30.0)
 """as Blender's *Shade Smooth by Angle*"""
 _FOLLOWING = "cubic_craft_sharp_edges"  # a custom property of the mesh
 _MARKS = "sharp_edge"
+_OF_NODES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
+
+
+def are_wanted(obj: bpy.types.Object, settings: Mapping[str, Any]) -> bool:
+    """Return whether a result on an object is to have sharp edges.
+
+    Not if it is soft, if only a shape key has it, or if a modifier shades or rounds it. `settings`:
+    by name.
+    """
+    if not settings.get("sharp_edges", True) or not settings.get("crispness"):
+        return False
+    if settings.get("result") == "SHAPE_KEY":
+        return False  # edges of the basis are others
+    shown = [each for each in obj.modifiers if each.show_viewport]
+    return not any(only_shades(each) or rounds(each) for each in shown)
+
+
+def only_shades(modifier: bpy.types.Modifier) -> bool:
+    """Return whether a modifier is one of Blender's node groups that mark sharp edges."""
+    if not isinstance(modifier, bpy.types.NodesModifier):
+        return False
+    group = modifier.node_group
+    return group is None or group.name.startswith(_OF_NODES)
+
+
+def rounds(modifier: bpy.types.Modifier) -> bool:
+    """Return whether what is seen of a coarse mesh is much rounder; a bevel leaves sides flat."""
+    if not isinstance(modifier, bpy.types.SubsurfModifier):
+        return False
+    return modifier.levels > 0 and modifier.subdivision_type != "SIMPLE"
 
 
 def has_following_edges(mesh: bpy.types.Mesh) -> bool:
@@ -20,17 +53,15 @@ def has_following_edges(mesh: bpy.types.Mesh) -> bool:
     return _FOLLOWING in mesh
 
 
-def may_have_following_edges(mesh: bpy.types.Mesh) -> bool:
-    """Return whether a mesh is smooth all over, and sharp edges, if any, are ours."""
-    if mesh.has_custom_normals or "sharp_face" in mesh.attributes:
-        return False
-    return _MARKS not in mesh.attributes or has_following_edges(mesh)
+def let_edges_follow(mesh: bpy.types.Mesh, is_on: bool) -> None:
+    """Let the sharp edges of a mesh follow its shape from its next one on, or remove those.
 
-
-def let_edges_follow(mesh: bpy.types.Mesh) -> None:
-    """Mark the sharp edges of a mesh, now and whenever its shape is written."""
-    mesh[_FOLLOWING] = True
-    follow_shape(mesh)
+    A mesh that is not smooth all over stays as it is.
+    """
+    if not is_on:
+        forget_edges(mesh)
+    elif not has_following_edges(mesh) and _is_smooth(mesh):
+        mesh[_FOLLOWING] = _MARKS in mesh.attributes
 
 
 def follow_shape(mesh: bpy.types.Mesh) -> None:
@@ -47,7 +78,29 @@ def leave_edges(mesh: bpy.types.Mesh) -> None:
 
 def forget_edges(mesh: bpy.types.Mesh) -> None:
     """Remove the marks that follow the shape."""
-    if has_following_edges(mesh):
-        leave_edges(mesh)
-        if marks := mesh.attributes.get(_MARKS):  # the artist may have removed them
-            mesh.attributes.remove(marks)
+    if not has_following_edges(mesh):
+        return
+    had_attribute = mesh[_FOLLOWING]
+    leave_edges(mesh)
+    marks = mesh.attributes.get(_MARKS)
+    if marks is None:  # the artist may have removed them
+        return
+    if had_attribute:
+        marks.data.foreach_set("value", np.zeros(len(marks.data), bool))
+    else:
+        mesh.attributes.remove(marks)
+
+
+def _is_smooth(mesh: bpy.types.Mesh) -> bool:
+    """Return whether a mesh is smooth all over, by Blender's own normals."""
+    return not (mesh.has_custom_normals or _has(mesh, "sharp_face") or _has(mesh, _MARKS))
+
+
+def _has(mesh: bpy.types.Mesh, name: str) -> bool:
+    """Return whether a flag is set anywhere."""
+    flags = mesh.attributes.get(name)
+    if not isinstance(flags, bpy.types.BoolAttribute):
+        return False
+    values = np.empty(len(flags.data), bool)
+    flags.data.foreach_get("value", values)
+    return bool(values.any())

@@ -53,6 +53,11 @@ class EditedMesh:
         self._bm.normal_update()
         bmesh.update_edit_mesh(self._mesh, loop_triangles=True, destructive=False)
 
+    def smooth_edges(self) -> None:
+        """Remove all marks of sharp edges; `write_shapes` must follow."""
+        for edge in self._bm.edges:
+            edge.smooth = True
+
     def read_attribute(self, name: str) -> np.ndarray | None:
         """Read a point attribute of vectors, or None if there is none."""
         layer = self._bm.verts.layers.float_vector.get(name)

@@ -12,6 +12,7 @@ from ..access.checks import is_linked
 from ..access.fingerprint import fingerprint_of_values
 from ..access.note import read_note
 from ..access.shapes import Shapes, read_shapes, write_shapes
+from ..access.sharp_edges import has_following_edges, leave_edges, let_edges_follow
 from .edit_mode import EditedMesh
 from .moved import take_along
 from .store import drop_live_part, marked, remove_live_attributes, shapes_before, write_live_part
@@ -57,6 +58,12 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
         moved = take_along(mesh, part, present)
         if moved is not None:
             part, before = moved, shapes_before(present, moved, read)
+    had_edges = part.get("has_edges", False)
+    if not edited:
+        let_edges_follow(mesh, had_edges)
+    elif has_following_edges(mesh) and not had_edges:
+        leave_edges(mesh)
+        edited.smooth_edges()
     if before is not None:
         write_live_part(mesh, marked(part, None))
         if edited:

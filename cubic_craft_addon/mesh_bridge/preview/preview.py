@@ -19,6 +19,7 @@ from ..access.checks import check_writable
 from ..access.note import check_note, read_note
 from ..access.rounded_for_storage import carry_finite, matrices_for_storage, rounded_for_storage
 from ..access.shapes import Shapes, read_shapes, write_shapes
+from ..access.sharp_edges import let_edges_follow
 from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
 from ..memory.strokes import read_strokes, with_strokes
@@ -67,6 +68,7 @@ class Preview:
         positions: np.ndarray,
         rotations: np.ndarray | None = None,
         outcome: Any = None,
+        has_edges: bool = False,
     ) -> None:
         """Show a shape on the mesh, as `write_mesh` would write it.
 
@@ -75,9 +77,10 @@ class Preview:
         `mesh`: the mesh, or its replacement after an undo; in Object Mode. `positions`: (n,3),
         object space; ignored for vertices in no face. `rotations`: (n,3,3), the local rotation of
         each vertex; None if they do not rotate, or `needs_rotations` is false. `outcome`: values
-        for JSON, which `keep_preview` returns if a file is opened with this shape. Raises
-        CubicCraftError: wrong number of vertices, values that are not finite, a mesh that cannot be
-        written, or one without this preview. The mesh is then unchanged.
+        for JSON, which `noted_outcome` returns if a file is opened with this shape. `has_edges`:
+        whether sharp edges are to follow it. Raises CubicCraftError: wrong number of vertices,
+        values that are not finite, a mesh that cannot be written, or one without this preview. The
+        mesh is then unchanged.
         """
         check_writable(mesh, mesh.name)
         part = self._part_on(mesh) | {"outcome": outcome}
@@ -89,6 +92,7 @@ class Preview:
         finished = marked(part, shown)
         # If writing fails half-way, `end_preview` must not mistake the mixture for an edit.
         write_live_part(mesh, marked(part, None))
+        let_edges_follow(mesh, has_edges)
         write_shapes(mesh, shown)
         write_live_part(mesh, finished)
         self._shown = shown.base

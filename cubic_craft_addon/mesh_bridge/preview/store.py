@@ -23,6 +23,7 @@ from ..access.attributes import (
 from ..access.fingerprint import fingerprint_of_values
 from ..access.note import read_note, write_note
 from ..access.shapes import Shapes, carry
+from ..access.sharp_edges import has_following_edges
 
 POSITION = f"{LIVE}.position"  # only where it is not equal to the base
 
@@ -40,7 +41,8 @@ def store_live(mesh: bpy.types.Mesh, present: Shapes) -> None:
             attribute = f"{LIVE}.key{number}"
             add_attribute(mesh, attribute, present.keys[name])
             entries.append({"name": name, "fingerprint": "", "attribute": attribute})
-        write_live_part(mesh, marked({"fingerprint": "", "keys": entries}, present))
+        part = {"fingerprint": "", "keys": entries, "has_edges": has_following_edges(mesh)}
+        write_live_part(mesh, marked(part, present))
     except BaseException:
         remove_live_attributes(mesh)
         raise

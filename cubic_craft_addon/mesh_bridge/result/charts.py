@@ -7,6 +7,7 @@ import numpy as np
 from ....solver.mesh.components import components
 from ....solver.mesh.edges import edges_of
 from ..access.arrays import read_values
+from ..access.sharp_edges import has_following_edges
 
 
 def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
@@ -34,7 +35,10 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
     ends.append((following[one], np.where(is_turned, other, following[other])))
     material = read_values(mesh.polygons, "material_index", np.int32)
     is_joined = material[face[one]] == material[face[other]]
-    for name in ("use_seam", "use_edge_sharp"):
+    marks = ["use_seam"]
+    if not has_following_edges(mesh):  # those are between sides anyway
+        marks.append("use_edge_sharp")
+    for name in marks:
         is_set = read_values(mesh.edges, name, bool)[edge]
         is_joined &= ~(is_set[one] | is_set[other])
     for layer in mesh.uv_layers:

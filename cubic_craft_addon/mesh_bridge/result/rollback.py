@@ -11,6 +11,7 @@ from ..access.arrays import corner_vertices
 from ..access.attributes import add_attribute, our_attributes, read_attribute, remove_attribute
 from ..access.note import read_note, write_note
 from ..access.shapes import read_shapes, write_shapes
+from ..access.sharp_edges import has_following_edges, let_edges_follow
 from ..memory.cubic_key import remove_keys
 
 
@@ -18,8 +19,9 @@ from ..memory.cubic_key import remove_keys
 def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
     """Undo what the block did to the mesh if it raises.
 
-    It covers the positions, the points of shape keys, free normals, added shape keys, our
-    attributes and the note. It cannot restore removed shape keys: remove those last.
+    It covers the positions, the points of shape keys, free normals, added shape keys, sharp edges
+    that follow the shape, our attributes and the note. It cannot restore removed shape keys: remove
+    those last.
     """
     state = _State(mesh)
     try:
@@ -67,6 +69,7 @@ class _State:
         self.mesh = mesh
         self.shapes = read_shapes(mesh)
         self.note = read_note(mesh)
+        self.has_edges = has_following_edges(mesh)
         self.ours = {}
         for name in our_attributes(mesh):
             domain = mesh.attributes[name].domain
@@ -86,4 +89,5 @@ class _State:
         for name, (values, domain) in self.ours.items():
             add_attribute(mesh, name, values, domain)
         write_note(mesh, self.note)
+        let_edges_follow(mesh, self.has_edges)
         write_shapes(mesh, self.shapes)
