@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sharp edges that follow the shape: smooth shading would make the edges of a crisp one look round.
 
-Only on a mesh that has no sharp edges, flat faces or custom normals of its own. Whenever a shape is
-written, edges that turn by more than `ANGLE` are marked; *Restore* takes the marks back.
+Only on a mesh that is smooth all over. Whenever a shape is written, edges that turn by more than
+`ANGLE` are marked; *Restore* takes the marks back.
 """
 
 import math
@@ -16,6 +16,12 @@ ANGLE = math.radians(30.0)
 """as Blender's *Shade Smooth by Angle*"""
 _FOLLOWING = "cubic_craft_sharp_edges"  # a custom property of the mesh
 _MARKS = "sharp_edge"
+_NORMALS = "custom_normal"
+_ASIDE = "cubic_craft_normals"  # in that place, sharp edges would not be seen
+_NEAR, _MOST = (
+    math.cos(math.radians(20.0)),
+    0.99,
+)  # exporters weigh faces in other ways, and files round
 _OF_NODES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
@@ -60,8 +66,9 @@ def let_edges_follow(mesh: bpy.types.Mesh, is_on: bool) -> None:
     """
     if not is_on:
         forget_edges(mesh)
-    elif not has_following_edges(mesh) and _is_smooth(mesh):
+    elif not has_following_edges(mesh) and is_smooth(mesh):
         mesh[_FOLLOWING] = _MARKS in mesh.attributes
+        _rename(mesh, _NORMALS, _ASIDE)
 
 
 def follow_shape(mesh: bpy.types.Mesh) -> None:
@@ -74,6 +81,8 @@ def leave_edges(mesh: bpy.types.Mesh) -> None:
     """Let the marks stay as they are from now on."""
     if has_following_edges(mesh):
         del mesh[_FOLLOWING]
+        if kept := mesh.attributes.get(_ASIDE):
+            mesh.attributes.remove(kept)
 
 
 def forget_edges(mesh: bpy.types.Mesh) -> None:
@@ -81,7 +90,8 @@ def forget_edges(mesh: bpy.types.Mesh) -> None:
     if not has_following_edges(mesh):
         return
     had_attribute = mesh[_FOLLOWING]
-    leave_edges(mesh)
+    del mesh[_FOLLOWING]
+    _rename(mesh, _ASIDE, _NORMALS)
     marks = mesh.attributes.get(_MARKS)
     if marks is None:  # the artist may have removed them
         return
@@ -91,9 +101,47 @@ def forget_edges(mesh: bpy.types.Mesh) -> None:
         mesh.attributes.remove(marks)
 
 
-def _is_smooth(mesh: bpy.types.Mesh) -> bool:
-    """Return whether a mesh is smooth all over, by Blender's own normals."""
-    return not (mesh.has_custom_normals or _has(mesh, "sharp_face") or _has(mesh, _MARKS))
+def is_smooth(mesh: bpy.types.Mesh) -> bool:
+    """Return whether a mesh is smooth all over, without sharp edges other than those of ours."""
+    if _has(mesh, "sharp_face") or (_has(mesh, _MARKS) and not has_following_edges(mesh)):
+        return False
+    return not mesh.has_custom_normals or _are_those_of_blender(mesh)
+
+
+def _are_those_of_blender(mesh):
+    """Return whether custom normals are nearly what Blender would have without them.
+
+    They are in most files: importers set them whatever they are. At open borders, where files for
+    engines cut a mesh along the seams of its UVs, they may be what they like.
+    """
+    normals = mesh.attributes.get(_NORMALS)
+    if normals is not None and normals.data_type == "FLOAT_VECTOR":
+        return False  # in object space, where the original is kept in another way
+    vertex, edge = (_values(mesh.loops, f"{kind}_index", np.int32) for kind in ("vertex", "edge"))
+    ends = _values(mesh.edges, "vertices", np.int32, 2)
+    is_inside = np.ones(len(mesh.vertices), bool)
+    is_inside[ends[np.bincount(edge, minlength=len(ends)) != 2]] = False
+    if normals is None:  # before Blender 5, those of vertices are without them
+        plain = _values(mesh.vertex_normals, "vector", np.float32, 3)[vertex]
+    else:
+        copy = mesh.copy()
+        copy.attributes.remove(copy.attributes[_NORMALS])
+        plain = _values(copy.corner_normals, "vector", np.float32, 3)
+        bpy.data.meshes.remove(copy)
+    shown = _values(mesh.corner_normals, "vector", np.float32, 3)
+    is_near = np.einsum("ij,ij->i", shown, plain)[is_inside[vertex]] > _NEAR
+    return bool(is_near.size and is_near.mean() > _MOST)
+
+
+def _rename(mesh, name, to):
+    if found := mesh.attributes.get(name):
+        found.name = to
+
+
+def _values(items: Any, name: str, kind: Any, width: int = 1) -> Any:
+    values = np.empty(len(items) * width, kind)
+    items.foreach_get(name, values)
+    return values if width == 1 else values.reshape(-1, width)
 
 
 def _has(mesh: bpy.types.Mesh, name: str) -> bool:

@@ -19,7 +19,7 @@ from ..access.checks import check_writable
 from ..access.note import check_note, read_note
 from ..access.rounded_for_storage import carry_finite, matrices_for_storage, rounded_for_storage
 from ..access.shapes import Shapes, read_shapes, write_shapes
-from ..access.sharp_edges import let_edges_follow
+from ..access.sharp_edges import is_smooth, let_edges_follow
 from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
 from ..memory.strokes import read_strokes, with_strokes
@@ -53,6 +53,7 @@ class Preview:
         self._strokes = read_strokes(mesh, start)
         self._loose = loose_vertices(mesh)
         self._keys = _key_names(mesh)
+        self._is_smooth = is_smooth(mesh)
         present = read_shapes(mesh)
         self._shown = present.base
         store_live(mesh, present)
@@ -92,7 +93,7 @@ class Preview:
         finished = marked(part, shown)
         # If writing fails half-way, `end_preview` must not mistake the mixture for an edit.
         write_live_part(mesh, marked(part, None))
-        let_edges_follow(mesh, has_edges)
+        let_edges_follow(mesh, has_edges and self._is_smooth)
         write_shapes(mesh, shown)
         write_live_part(mesh, finished)
         self._shown = shown.base

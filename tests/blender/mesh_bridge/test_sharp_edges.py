@@ -89,6 +89,33 @@ def test_an_empty_attribute_of_the_artist_stays(monkey):
     assert not sharp(mesh).any()
 
 
+def normals_of(mesh):
+    """Return the normal (k,3) of each corner, as it is shaded."""
+    values = np.empty(3 * len(mesh.loops), np.float32)
+    mesh.corner_normals.foreach_get("vector", values)
+    return values.reshape(-1, 3)
+
+
+def test_normals_of_importers_that_are_those_of_blender_return_with_restore(monkey):
+    mesh = monkey.data
+    offsets = np.random.default_rng(0).normal(0.0, 0.01, (len(mesh.vertices), 3))
+    normals = np.array([vertex.normal[:] for vertex in mesh.vertices]) + offsets
+    mesh.normals_split_custom_set_from_vertices(normals.tolist())
+    before = normals_of(mesh)
+    cubify(cubeness=0.4)
+    plain = mesh.copy()
+    if "cubic_craft_normals" in plain.attributes:
+        plain.attributes.remove(plain.attributes["cubic_craft_normals"])
+    plain.set_sharp_from_angle(angle=np.radians(30.0))
+    assert np.array_equal(sharp(mesh), sharp(plain)) and sharp(mesh).any()
+    assert np.einsum("ij,ij->i", normals_of(mesh), normals_of(plain)).min() > 0.98
+    bpy.data.meshes.remove(plain)
+    bpy.ops.cubic_craft.restore()
+    assert mesh.has_custom_normals and np.array_equal(normals_of(mesh), before)
+    assert not sharp(mesh).any(), "Blender has made the attribute for the normals"
+    assert not list(mesh.keys()) and "cubic_craft_normals" not in mesh.attributes
+
+
 def _subdivision(obj):
     obj.modifiers.new("Subdivision", "SUBSURF")
 
