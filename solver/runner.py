@@ -39,6 +39,8 @@ LEAST_ROUND = 10
 that is less: what it changes lies near what crosses, and settles soon. Never more than those."""
 TRIES = 3
 """in a row to leave soft what crosses, of which none helps"""
+CRISP = 0.95
+"""of the crisp area have to be left by that, or parts may press into each other"""
 
 
 class Run:
@@ -297,25 +299,45 @@ class Run:
         if soft_apart is None:
             self.reason = self._end
         else:
-            self._phase = Run._soften
+            self._phase = partial(Run._part, apart=copy(soft_apart))
+
+    def _part(self, apart: KeepApart) -> None:
+        """Push apart what has come to cross: to be left soft, it takes what is around it along."""
+        hard = self.hard
+        assert hard is not None
+        if len(apart.look(hard)):
+            self.stylization = hard.moved_to(apart.parted(hard))
+        soften = partial(Run._soften, last=apart, is_between_parts=apart.is_between_parts)
+        self._phase = soften
 
     def _soften(
-        self, last: KeepApart | None = None, fewest: float = math.inf, tries: int = 0
+        self,
+        last: KeepApart,
+        is_between_parts: bool,
+        fewest: float = math.inf,
+        tries: int = 0,
     ) -> None:
-        """Leave soft what has come to cross, again and again while that helps.
+        """Leave soft what still crosses, again and again while that helps.
 
         What is soft may cross what is still crisp beside it: a try that does not help is followed
-        by others.
+        by others. Where it takes too much of the crispness, parts may press into each other.
         """
-        looked, hard = copy(last or self._apart), self.hard
-        assert looked is not None and hard is not None
+        looked, hard = copy(last), self.hard
+        assert hard is not None and self._hard_end is not None
         crossing, tries = looked.look(hard), tries + 1
         if len(crossing) < fewest:
             self._apart, self._before = looked, hard
             fewest, tries = len(crossing), 0
         if len(crossing) and tries < TRIES:
             self.stylization = hard.softened(crossing)
-            self._phase = partial(Run._soften, last=looked, fewest=fewest, tries=tries)
+            again = {"is_between_parts": is_between_parts, "fewest": fewest, "tries": tries}
+            self._phase = partial(Run._soften, last=looked, **again)
+            return
+        end, apart = self._hard_end
+        if is_between_parts and self._before.crisp_area < CRISP * end.crisp_area:
+            assert apart is not None
+            self.stylization = end
+            self._phase = partial(Run._part, apart=apart.pressing())
             return
         self.stylization = self._before
         self._conclude()

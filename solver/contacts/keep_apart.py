@@ -17,6 +17,7 @@ would stay round. At the end, they ride on it if some cross it (`riding.py`). Th
 other does not count.
 """
 
+from copy import copy
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -105,9 +106,10 @@ class KeepApart:
         self._best: _State | None = None
         self._progress, self._has_helped = (0, 0), False
         self._before: _Before | None = None
+        self._may_press = False
         self._first: Any = None
         self._at_end = np.empty(0, np.intp)
-        self._crossing = np.empty((0, 2), np.intp)
+        self._crossing = self._found = np.empty((0, 2), np.intp)
         self._looked_at: FloatArray | None = None
         self.crossings, self.pressed, self.vertices = 0, 0, np.empty(0, np.intp)
 
@@ -125,9 +127,28 @@ class KeepApart:
         pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
         pairs = pairs[~self._are_where_parts_crossed(pairs)]
-        if self._before is not None:  # parts may cross: to leave them soft would not be worth it
+        if self._may_press:
             pairs = pairs[~self._are_of_two_parts(pairs)]
+        self._found = pairs
         return np.unique(self._shown[pairs])
+
+    @property
+    def is_between_parts(self):
+        """Whether nearly all that `look` has found is of two parts."""
+        return bool(len(self._found) and self._are_of_two_parts(self._found).mean() > BETWEEN)
+
+    def pressing(self):
+        """Return the same for parts that may press into each other.
+
+        To leave them soft would not be worth it.
+        """
+        other = copy(self)
+        other._may_press = True
+        return other
+
+    def parted(self, stylization):
+        """Return the positions (n,3) pushed so that less of what `look` has found crosses."""
+        return self._pushed(stylization.positions, self._found, stylization)
 
     def check(self, stylization):
         """Find what crosses now; return whether another round is needed."""
@@ -138,6 +159,7 @@ class KeepApart:
         if self._before is not None:
             if self._is_too_dear(stylization, self._before):
                 self._best, self._has_helped = self._before.state, False
+                self._may_press = True
                 return False
             self._before = None
         progress = len(self._links), -now.count
@@ -217,7 +239,7 @@ class KeepApart:
         pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
-        if self._before is not None:
+        if self._may_press:
             failed = self._triangles(pairs[~self._are_of_two_parts(pairs)])
             self.pressed = self.crossings - len(np.unique(failed))
         self.vertices = np.unique(self._rest.triangles[crossing])
@@ -266,12 +288,15 @@ class KeepApart:
 
     def _push(self, state, stylization):
         """Push apart what crosses in a state; the result counts if less crosses."""
-        is_free = np.ones(len(state.U), dtype=bool)
-        is_free[stylization.setup.pinned] = False
-        V, shown, impose = self._rest.V, self._shown, stylization.impose
-        U = pushed(V, state.U, shown, state.pairs, self._firm_counts, is_free, impose)
+        U = self._pushed(state.U, state.pairs, stylization)
         pairs = self._pairs_after(state.pairs, state.U, U)
         self._keep(_State(self._count(pairs), pairs, U, state.R, is_pushed=True))
+
+    def _pushed(self, U, pairs, stylization):
+        is_free = np.ones(len(U), dtype=bool)
+        is_free[stylization.setup.pinned] = False
+        V, impose = self._rest.V, stylization.impose
+        return pushed(V, U, self._shown, pairs, self._firm_counts, is_free, impose)
 
     def _pairs_after(self, pairs, before, U):
         """Return the pairs that cross after some vertices have been moved, of those before."""

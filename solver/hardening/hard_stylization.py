@@ -6,6 +6,7 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray, IntArray
@@ -14,6 +15,8 @@ from ..setup import Setup
 from ..stylization import Stylization
 from .face_step import FaceStep
 from .hardening import Hardening, hardening_of
+
+_LEAST = 0.05  # crispness that can be moved: a move grows by its inverse
 
 
 class HardStylization(Stylization):
@@ -118,6 +121,18 @@ class HardStylization(Stylization):
         other = copy(self)
         other.hardening = self.hardening.softened(self.rest, vertices)
         return other
+
+    def moved_to(self, places: FloatArray) -> HardStylization:
+        """Return one whose shape is at places (n,3) near it, but for what is nearly soft."""
+        other, share = copy(self), self.hardening.crispness[:, None]
+        moves = np.where(share > _LEAST, (places - self.positions) / np.maximum(share, _LEAST), 0.0)
+        other.hardening = replace(self.hardening, moves=self.hardening.moves + moves)
+        return other
+
+    @property
+    def crisp_area(self) -> float:
+        """The area at rest that is crisp."""
+        return float(self.rest.areas @ self.hardening.crispness)
 
     def _shape(self) -> FloatArray:
         U = self.hardening.positions(self._motion.positions)

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
+from ..mesh.components import components
 from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
@@ -23,8 +24,11 @@ THIN = 0.2, 0.4
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
 """of vertices around what has come to cross that stay soft, and as many that are between"""
-SOFT = 0.02, 0.05
-"""of the size: distances from it within which vertices stay soft, and beyond which they do not"""
+SOFT = 0.0125, 0.05
+"""of the size: the least and the largest distance from it beyond which none stay so; between, the
+extent of what crosses: a fold takes more around it along than a corner that dips in"""
+WHOLLY = 0.4
+"""of that distance, within which they do"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
@@ -90,9 +94,9 @@ class Hardening:
         count = np.diff(rest.skin.indptr)
         for _ in range(RINGS):
             share = (near @ share) / count
-        least, most = SOFT
-        far = KDTree(self.soft[vertices]).query(self.soft, distance_upper_bound=most)[0]
-        share = np.minimum(share, np.clip((most - far) / (most - least), 0.0, 1.0))
+        far, nearest = KDTree(self.soft[vertices]).query(self.soft)
+        reach = far / _reaches(rest, self.soft, vertices)[nearest]
+        share = np.minimum(share, np.clip((1.0 - reach) / (1.0 - WHOLLY), 0.0, 1.0))
         share[vertices] = 1.0
         soft = self.soft + share[:, None] * (self.solved - self.soft)
         left = 1.0 - share
@@ -196,6 +200,15 @@ def _crispness_of(style):
     becomes crisp bit by bit.
     """
     return style.crispness * np.minimum(style.cubeness / DRAWN, 1.0)
+
+
+def _reaches(rest, U, vertices):
+    """Return how far around vertices (k,), which cross at positions U (n,3), others stay soft."""
+    is_crossing = np.zeros(len(U), dtype=bool)
+    is_crossing[vertices] = True
+    F = rest.F[is_crossing[rest.F].sum(axis=1) > 1]
+    group = components(F, len(U))[1]
+    return np.clip(extents(U, group)[group[vertices]], *SOFT)
 
 
 def _share_of_thickness(rest):

@@ -62,7 +62,7 @@ def test_a_mesh_that_is_cut_open_does_not_tear(name, whole):
 
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
 def test_a_mesh_that_is_cut_open_becomes_as_cubic_as_the_whole(name, whole):
-    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.03)
+    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.05)
 
 
 @pytest.mark.thorough(2)

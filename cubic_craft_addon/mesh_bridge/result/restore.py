@@ -46,8 +46,8 @@ def restore(obj: bpy.types.Object) -> None:
     with all_or_nothing(mesh):
         write_shapes(mesh, original)
         drop_stored(mesh)
-        remove_cubic_key(mesh, cubic_key)
         forget_edges(mesh)
+        remove_cubic_key(mesh, cubic_key)
 
 
 def restore_first(obj: bpy.types.Object) -> None:
@@ -70,8 +70,8 @@ def restore_first(obj: bpy.types.Object) -> None:
         write_shapes(mesh, first)
         drop_stored(mesh)
         drop_first(mesh)
-        remove_cubic_key(mesh, cubic_key)
         forget_edges(mesh)
+        remove_cubic_key(mesh, cubic_key)
 
 
 def has_traces(mesh: bpy.types.Mesh | None) -> bool:
