@@ -87,7 +87,12 @@ class SpokesAndRims(Value):
 
     def covariances(self, U, rows=slice(None)):
         """Return S_i of the positions U (n,3), for some vertices (k,): (k,3,3)."""
-        return np.stack([self.matrix(self.gather[:, c])[rows] @ U for c in range(3)], axis=1)
+        begin, count = self.indptr[:-1][rows], np.diff(self.indptr)[rows]
+        ends = np.append(0, np.cumsum(count))
+        at = np.arange(ends[-1]) + np.repeat(begin - ends[:-1], count)
+        indices, shape = self.indices[at], (len(begin), len(U))
+        gather = np.ascontiguousarray(self.gather[at].T)
+        return np.stack([sp.csr_matrix((x, indices, ends), shape=shape) @ U for x in gather], 1)
 
 
 def spokes_and_rims(V, F, C, edges=None):
