@@ -57,11 +57,14 @@ class SpokesAndRims(Value):
         n = len(self.indptr) - 1
         row, column, laplacian, gather = links.entries(V)
         key = row.astype(np.int64) * n + column
+        del row, column
         order = np.argsort(key, kind="stable")
         ordered = key[order]
+        del key
         starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
         own = np.repeat(np.arange(n), np.diff(self.indptr)) * n + self.indices
         keys = ordered[starts]
+        del ordered
         at = np.searchsorted(own, keys)
         is_new = own[np.minimum(at, len(own) - 1)] != keys
         merged = np.insert(own, at[is_new], keys[is_new])
