@@ -44,6 +44,8 @@ def by_columns(values):
 
 def take(values, rows):
     """Return some rows, by number (k,), that lie as `from_columns` says."""
+    if values.strides[0] != values.itemsize:  # row by row: its columns would be a copy of it all
+        return by_columns(values[rows])
     return columns(values).take(rows, 1).T.reshape(len(rows), *values.shape[1:])
 
 

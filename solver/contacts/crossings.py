@@ -45,7 +45,9 @@ def crossings(V, F, is_asked=None, with_others=False):
     planes = _Planes(V, F[used])
 
     def crossing(block):
-        return planes.crossing(*_apart(planes.F, *block))
+        i, j = _apart(planes.F, *block)
+        rows = planes.crossing(i, j)
+        return np.stack([i[rows], j[rows]], axis=1).astype(np.intp)
 
     is_one = is_asked[used] if is_asked is not None and with_others else None
     with ThreadPoolExecutor(2) as beside:
@@ -108,10 +110,25 @@ class Watched:
             pairs = pairs[:, counts(pairs.T)]
         self._used, place = np.unique(pairs, return_inverse=True)
         self._F, self._pairs = F[self._used], place.reshape(2, -1)
+        self._V, self._is_crossing = None, np.zeros(self._pairs.shape[1], dtype=bool)
 
     def crossings(self, V):
-        """Return which of these pairs cross at other positions, as triangles (k,2)."""
-        return self._used[_Planes(V, self._F).crossing(*self._pairs)]
+        """Return which of these pairs cross at other positions, as triangles (k,2).
+
+        Only those that have moved since the last time are looked at; the positions must stay as
+        they are until the next one.
+        """
+        asked = self._pairs
+        if self._V is None:
+            self._is_crossing[_Planes(V, self._F).crossing(*asked)] = True
+        else:
+            is_moved = (V != self._V).any(axis=1)[self._F].any(axis=1)
+            rows = np.flatnonzero(is_moved[asked[0]] | is_moved[asked[1]])
+            self._is_crossing[rows] = False
+            asked = asked[:, rows]
+            self._is_crossing[rows[_Planes(V, self._F).crossing(*asked)]] = True
+        self._V = V
+        return self._used[self._pairs[:, self._is_crossing]].T
 
 
 def boxes(V, F):
@@ -128,17 +145,17 @@ class _Planes:
         places = np.ascontiguousarray(V.T)
         self.F = np.ascontiguousarray(F.T, dtype=np.int32)
         self.corners = [list(places.take(corner, axis=1)) for corner in self.F]
-        a, b, c = (np.array(corner) for corner in self.corners)
-        normal = np.array(cross(*(b - a), *(c - a)))
+        a, *others = self.corners
+        sides = [x - begin for corner in others for x, begin in zip(corner, a, strict=True)]
+        normal = np.array(cross(*sides))
         normal /= np.maximum(np.sqrt(dot(*normal, *normal)), 1e-300)
         self.normal, self.offset = list(normal), dot(*normal, *a)
 
     def crossing(self, i, j):
-        """Return which pairs of triangles i and j (k,) cross, as (c,2)."""
-        i, j = self._straddling(i, j)
-        j, i = self._straddling(j, i)
-        is_crossing = self._overlap(i, j) > DEPTH
-        return np.stack([i[is_crossing], j[is_crossing]], axis=1).astype(np.intp)
+        """Return the numbers (c,) of those pairs of triangles i and j (k,) that cross."""
+        rows = self._straddling(i, j)
+        rows = rows[self._straddling(j[rows], i[rows])]
+        return rows[self._overlap(i[rows], j[rows]) > DEPTH]
 
     def _heights(self, i, j):
         """Return how high the corners of triangles i lie over the planes of j, three times (k,)."""
@@ -146,11 +163,10 @@ class _Planes:
         return [dot(*normal, *(x.take(i) for x in corner)) - offset for corner in self.corners]
 
     def _straddling(self, i, j):
-        """Return the pairs in which the first triangle has corners on both sides of the second."""
+        """Return the pairs whose first triangle has corners on both sides of the second."""
         a, b, c = self._heights(i, j)
         is_above = np.maximum(np.maximum(a, b), c) > DEPTH
-        rows = np.flatnonzero(is_above & (np.minimum(np.minimum(a, b), c) < -DEPTH))
-        return i[rows], j[rows]
+        return np.flatnonzero(is_above & (np.minimum(np.minimum(a, b), c) < -DEPTH))
 
     def _overlap(self, i, j):
         """Return the length (k,) that both triangles have of the line of both planes."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..algebra import BLOCK
 from ..aliases import FloatArray, IntArray
 from ..proxy.closest_point import closest_points
 from ..proxy.nearest import Nearest
@@ -54,10 +55,13 @@ def riding(rest, is_carried):
     vertices = np.flatnonzero(is_carried)
     firm = rest.shown[~rest.is_card[rest.shown[:, 0]]].astype(np.int64)
     V, count = rest.V, min(_CANDIDATES, len(firm))
-    near = Nearest(V[firm].mean(axis=1))(V[vertices], k=count).reshape(len(vertices), count)
-    corners = firm[near.ravel()]
-    from_ = np.repeat(V[vertices], count, axis=0)
-    b = closest_points(from_, *(V[corners[:, k]] for k in range(3)))
-    d = from_ - np.einsum("kc,kcx->kx", b, V[corners])
-    rows = (d * d).sum(axis=1).reshape(-1, count).argmin(axis=1) + count * np.arange(len(vertices))
-    return Riding(vertices, corners[rows], b[rows], d[rows])
+    nearest, found = Nearest(V[firm].mean(axis=1)), []
+    for block in np.array_split(vertices, -(-len(vertices) // BLOCK)):
+        corners = firm[nearest(V[block], k=count).ravel()]
+        from_ = np.repeat(V[block], count, axis=0)
+        b = closest_points(from_, *(V[corners[:, k]] for k in range(3)))
+        d = from_ - np.einsum("kc,kcx->kx", b, V[corners])
+        rows = (d * d).sum(axis=1).reshape(-1, count).argmin(axis=1)
+        rows += count * np.arange(len(block))
+        found.append((corners[rows], b[rows], d[rows]))
+    return Riding(vertices, *map(np.concatenate, zip(*found, strict=True)))

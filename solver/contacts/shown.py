@@ -31,7 +31,7 @@ def shown(V, F, pairs):
         return is_shown
     points = _meeting_points(V, F, pairs).T
     size = float(np.ptp(V, axis=0).max())
-    places, corners = np.ascontiguousarray(V.T), np.ascontiguousarray(F.T)
+    places, corners = np.ascontiguousarray(V.T), np.ascontiguousarray(F.T, dtype=np.intp)
     for direction in spiral(DIRECTIONS):
         rows = np.flatnonzero(~is_shown)
         if not len(rows):
@@ -117,42 +117,31 @@ def _columns(places, points, F):
     int. Those of a cell are in the order of their tops, the highest first. `low`: two (t,), and
     `high`: three, the boxes of these triangles.
     """
-    low, high = [], []
-    for along in places[:2]:
-        a, b, c = (along.take(corner) for corner in F)
-        low.append(np.minimum(np.minimum(a, b), c))
-        high.append(np.maximum(np.maximum(a, b), c))
-    extent = np.ptp(places[:2], axis=1).max()
+    origin = places[:2].min(axis=1)
+    extent = (places[:2].max(axis=1) - origin).max()
     side = int(np.clip(np.sqrt(F.shape[1]), 8, _MOST_CELLS))
     while True:
         scale = side / max(extent, 1e-300) * (1.0 - 1e-9)
-        cell, first, last = (
-            [
-                ((x - origin) * scale).astype(np.int32).clip(0, side - 1)
-                for x, origin in zip(ends, places[:2].min(axis=1), strict=True)
-            ]
-            for ends in (points[:2], low, high)
-        )
-        width, depth = (end - begin + 1 for begin, end in zip(first, last, strict=True))
-        if side == 1 or np.dot(width.astype(float), depth) <= _PER_TRIANGLE * F.shape[1]:
+        cell, of_corners = (_cells(ends, origin, scale, side) for ends in (points, places))
+        first, last = _between_corners(of_corners, F)
+        width, depth = (last - first + 1).T
+        # no product of BLAS, whose threads would wait longer for each other than they compute
+        count = np.multiply(width, depth, dtype=np.int32).sum()
+        if side == 1 or count <= _PER_TRIANGLE * len(first):
             break
         side //= 2
-    number = cell[0] * side + cell[1]
+    number = cell[:, 0] * np.intp(side) + cell[:, 1]
     of_cells = np.bincount(number, minlength=side * side)
-    count = np.zeros((side + 1, side + 1), dtype=np.intp)
-    count[1:, 1:] = of_cells.reshape(side, side).cumsum(axis=0).cumsum(axis=1)
-    count = count.ravel()
-    left, right = first[0] * (side + 1), (last[0] + 1) * (side + 1)
-    inside = count.take(right + last[1] + 1) - count.take(left + last[1] + 1)
-    inside += count.take(left + first[1]) - count.take(right + first[1])
-    near = np.flatnonzero(inside > 0)
+    near = _around(of_cells.reshape(side, side), first, last)
     tops = places[2].take(F.take(near, axis=1)).max(axis=0)
     order = np.argsort(-tops)[: np.count_nonzero(tops > points[2].min())]
     near, tops = near[order], tops[order]
-    low, high, first, last = (
-        np.stack([x.take(near) for x in ends]) for ends in (low, high, first, last)
+    corners = F.take(near, axis=1)
+    low, high = (
+        [limit.reduce(along.take(corners)) for along in places[:2]]
+        for limit in (np.minimum, np.maximum)
     )
-    box, (column, row) = entries(first, last)
+    box, (column, row) = entries(*(ends[near].T.astype(np.int32) for ends in (first, last)))
     of_cell = column * side + row
     kept = np.flatnonzero(of_cells[of_cell])
     of_cell = of_cell[kept].astype(np.uint16)  # which are sorted in linear time
@@ -160,6 +149,35 @@ def _columns(places, points, F):
     end = np.cumsum(count)
     found = box[kept[np.argsort(of_cell, kind="stable")]]
     return (end - count)[number], end[number], found, near, low, [*high, tops]
+
+
+def _cells(places, origin, scale, side):
+    """Return the cells (k,2) int16 of a grid that places (3,k) lie in."""
+    cells = np.empty((places.shape[1], 2), np.int16)
+    for axis in range(2):
+        cells[:, axis] = ((places[axis] - origin[axis]) * scale).clip(0, side - 1)
+    return cells
+
+
+def _between_corners(cells, F):
+    """Return the first and the last cells (m,2) of triangles, from those (n,2) of their corners."""
+    both = cells.view(np.int32).ravel()  # that both numbers are taken at once
+    a, b, c = (both.take(corner).view(np.int16).reshape(-1, 2) for corner in F)
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def _around(of_cells, first, last):
+    """Return the triangles (t,) that may lie above one of the points counted in cells (s,s)."""
+    side = len(of_cells)
+    count = np.zeros((side + 1, side + 1), dtype=np.int32)
+    count[1:, 1:] = of_cells.cumsum(axis=0).cumsum(axis=1)
+    count = count.ravel()
+    rows = np.arange(0, (side + 1) ** 2, side + 1)
+    (left, low), (right, high) = first.T, (last + np.int16(1)).T
+    left, right = rows.take(left), rows.take(right)
+    inside = count.take(right + high) - count.take(left + high)
+    inside += count.take(left + low) - count.take(right + low)
+    return np.flatnonzero(inside > 0)
 
 
 def _height(a, b, c, points):

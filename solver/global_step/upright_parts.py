@@ -29,6 +29,8 @@ MOST_PARTS = 32
 STAND_OUT = 1.5
 """times the extent of the largest part that is not kept: of ten thousand blades of grass, no few
 are kept before the others, only the lawn is"""
+MANY, SMALL = 16, 2000
+"""small components, and their vertices: so many take less time together than one by one"""
 MOST_MEMORY = 2**28
 """bytes for the constraints of all components together; the largest components come first"""
 
@@ -78,6 +80,15 @@ class UprightParts:
         self._ways = {c: np.hstack(ways[c]) for c in groups}
         self._pulls = {c: _rows_of(pulls[c], len(self._ways[c])) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
+        small = [c for c in groups if len(self._ways[c]) <= SMALL]
+        self._rows_of_small = np.empty(0, np.intp)
+        if len(small) >= MANY:
+            self._rows_of_small = np.concatenate([groups[c][-1] for c in small])
+            self._rows = {c: self._rows[c] for c in groups if len(self._ways[c]) > SMALL}
+            self._of_small = [
+                sp.block_diag([blocks.pop(c) for c in small], "csr")
+                for blocks in (self._pulls, self._inverses, self._ways)
+            ]
 
     def impose(self, *positions):
         """Move positions (n,3), in place, to the nearest in which no such part has turned.
@@ -94,6 +105,15 @@ class UprightParts:
             moves = tall_product(self._ways[c], np.hstack(twists))
             for here, move in zip(positions, np.split(moves, len(positions), axis=1), strict=True):
                 here[rows] += move
+        if len(self._rows_of_small):
+            for here in positions:
+                self._impose_on_small(here)
+
+    def _impose_on_small(self, U):
+        rows, (pulls, inverses, ways) = self._rows_of_small, self._of_small
+        torques = (pulls @ U[rows]).reshape(-1, 9) @ AXIAL
+        mu = np.negative(inverses @ torques.ravel()).reshape(-1, 3)
+        U[rows] += ways @ (mu @ AXIAL.T).reshape(-1, 3)
 
 
 def _large_parts(rest, is_free):

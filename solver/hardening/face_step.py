@@ -136,14 +136,14 @@ class FaceStep:
             part[self._free] = 0.0  # these are fitted one by one
         self._turn = np.repeat([[1.0], [0.0]], m, axis=1)
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
-        of_corners = [pulls @ part.swapaxes(1, 2) for part in self._parts]
-        self._steady = self._corners.sums(of_corners[0])
-        entries = np.stack(of_corners[1:]).ravel()
-        columns = 3 * F[:, :, None] + np.arange(3)
-        ends = np.arange(0, 18 * m + 1, 9)
-        self._angles = sp.csr_matrix(
-            (entries, np.tile(columns.ravel(), 2), ends), shape=(2 * m, 3 * n)
-        )
+        self._steady = self._corners.sums(pulls @ along.swapaxes(1, 2))
+        entries = np.empty((2, m, 3, 3))
+        for into, part in zip(entries, self._parts[1:], strict=True):
+            np.matmul(pulls, part.swapaxes(1, 2), out=into)
+        columns = np.empty((2, m, 3, 3), np.int32)
+        columns[:] = 3 * F[:, :, None] + np.arange(3, dtype=np.int32)
+        ends = np.arange(0, 18 * m + 1, 9, dtype=np.int32)
+        self._angles = sp.csr_matrix((entries.ravel(), columns.ravel(), ends), shape=(2 * m, 3 * n))
         rows = np.repeat(np.arange(3 * len(self._free)), 3)
         at = rows, np.repeat(F[self._free], 3, axis=0).ravel()
         free = pulls[self._free].swapaxes(1, 2).ravel()

@@ -20,7 +20,8 @@ class LinkedFaces:
     def __init__(self, rest):
         F, n = rest.F, len(rest.V)
         row, column, _, gather = rest.links.entries(rest.V)
-        at = (3 * row[:, None] + np.arange(3)).ravel(), np.repeat(column, 3)
+        row, column = (ends.astype(np.int32) for ends in (row, column))
+        at = (3 * row[:, None] + np.arange(3, dtype=np.int32)).ravel(), np.repeat(column, 3)
         self._of_links = sp.csr_matrix((gather.ravel(), at), shape=(3 * n, n))
         is_linked = np.zeros(n, dtype=bool)
         is_linked[row] = True

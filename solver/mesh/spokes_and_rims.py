@@ -57,11 +57,14 @@ class SpokesAndRims(Value):
         n = len(self.indptr) - 1
         row, column, laplacian, gather = links.entries(V)
         key = row.astype(np.int64) * n + column
+        del row, column
         order = np.argsort(key, kind="stable")
         ordered = key[order]
+        del key
         starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
         own = np.repeat(np.arange(n), np.diff(self.indptr)) * n + self.indices
         keys = ordered[starts]
+        del ordered
         at = np.searchsorted(own, keys)
         is_new = own[np.minimum(at, len(own) - 1)] != keys
         merged = np.insert(own, at[is_new], keys[is_new])
@@ -87,7 +90,12 @@ class SpokesAndRims(Value):
 
     def covariances(self, U, rows=slice(None)):
         """Return S_i of the positions U (n,3), for some vertices (k,): (k,3,3)."""
-        return np.stack([self.matrix(self.gather[:, c])[rows] @ U for c in range(3)], axis=1)
+        begin, count = self.indptr[:-1][rows], np.diff(self.indptr)[rows]
+        ends = np.append(0, np.cumsum(count))
+        at = np.arange(ends[-1]) + np.repeat(begin - ends[:-1], count)
+        indices, shape = self.indices[at], (len(begin), len(U))
+        gather = np.ascontiguousarray(self.gather[at].T)
+        return np.stack([sp.csr_matrix((x, indices, ends), shape=shape) @ U for x in gather], 1)
 
 
 def spokes_and_rims(V, F, C, edges=None):

@@ -35,7 +35,7 @@ LEAST_OPENING = 0.1
 """of the sum of the normals; between parallel sides, it is 0"""
 
 _CELLS = 3  # along the edges of a cube, whose cells are the directions
-_AT_ONCE = 500
+_AT_ONCE = 100
 
 
 def links_outside(triangles, normals, areas, part):

@@ -75,12 +75,17 @@ class Links(Value):
         c, w = self.coefficients, self.weights
         d = np.einsum("kj,kjx->kx", c, V[self.vertices])
         is_used = c != 0.0
-        link, one, other = np.nonzero(is_used[:, :, None] & is_used[:, None, :])
-        at, to = 4 * link + one, 4 * link + other
-        ends, factor, c = self.vertices.ravel(), c.take(to), c.ravel()
-        laplacian = (w.sum(axis=1) / 3.0).take(link) * (c.take(at) * factor)
-        pull = w.take(at) * factor
-        return ends.take(at), ends.take(to), laplacian, pull[:, None] * d.take(link, axis=0)
+        both = is_used[:, :, None] & is_used[:, None, :]
+
+        def of_pairs(values, axis=2):
+            return np.broadcast_to(np.expand_dims(values, axis), both.shape)[both]
+
+        factor = of_pairs(c, 1)
+        whole = np.broadcast_to(w.sum(axis=1, keepdims=True) / 3.0, c.shape)
+        laplacian = of_pairs(whole) * (of_pairs(c) * factor)
+        gather = np.repeat(d, np.count_nonzero(both, axis=(1, 2)), axis=0)
+        gather *= (of_pairs(w) * factor)[:, None]
+        return of_pairs(self.vertices), of_pairs(self.vertices, 1), laplacian, gather
 
 
 def no_links():

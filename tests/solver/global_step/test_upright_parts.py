@@ -125,6 +125,19 @@ def test_several_do_as_each_would_alone():
         assert np.abs(moved - (alone.positions - V)).max() < 0.04
 
 
+def test_many_small_components_obey_as_each_does_alone(monkeypatch):
+    V, F = lamp()
+    rest = rest_mesh(*proxy_shapes.joined((V, F), (V + [4.0, 0.0, 0.0], F)), ProxyOptions())
+    turned = rest.V + 0.1 * np.random.default_rng(0).normal(size=rest.V.shape)
+    found = []
+    for many in (3, 2):
+        monkeypatch.setattr("solver.global_step.upright_parts.MANY", many)
+        found.append(turned.copy())
+        Setup(rest).global_step.upright_parts.impose(found[-1])
+    assert np.abs(found[0] - turned).max() > 1e-3
+    np.testing.assert_allclose(*found, rtol=0.0, atol=1e-12)
+
+
 def test_a_shirt_follows_what_it_covers():
     rest = rest_mesh(*proxy_shapes.blob_with_shirt(), ProxyOptions())
     body, shirt = rest.linked_share
