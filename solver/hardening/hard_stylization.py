@@ -13,7 +13,7 @@ from ..global_step.motion import Motion
 from ..setup import Setup
 from ..stylization import Stylization
 from .face_step import FaceStep
-from .hardening import Hardening, hardening_of
+from .hardening import Hardening, hardening_after, hardening_of
 
 
 class HardStylization(Stylization):
@@ -98,7 +98,7 @@ class HardStylization(Stylization):
 
     def found_anew(self, soft: Stylization) -> Hardening:
         """Return the Hardening of another soft one of the same vertices, with sides found anew."""
-        return hardening_of(soft, last=self.hardening)
+        return hardening_after(self.hardening, soft)
 
     def go_on_with(self, soft: Stylization, found: Hardening, held: Setup) -> HardStylization:
         """Return one that goes on from here with what was `found_anew`.
