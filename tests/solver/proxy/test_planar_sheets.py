@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Grounds, walls and stray parts: a figure becomes what it becomes alone."""
 
+from functools import cache
+
 import numpy as np
 import proxy_shapes
 import pytest
@@ -18,6 +20,12 @@ def figure():
     V, F = shapes.sphere(4)
     V = V * [1.0, 0.8, 1.5]
     return V - [0.0, 0.0, V[:, 2].min()], F
+
+
+@cache
+def moves_alone():
+    V, F = figure()
+    return stylize(V, F, 0.4, **RUN).positions - V
 
 
 def ground(size, turn=None):
@@ -43,10 +51,10 @@ def test_a_plane_beside_a_point_keeps_its_size():
     assert np.isfinite(U).all() and np.ptp(U, axis=0).max() > 2.0
 
 
-@pytest.mark.parametrize("size", [10.0, 50.0, 1000.0])
+@pytest.mark.parametrize("size", [10.0, 1000.0])
 def test_a_ground_neither_moves_nor_moves_the_figure(size):
     V, F = figure()
-    alone = stylize(V, F, 0.4, **RUN).positions - V
+    alone = moves_alone()
     W, G = proxy_shapes.joined((V, F), ground(size))
     both = stylize(W, G, 0.4, **RUN).positions - W
     assert np.abs(both[len(V) :]).max() < 1e-9
@@ -55,7 +63,7 @@ def test_a_ground_neither_moves_nor_moves_the_figure(size):
 
 def test_a_stray_triangle_far_away_changes_nothing():
     V, F = figure()
-    alone = stylize(V, F, 0.4, **RUN).positions - V
+    alone = moves_alone()
     W, G = proxy_shapes.joined((V, F), ([[100.0, 0, 0], [100.1, 0, 0], [100, 0, 0.1]], [[0, 1, 2]]))
     both = stylize(W, G, 0.4, **RUN).positions - W
     assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
@@ -92,7 +100,7 @@ def test_letters_are_told_from_limbs(sides, is_letter):
 def test_leaves_do_not_turn_a_trunk():
     """Cards at one side of its top: their number, area and stiffness are those of many leaves."""
     rng = np.random.default_rng(5)
-    V, F = shapes.sphere(4)
+    V, F = shapes.sphere(3)
     trunk = V * [0.35, 0.3, 1.5]
     corners = np.array([[0.0, -0.5, 0], [1, -0.5, 0], [1, 0.5, 0], [0, 0.5, 0]])
     places = trunk[(V[:, 2] > 0.3) & (V[:, 0] > 0.0)]
