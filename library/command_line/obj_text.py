@@ -24,10 +24,6 @@ _MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 class ObjText:
     """An .obj file.
 
-    Parameters
-    ----------
-    path : Path
-
     Attributes
     ----------
     points : (n,3) numpy array

@@ -23,10 +23,6 @@ _DROPPED = {b'"skins":': "bones", b'"animations":': "animations", b'"targets":':
 class SceneFile:
     """A file of any format but .obj.
 
-    Parameters
-    ----------
-    path : Path
-
     Attributes
     ----------
     points : (n,3) numpy array

@@ -22,12 +22,8 @@ class HardStylization(Stylization):
     Its positions are between the soft shape and the hard one, as far as the crispness says; its
     energy is that of `FaceStep`.
 
-    Parameters
-    ----------
-    soft : Stylization
-        At its end. It stays as it is.
-    before : (m,3) array, optional
-        What triangles faced in the frame of an animation before, `hardening.facing`.
+    `soft`: at its end. It stays as it is. `before`: (m,3), what triangles faced in the frame of an
+    animation before, `hardening.facing`.
 
     Attributes
     ----------

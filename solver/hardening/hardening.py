@@ -33,38 +33,26 @@ _ORTHONORMALIZATIONS = 4
 
 @dataclass(frozen=True, eq=False)
 class Hardening:
-    """A soft shape, and what it becomes.
-
-    Attributes
-    ----------
-    solved : (n,3) array
-        Positions of the soft shape in the unit box.
-    soft : (n,3) array
-        The same with the strength of details asked for.
-    rotations : (n,3,3) array
-        Of the soft shape.
-    crispness : (n,) array
-        How far the vertices go from there to the hard shape, from 0 to 1.
-    firm : (n,) array
-        How far at a crispness of 1: less where they are thinner than details, but for plates, and
-        where they were softened.
-    target : Target
-    side : (m,) int array
-    facing : (m,3) array
-        As `sides_of` returns them.
-    moves : (n,3) array
-        Of the vertices of the hard shape, which make the borders of its sides straight.
-    """
+    """A soft shape, and what it becomes."""
 
     solved: FloatArray
+    """(n,3) positions of the soft shape in the unit box"""
     soft: FloatArray
+    """(n,3) the same with the strength of details asked for"""
     rotations: FloatArray
+    """(n,3,3) of the soft shape"""
     crispness: FloatArray
+    """(n,) how far the vertices go from there to the hard shape, from 0 to 1"""
     firm: FloatArray
+    """(n,) how far at a crispness of 1: less where they are thinner than details, but for plates,
+    and where they were softened"""
     target: Target
     side: IntArray
+    """(m,) int"""
     facing: FloatArray
+    """(m,3) as `sides_of` returns them"""
     moves: FloatArray
+    """(n,3) of the vertices of the hard shape, which make the borders of its sides straight"""
 
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
