@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .aliases import Device, Faces, Precision
 from .inputs import switch
 from .limbs import KnownLimbs
-from .mesh.mesh_checks import check_mesh, check_winding, faces_of_triangles
+from .mesh.mesh_checks import check_mesh, check_winding
 from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
@@ -155,12 +155,11 @@ def stylize(
     >>> gem = stylize(V, F, form="octahedron", device="numpy")
     >>> soft = stylize(V, F, 0.6, proxy=PAPER, device="numpy")
     """
-    polygons = F
-    V, F = check_mesh(V, polygons)
-    check_winding(F, len(V))
+    points, triangles = check_mesh(V, F)
+    check_winding(triangles, len(points))
     proxy = ProxyOptions() if proxy is None else proxy
     is_paper = proxy == PAPER
-    setup = Setup(rest_mesh(V, F, proxy, faces_of_triangles(polygons)), pinned)
+    setup = Setup(rest_mesh(points, F, proxy), pinned)
     style = Style(
         cubeness,
         np.eye(3) if orientation is None else orientation,

@@ -33,8 +33,6 @@ def rest_mesh(
     F: Faces,
     proxy: ProxyOptions | None = None,
     faces: ArrayLike | None = None,
-    *,
-    is_cage: bool = False,
 ) -> RestMesh:
     """Build the RestMesh of a mesh.
 
@@ -49,8 +47,6 @@ def rest_mesh(
     faces : (m,) numpy int array, optional
         The face that each triangle is a piece of: *Crispness* gives it one side, so that it is not
         folded. By default, the polygons of F.
-    is_cage : bool, optional
-        Whether they are those of a coarser mesh, which is to follow the result.
 
     Returns
     -------
@@ -138,7 +134,7 @@ def rest_mesh(
         skin,
     )
     matrices = skin.with_links(V, rest.links)
-    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole, is_cage=is_cage)
+    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
 
 
 def links_within(*surface: Any) -> tuple[Links, Links, Links]:

@@ -32,14 +32,8 @@ class RestyledRun(Run):
 
     That one cannot be continued afterwards.
 
-    Parameters
-    ----------
-    run : Run
-        Of `has_sides`.
-    soft : Stylization
-        With other settings, at the soft shape of that run.
-    keeps_sides : bool
-        Whether only the cubeness or the crispness is another.
+    `run`: of `has_sides`. `soft`: with other settings, at the soft shape of that run.
+    `keeps_sides`: whether only the cubeness or the crispness is another.
     """
 
     def __init__(self, run: Run, soft: Stylization, *, keeps_sides: bool):

@@ -8,12 +8,7 @@ from pathlib import Path
 def check(found, path):
     """Refuse what differs, with the lines as they would have to stand in the file.
 
-    Parameters
-    ----------
-    found : dict
-        Names, and values for JSON.
-    path : Path
-        A JSON file with a dict.
+    `found`: names, and values for JSON. `path`: a JSON file with a dict.
     """
     now = lines(found)
     then = lines(json.loads(Path(path).read_text(encoding="utf-8"))) if path.exists() else []

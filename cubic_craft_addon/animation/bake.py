@@ -58,12 +58,7 @@ class _Item:
 class Bake:
     """Objects whose frames are to be cubified, as a job of `WatchedJob`.
 
-    Parameters
-    ----------
-    overrides : FrameSettings
-    sources : list of bpy.types.Object
-        The active one first.
-    options : BakeOptions
+    `sources`: the active one first.
 
     Raises
     ------

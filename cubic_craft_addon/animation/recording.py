@@ -44,16 +44,9 @@ class Recording:
 
     No other process has the folder until it is released.
 
-    Parameters
-    ----------
-    folder : Path
-        It is made if it is not there.
-    about : dict
-        What the frames depend on, for JSON; frames of anything else are forgotten.
-    vertices : int
-    part : range, optional
-        Indices of the frames that are solved here, apart from the others. Without it, what parts
-        have solved is taken over.
+    `folder`: it is made if it is not there. `about`: what the frames depend on, for JSON; frames of
+    anything else are forgotten. `part`: indices of the frames that are solved here, apart from the
+    others. Without it, what parts have solved is taken over.
 
     Attributes
     ----------

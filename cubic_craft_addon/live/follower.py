@@ -22,10 +22,7 @@ _MARK = "cubic_craft_follower"
 class Follower:
     """A follower of one original; it keeps no reference to Blender's data, which undo frees.
 
-    Parameters
-    ----------
-    is_as_seen : bool
-        Whether it has the visible mesh, with modifiers.
+    `is_as_seen`: whether it has the visible mesh, with modifiers.
 
     Attributes
     ----------

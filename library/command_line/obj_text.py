@@ -24,15 +24,11 @@ _MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 class ObjText:
     """An .obj file.
 
-    Parameters
-    ----------
-    path : Path
-
     Attributes
     ----------
     points : (n,3) numpy array
-    faces : list of (k,s) numpy int arrays
-        Consecutive faces with the same number s of corners, in the order of the file.
+    faces : list of (s,) numpy int arrays
+        In the order of the file; triangles in place of those that have a vertex twice.
     triangles : (m,3) numpy int array
         A virtual triangulation of the faces.
     face_count : int
@@ -65,15 +61,20 @@ class ObjText:
                     blocks.append([])
                 blocks[-1].append(face)
         self.points = np.array(points, dtype=np.float64).reshape(-1, 3)
-        self.faces = [np.array(block, dtype=np.int64) for block in blocks]
-        highest = max((int(block.max()) for block in self.faces), default=-1)
+        polygons = [np.array(block, dtype=np.int64) for block in blocks]
+        highest = max((int(block.max()) for block in polygons), default=-1)
         if highest >= len(points):
             message = f"a face refers to vertex {highest + 1}, but there are only {len(points)}"
             raise InputError(f"{message}; export it again")
         with np.errstate(over="ignore", invalid="ignore"):  # infinite ones the solver refuses
-            parts = [triangulate(self.points, block) for block in self.faces]
+            parts = [triangulate(self.points, block) for block in polygons]
         self.triangles = np.concatenate([np.empty((0, 3), np.int64), *parts])
-        self.face_count = sum(map(len, self.faces))
+        self.faces = [
+            row
+            for block, split in zip(polygons, parts, strict=True)
+            for row in (split if _has_one_twice(block) else block)
+        ]
+        self.face_count = sum(map(len, polygons))
 
     def write(self, path: Path, positions: np.ndarray) -> None:
         """Write the file with other positions (n,3), and without normals if any of them moved.
@@ -120,6 +121,12 @@ class ObjText:
     def _error(self, number: int, reason: str) -> InputError:
         line = self._lines[number].decode(errors="replace").strip()[:60]
         return InputError(f"{reason} ({line!r}); export it again")
+
+
+def _has_one_twice(faces: np.ndarray) -> bool:
+    """Return whether any of the faces (k,s) has a vertex twice, which the solver refuses."""
+    in_order = np.sort(faces, axis=1)
+    return bool((in_order[:, 1:] == in_order[:, :-1]).any())
 
 
 def _without_normals(line: bytes) -> bytes:

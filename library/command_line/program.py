@@ -167,7 +167,7 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
     begin = time.perf_counter()
     file = mesh_files.read(Path(source))
     try:
-        result = stylized(file.points, file.triangles, options)
+        result = stylized(file.points, file.faces, options)
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     with replacing(Path(output)) as temporary:

@@ -23,15 +23,11 @@ _DROPPED = {b'"skins":': "bones", b'"animations":': "animations", b'"targets":':
 class SceneFile:
     """A file of any format but .obj.
 
-    Parameters
-    ----------
-    path : Path
-
     Attributes
     ----------
     points : (n,3) numpy array
         In the coordinates of the scene, where each node shows them.
-    triangles : (m,3) numpy int array
+    triangles, faces : (m,3) numpy int array
     face_count : int
 
     Raises
@@ -61,7 +57,7 @@ class SceneFile:
             raise InputError("has no vertices on faces; is the file cut off? Export it again")
         if self.triangles.max(initial=-1) >= len(self.points) or self.triangles.min(initial=0) < 0:
             raise InputError(f"a face refers to a vertex not among the {len(self.points)}")
-        self.face_count = len(self.triangles)
+        self.faces, self.face_count = self.triangles, len(self.triangles)
 
     def write(self, path: Path, positions: np.ndarray, rotations: np.ndarray) -> None:
         """Write the file with other positions (n,3), and normals turned by rotations (n,3,3).

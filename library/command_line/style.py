@@ -7,6 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from solver import CubicCraftError, Result, stylize
+from solver.aliases import Faces
 from solver.console.errors import InputError
 from solver.console.method_options import settings_from
 from solver.method import IN_LIBRARY, Method
@@ -14,8 +15,8 @@ from solver.proxy.options import proxy_of
 from solver.styles import forms
 
 
-def stylized(points: np.ndarray, triangles: np.ndarray, options: Namespace) -> Result:
-    """Return the result for a surface of points (n,3) and triangles (m,3).
+def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
+    """Return the result for a surface of points (n,3) and faces, of any numbers of corners.
 
     Raises InputError: the solver refuses the mesh or an option; the message lacks the path.
     """
@@ -23,7 +24,7 @@ def stylized(points: np.ndarray, triangles: np.ndarray, options: Namespace) -> R
     try:
         return stylize(
             points,
-            triangles,
+            faces,
             method.cubeness,
             max_iterations=method.max_iterations,
             tolerance=method.tolerance,

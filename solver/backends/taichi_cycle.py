@@ -35,13 +35,7 @@ class TaichiCycle:
     The levels lie one after the other in the same arrays, so that a single kernel does all of them:
     to start a kernel on a GPU takes longer than the work of a coarse level.
 
-    Parameters
-    ----------
-    multigrid : Multigrid
-    arrays : HostArrays or DeviceArrays
-        Where they run.
-    cycles : int, optional
-        How many; by default `ON_PROCESSOR` or `ON_DEVICE`.
+    `arrays`: where they run. `cycles`: how many; by default `ON_PROCESSOR` or `ON_DEVICE`.
 
     Attributes
     ----------

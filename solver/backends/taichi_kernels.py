@@ -31,16 +31,10 @@ from .taichi_lanes import make_local_step as in_lanes
 def make_kernels(real, width, is_captured=False, has_lanes=False):
     """Return the kernels `local_step` and `right_hand_side`.
 
-    Parameters
-    ----------
-    real : ti.f64 or ti.f32
-    width : {3, 4}
-        Of the states of vertices: 3 for the cube, 4 for polytopes.
-    is_captured : bool
-        Whether normals are drawn to captured ones; else `captured` is not read.
-    has_lanes : bool
-        Whether the processor computes a few vertices at once; for the cube, and not on a GPU. The
-        kernel is then not given `FaceTables`.
+    `real`: ti.f64 or ti.f32. `width`: of the states of vertices: 3 for the cube, 4 for polytopes.
+    `is_captured`: whether normals are drawn to captured ones; else `captured` is not read.
+    `has_lanes`: whether the processor computes a few vertices at once; for the cube, and not on a
+    GPU. The kernel is then not given `FaceTables`.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     _, vectors4 = state_types(real, 4)

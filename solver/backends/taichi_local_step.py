@@ -45,13 +45,8 @@ class _Arguments(NamedTuple):
 class TaichiLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
-    Parameters
-    ----------
-    rest, lam, Q, options, form, captured, normals
-        As in `NumpyLocalStep`.
-    device : {"cpu", "gpu"}
-    precision : {"f64", "f32"}, optional
-        By default f64 where the device has it.
+    `rest`, `lam`, `Q`, `options`, `form`, `captured`, `normals`: as in `NumpyLocalStep`.
+    `precision`: by default f64 where the device has it.
 
     Attributes
     ----------

@@ -18,10 +18,7 @@ class TaichiMotion:
     that back, extrapolates and measures. Between them only the sums of `Topology.groups` are looked
     at in NumPy. The positions lie where the arrays of the local step do.
 
-    Parameters
-    ----------
-    setup, local, U, constraints
-        As in `Motion`; the local step is one of Taichi.
+    `setup`, `local`, `U`, `constraints`: as in `Motion`; the local step is one of Taichi.
 
     Attributes
     ----------

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
@@ -32,6 +31,7 @@ from .pairs import links_against, merged, mirrored
 from .push import heights, pushed
 from .riding import riding
 from .shown import shown
+from .where_crossed import are_where_parts_crossed
 
 ROUNDS = 4
 TRIES = 2
@@ -49,10 +49,6 @@ WORTH = 0.05, 1.0
 the triangles that cross before it"""
 BETWEEN = 0.8
 """share of the pairs that have to be of two parts, or each round is worth it"""
-BESIDE = 0.03
-"""of the size: how far from where two parts cross at rest they may come to cross,..."""
-LONG = 0.1
-"""...if one has triangles with longer edges there"""
 SAMPLE = 500
 """pairs of many that are looked at first: of bricks that touch, no more have to be"""
 
@@ -126,7 +122,7 @@ class KeepApart:
             self._crossing = self._pairs_after(self._crossing, before, U)
         pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
-        pairs = pairs[~self._are_where_parts_crossed(pairs)]
+        pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
         if self._may_press:
             pairs = pairs[~self._are_of_two_parts(pairs)]
         self._found = pairs
@@ -235,7 +231,7 @@ class KeepApart:
             U = stylization.positions
             with_cards = self._with_cards(U)
         pairs = np.concatenate([self._crossing, with_cards])
-        pairs = pairs[~self._are_where_parts_crossed(pairs)]
+        pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
         pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
@@ -253,32 +249,6 @@ class KeepApart:
         one, other = self._rest.topology.part[self._shown[pairs, 0]].T
         is_worn = self._rest.is_worn
         return (one != other) & ~is_worn[one] & ~is_worn[other]
-
-    def _are_where_parts_crossed(self, pairs):
-        """Return which pairs (k,2) are of two parts, one long, and near where they cross at rest.
-
-        A stick in a hand goes into it elsewhere as both become square. It would stay round all
-        along its long triangles; small ones may stay soft, or an eye would come through its lid.
-        """
-        V, F = self._rest.V, self._shown
-        part = self._rest.topology.part[F[pairs, 0]]
-        found = np.flatnonzero(part[:, 0] != part[:, 1])
-        corners = V[F[pairs[found]]]
-        is_long = np.linalg.norm(corners - np.roll(corners, 1, axis=2), axis=3).max(axis=2) > LONG
-        found = found[is_long.any(axis=1)]
-        are_all = np.zeros(len(pairs), dtype=bool)
-        if not len(found):
-            return are_all
-        corners = np.unique(F[pairs[found]])
-        is_near = KDTree(V[corners]).query(V, distance_upper_bound=BESIDE)[0] < BESIDE
-        asked = np.flatnonzero(is_near[F].any(axis=1))
-        crossed = np.unique(F[asked[self._rest.crosses_at_rest(asked)]])
-        if not len(crossed):
-            return are_all
-        is_beside = np.zeros(len(V), dtype=bool)
-        is_beside[corners] = KDTree(V[crossed]).query(V[corners])[0] < BESIDE
-        are_all[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
-        return are_all
 
     def _is_too_dear(self, stylization, before):
         """Return whether the first round has taken back too much of what the style had done."""

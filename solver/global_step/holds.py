@@ -23,12 +23,8 @@ _SMALLEST = 1e-9  # relative; a group on a line may turn about it
 class HoldFields:
     """Everything that is computed once per mesh, pins and groups.
 
-    Parameters
-    ----------
-    setup : Setup
-    weights : sequence of (N,) arrays
-        Of the vertices of the input. What is pinned, loose, or in a component of which the group
-        has nothing, does not count.
+    `weights`: sequence of (N,), of the vertices of the input. What is pinned, loose, or in a
+    component of which the group has nothing, does not count.
 
     Attributes
     ----------

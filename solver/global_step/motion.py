@@ -5,15 +5,9 @@
 class Motion:
     """The positions in NumPy; `backends/taichi_motion.py` has the same for large meshes.
 
-    Parameters
-    ----------
-    setup : Setup
-    local : NumpyLocalStep or TaichiLocalStep
-        Whose rotations the positions follow.
-    U : (n,3) float64 array
-        The first positions in the unit box, with pinned vertices at their targets.
-    constraints : sequence
-        Applied after each step: ``impose(U)`` moves positions (n,3) so that they are satisfied.
+    `local`: whose rotations the positions follow. `U`: (n,3) float64, the first positions in the
+    unit box, with pinned vertices at their targets. `constraints`: applied after each step:
+    ``impose(U)`` moves positions (n,3) so that they are satisfied.
 
     Attributes
     ----------

@@ -35,14 +35,9 @@ class Multigrid:
     The corrections are computed in 32 bit; what they correct is not. `backends/taichi_cycle.py`
     does the same with all cores.
 
-    Parameters
-    ----------
-    A : (n,n) csr_matrix
-        Symmetric.
-    decoupled : (n,n) csr_matrix
-        The same without coupling to the held rows: positive definite.
-    held : (k,) int array
-        Rows of the solution that stay as they are given.
+    `A`: (n,n) csr_matrix, symmetric. `decoupled`: (n,n) csr_matrix, the same without coupling to
+    the held rows: positive definite. `held`: (k,) int, rows of the solution that stay as they are
+    given.
 
     Attributes
     ----------
@@ -93,14 +88,8 @@ class Multigrid:
 class Level:
     """One level of the hierarchy but the coarsest.
 
-    Parameters
-    ----------
-    A : (n,n) csr_matrix
-        With a diagonal of ones.
-    P : (n,k) csr_matrix
-        Prolongation from the next level.
-    scale : (n,) array
-        What A was multiplied by on both sides.
+    `A`: (n,n) csr_matrix, with a diagonal of ones. `P`: (n,k) csr_matrix, prolongation from the
+    next level. `scale`: (n,), what A was multiplied by on both sides.
 
     Attributes
     ----------

@@ -28,13 +28,8 @@ SMALLEST = 1e-9
 class NoTurning:
     """The constraints of all components that are to keep their orientation.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    is_free : (component_count,) bool array
-        Components without a pinned vertex; the others are left alone.
-    solve : callable
-        Maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it.
+    `is_free`: (component_count,) bool, components without a pinned vertex; the others are left
+    alone. `solve`: maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it.
 
     Attributes
     ----------

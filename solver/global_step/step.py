@@ -32,14 +32,9 @@ class GlobalStep:
     to a translation; which one does not matter, since the component is then moved so that its
     area-weighted centroid stays where it was at rest.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    pinned : (k,) int array
-        Pinned vertices, as indices into ``rest.V``.
-    hold : (n,) array, optional
-        Added to the diagonal of L: how firmly vertices are drawn to given places, which belong to
-        the right-hand side. Then nothing floats.
+    `pinned`: (k,) int, pinned vertices, as indices into ``rest.V``. `hold`: (n,), added to the
+    diagonal of L: how firmly vertices are drawn to given places, which belong to the right-hand
+    side. Then nothing floats.
 
     Attributes
     ----------

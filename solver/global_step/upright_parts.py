@@ -38,14 +38,9 @@ MOST_MEMORY = 2**28
 class UprightParts:
     """The constraints of the components that have more than one large part.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    is_free : (component_count,) bool array
-        Components without a pinned vertex; the others are left alone.
-    solve : callable
-        Maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the constraints are
-        satisfied all the same, at a little more energy.
+    `is_free`: (component_count,) bool, components without a pinned vertex; the others are left
+    alone. `solve`: maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the
+    constraints are satisfied all the same, at a little more energy.
 
     Attributes
     ----------

@@ -24,29 +24,18 @@ _STEPS = 3  # of the global step, to the base
 
 @dataclass(frozen=True, eq=False)
 class Base:
-    """A surface without its details.
-
-    Attributes
-    ----------
-    rest : RestMesh
-    graph : FaceGraph
-        Of the surface as it is.
-    corners : Corners
-    normals : (m,3) array
-        Unit normals of the triangles without their details, zero for those without area.
-    upward : (n,3) array
-        The same of the vertices.
-    heights : (n,) array
-        How far they are above the base, in the unit box.
-    links : LinkedFaces
-    """
+    """A surface without its details."""
 
     rest: RestMesh
     graph: FaceGraph
+    """of the surface as it is"""
     corners: Corners
     normals: FloatArray
+    """(m,3) unit normals of the triangles without their details, zero for those without area"""
     upward: FloatArray
+    """(n,3) the same of the vertices"""
     heights: FloatArray
+    """(n,) how far they are above the base, in the unit box"""
     links: LinkedFaces
 
 

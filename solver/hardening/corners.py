@@ -13,15 +13,8 @@ from ..mesh.spokes_and_rims import Pattern
 class Corners:
     """The corners of the triangles of a surface.
 
-    Parameters
-    ----------
-    F : (m,3) int array
-    cotangents : (m,3) array
-        Weight of the edge opposite each corner.
-    edges : Edges
-        Those of F.
-    n : int
-        Number of vertices.
+    `F`: (m,3) int. `cotangents`: (m,3), weight of the edge opposite each corner. `edges`: those of
+    F. `n`: number of vertices.
     """
 
     def __init__(self, F, cotangents, edges, n):

@@ -44,43 +44,27 @@ GAIN = 1.0
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """What the triangles become.
-
-    Attributes
-    ----------
-    base : Base
-    heights : (n,) array
-        Of the details that the result has, in the unit box.
-    directions : (m,3) array
-        t_f, zero for triangles without a side.
-    is_free : (m,) bool array
-        These.
-    soft : (n,3) array
-        v, in the unit box.
-    hold : (n,) array
-        s_i, with the areas of the vertices.
-    slides : (n,) array
-        How far vertices slide along their sides, from 0 to 1.
-    """
+    """What the triangles become."""
 
     base: Base
     heights: FloatArray
+    """(n,) of the details that the result has, in the unit box"""
     directions: FloatArray
+    """(m,3) t_f, zero for triangles without a side"""
     is_free: BoolArray
+    """(m,) bool these"""
     soft: FloatArray
+    """(n,3) v, in the unit box"""
     hold: FloatArray
+    """(n,) s_i, with the areas of the vertices"""
     slides: FloatArray
+    """(n,) how far vertices slide along their sides, from 0 to 1"""
 
 
 class FaceStep:
     """Rotations of triangles from positions, and the right-hand side of the global step.
 
     It has the interface of `NumpyLocalStep`.
-
-    Parameters
-    ----------
-    rest : RestMesh
-    target : Target
 
     Attributes
     ----------

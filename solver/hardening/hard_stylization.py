@@ -14,7 +14,7 @@ from ..global_step.motion import Motion
 from ..setup import Setup
 from ..stylization import Stylization
 from .face_step import FaceStep
-from .hardening import Hardening, hardening_of
+from .hardening import Hardening, hardening_after, hardening_of
 
 _LEAST = 0.05  # crispness that can be moved: a move grows by its inverse
 
@@ -25,12 +25,8 @@ class HardStylization(Stylization):
     Its positions are between the soft shape and the hard one, as far as the crispness says; its
     energy is that of `FaceStep`.
 
-    Parameters
-    ----------
-    soft : Stylization
-        At its end. It stays as it is.
-    before : (m,3) array, optional
-        What triangles faced in the frame of an animation before, `hardening.facing`.
+    `soft`: at its end. It stays as it is. `before`: (m,3), what triangles faced in the frame of an
+    animation before, `hardening.facing`.
 
     Attributes
     ----------
@@ -101,7 +97,7 @@ class HardStylization(Stylization):
 
     def found_anew(self, soft: Stylization) -> Hardening:
         """Return the Hardening of another soft one of the same vertices, with sides found anew."""
-        return hardening_of(soft, last=self.hardening)
+        return hardening_after(self.hardening, soft)
 
     def go_on_with(self, soft: Stylization, found: Hardening, held: Setup) -> HardStylization:
         """Return one that goes on from here with what was `found_anew`.

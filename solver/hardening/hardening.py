@@ -37,38 +37,26 @@ _ORTHONORMALIZATIONS = 4
 
 @dataclass(frozen=True, eq=False)
 class Hardening:
-    """A soft shape, and what it becomes.
-
-    Attributes
-    ----------
-    solved : (n,3) array
-        Positions of the soft shape in the unit box.
-    soft : (n,3) array
-        The same with the strength of details asked for.
-    rotations : (n,3,3) array
-        Of the soft shape.
-    crispness : (n,) array
-        How far the vertices go from there to the hard shape, from 0 to 1.
-    firm : (n,) array
-        How far at a crispness of 1: less where they are thinner than details, but for plates, and
-        where they were softened.
-    target : Target
-    side : (m,) int array
-    facing : (m,3) array
-        As `sides_of` returns them.
-    moves : (n,3) array
-        Of the vertices of the hard shape, which make the borders of its sides straight.
-    """
+    """A soft shape, and what it becomes."""
 
     solved: FloatArray
+    """(n,3) positions of the soft shape in the unit box"""
     soft: FloatArray
+    """(n,3) the same with the strength of details asked for"""
     rotations: FloatArray
+    """(n,3,3) of the soft shape"""
     crispness: FloatArray
+    """(n,) how far the vertices go from there to the hard shape, from 0 to 1"""
     firm: FloatArray
+    """(n,) how far at a crispness of 1: less where they are thinner than details, but for plates,
+    and where they were softened"""
     target: Target
     side: IntArray
+    """(m,) int"""
     facing: FloatArray
+    """(m,3) as `sides_of` returns them"""
     moves: FloatArray
+    """(n,3) of the vertices of the hard shape, which make the borders of its sides straight"""
 
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
@@ -132,25 +120,41 @@ def hold_of(rest):
     return np.maximum(rest.areas, _POINT * _POINT) / (reach * reach)
 
 
-def hardening_of(stylization, before=None, last=None):
+def hardening_of(stylization, before=None):
     """Return the Hardening of a Stylization at its present, soft shape.
 
-    Parameters
-    ----------
-    stylization : Stylization
-    before : (m,3) array, optional
-        What triangles faced in the frame of an animation before, see `sides_of`.
-    last : Hardening, optional
-        Of the same vertices, a moment ago: what was soft stays so, and sides change only where they
-        clearly are others. What takes long is not found anew: rims, and where the rest shape is the
-        same, its base.
+    `before`: what triangles (m,3) faced in the frame of an animation before, see `sides_of`.
     """
-    style, rest = stylization.style, stylization.rest
-    base = base_of(stylization.setup) if last is None else _base_now(stylization.setup, last)
-    F, R = rest.F, stylization.rotations.copy()
-    crispness = _crispness_of(style)
-    firm = _share_of_thickness(rest) if last is None else last.firm
-    is_free = ~(firm * crispness > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
+    setup, rest = stylization.setup, stylization.rest
+    base, thick = base_of(setup), _share_of_thickness(rest)
+    sides = _sides(stylization, base, thick, before, STEADY)
+    slides = 0.0 if rest.is_cage else 1.0  # a cage could not follow
+    rims = rims_and_flats(base.graph, stylization.positions, rest.F, *sides[:2])
+    rim, plate = slides * np.stack(rims)
+    hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
+    found = _raised(stylization, base, thick, sides, hold, plate)
+    firm = np.maximum(thick, plate)
+    return replace(found, firm=firm, crispness=firm * _crispness_of(stylization.style))
+
+
+def hardening_after(last, stylization):
+    """Return the Hardening of a Stylization of the same vertices as the last one, a moment ago.
+
+    What was soft stays so, and sides change only where they clearly are others. What takes long is
+    not found anew: rims, and where the rest shape is the same, its base.
+    """
+    base, setup, firm = last.target.base, stylization.setup, last.firm
+    if base.rest is not setup.rest:
+        base = base_of(setup)
+    sides = _sides(stylization, base, firm, last.facing, CLEAR)
+    return _raised(stylization, base, firm, sides, last.target.hold, last.target.slides)
+
+
+def _sides(stylization, base, firm, before, steady):
+    """Return side (m,), facing (m,3) and directions, as `sides_of` at the present shape."""
+    style, rest, R = stylization.style, stylization.rest, stylization.rotations
+    F = rest.F
+    is_free = ~(firm * _crispness_of(style) > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     is_free |= rest.is_sheet[F[:, 0]]
     frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
@@ -162,12 +166,18 @@ def hardening_of(stylization, before=None, last=None):
         np.sort(style.form_of[F], axis=1)[:, 1],  # of two corners, or of one
         is_free=is_free,
         whole=rest.whole,
-        before=before if last is None else last.facing,
-        steady=STEADY if last is None else CLEAR,
+        before=before,
+        steady=steady,
     )
     if style.forms:  # what is inside out faces the other way
         directions = directions * rest.outward[F[:, 0]]
-    solved = stylization.positions.copy()
+    return side, facing, directions
+
+
+def _raised(stylization, base, firm, sides, hold, plate):
+    """Return the Hardening with its details as high as they are asked to be, where it is firm."""
+    style, (side, facing, directions) = stylization.style, sides
+    solved, R = stylization.positions.copy(), stylization.rotations.copy()
     soft = solved.copy()
     strength = 1.0 + (style.detail_strength - 1.0) * firm
     if (strength != 1.0).any():
@@ -175,22 +185,9 @@ def hardening_of(stylization, before=None, last=None):
         soft += added[:, None] * np.einsum("nij,nj->ni", R, base.upward)
         stylization.impose(soft)
     heights = strength * base.heights
-    if last is None:
-        slides = 0.0 if rest.is_cage else 1.0  # a cage could not follow
-        rim, plate = slides * np.stack(rims_and_flats(base.graph, solved, F, side, facing))
-        hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
-        firm = np.maximum(firm, plate)
-    else:
-        hold, plate = last.target.hold, last.target.slides
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
-    still = np.zeros_like(soft)
-    return Hardening(solved, soft, R, firm * crispness, firm, target, side, facing, still)
-
-
-def _base_now(setup, last):
-    """Return the Base of a Setup, which is that of the last Hardening if the rest shape is."""
-    base = last.target.base
-    return base if base.rest is setup.rest else base_of(setup)
+    crispness, still = firm * _crispness_of(style), np.zeros_like(soft)
+    return Hardening(solved, soft, R, crispness, firm, target, side, facing, still)
 
 
 def _crispness_of(style):

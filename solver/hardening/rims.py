@@ -21,15 +21,8 @@ FEWEST = 4
 def rims_and_flats(graph, V, F, side, facing):
     """Return how far vertices (n,) belong to rims, and how far to these or to flats between them.
 
-    Parameters
-    ----------
-    graph : FaceGraph
-    V : (n,3) array
-        Positions of the soft shape.
-    F : (m,3) int array
-    side : (m,) int array
-    facing : (m,3) array
-        As `sides_of` returns them.
+    `graph`: FaceGraph. `V`: (n,3), positions of the soft shape. `F`: (m,3) int. `side`: (m,) int.
+    `facing`: (m,3), as `sides_of` returns them.
     """
     is_same = (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)

@@ -7,10 +7,7 @@ import numpy as np
 class Edges:
     """The edges of triangles between n vertices.
 
-    Parameters
-    ----------
-    F : (m,3) int array
-    n : int
+    `F`: (m,3) int.
 
     Attributes
     ----------

@@ -15,11 +15,7 @@ _SHORTEST = 1e-9  # in the unit box, between two centroids
 class FaceGraph:
     """The neighbors of the triangles of a surface.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Positions in the unit box.
-    F : (m,3) int array
+    `V`: (n,3) float, positions in the unit box. `F`: (m,3) int.
 
     Attributes
     ----------

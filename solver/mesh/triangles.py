@@ -12,11 +12,7 @@ class Triangles:
 
     Not kept in a `RestMesh`: of a million vertices this would be 300 MB.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Positions in the unit box.
-    F : (m,3) int array
+    `V`: (n,3) float, positions in the unit box. `F`: (m,3) int.
 
     Attributes
     ----------

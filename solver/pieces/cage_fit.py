@@ -33,16 +33,9 @@ SHORTEST = 0.05
 class CageFit:
     """The fit of a cage of k vertices to surfaces of N.
 
-    Parameters
-    ----------
-    smooth : (N,k) scipy csr_matrix
-        From positions of the cage to those of its surface.
-    edges, fine : (e,2) and (d,2) int arrays
-        The edges of the cage, and of its surface.
-    at_rest : (k,3) array
-        The cage at rest.
-    is_held : (k,) bool array
-        Vertices that are given.
+    `smooth`: (N,k) scipy csr_matrix, from positions of the cage to those of its surface. `edges`,
+    `fine`: (e,2) and (d,2) int, the edges of the cage, and of its surface. `at_rest`: (k,3), the
+    cage at rest. `is_held`: (k,) bool, vertices that are given.
     """
 
     def __init__(

@@ -288,9 +288,8 @@ def _rest(pieces, proxy, earlier):
         if rest is not None:
             return rest
     triangles = [part.start + piece.F for piece, part in parts_of(pieces)]
-    is_cage = any(isinstance(piece.whole, Subdivided) for piece in pieces)
-    surface = _positions(pieces), np.concatenate(triangles)
-    return rest_mesh(*surface, proxy, _faces(pieces), is_cage=is_cage)
+    rest = rest_mesh(_positions(pieces), np.concatenate(triangles), proxy, _faces(pieces))
+    return replace(rest, is_cage=any(isinstance(piece.whole, Subdivided) for piece in pieces))
 
 
 def _planes(pieces, rest, earlier):

@@ -21,17 +21,10 @@ _LEAST_TOLERANCE = 1e-6  # of the largest extent: vertices closer to the plane t
 class Whole:
     """A mesh with its reflections, and the vertices that are images of each other.
 
-    Parameters
-    ----------
-    original : (n,3) array
-        Object coordinates.
-    triangles : (m,3) int array
-    reflections : sequence of Reflection
-        Reflections to add: the first of the mesh, the second of both, and so on.
-    symmetry : sequence of bool
-        About which axes of the object the mesh itself is to be symmetric.
-    face_of : (m,) int array, optional
-        The face of the mesh that each triangle is a piece of.
+    `original`: (n,3), object coordinates. `triangles`: (m,3) int. `reflections`: reflections to
+    add: the first of the mesh, the second of both, and so on. `symmetry`: about which axes of the
+    object the mesh itself is to be symmetric. `face_of`: (m,) int, the face of the mesh that each
+    triangle is a piece of.
 
     Attributes
     ----------

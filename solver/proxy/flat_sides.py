@@ -28,11 +28,7 @@ COPLANAR = np.cos(np.radians(0.5))
 def stiffness(triangles, part):
     """Return the factors (m,) of the weights of the triangles: less than 1 in flat sides.
 
-    Parameters
-    ----------
-    triangles : Triangles
-    part : (n,) int array
-        Connected part of each vertex.
+    `triangles`: Triangles. `part`: (n,) int, connected part of each vertex.
     """
     areas, normals = triangles.areas, triangles.normals
     one, other = triangles.edges.triangles()

@@ -24,15 +24,9 @@ DEEP = 0.25
 def links_through(V, F, part, count, links, areas, spacing):
     """Return links between parts that cross and that others (Links) do not connect.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    F : (m,3) int array
-    part : (n,) int array
-        Connected part of each vertex, of `count` parts.
-    areas, spacing : (n,) arrays
-        Of the vertices, and the distance between them.
+    `V`: (n,3) float, rest positions in the unit box. `F`: (m,3) int. `part`: (n,) int, connected
+    part of each vertex, of `count` parts. `areas`, `spacing`: (n,), of the vertices, and the
+    distance between them.
     """
     group = components(np.empty((0, 3), np.int64), count, part[links.pairs()])[1]
     of_face = group[part[F[:, 0]]]

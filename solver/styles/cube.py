@@ -63,15 +63,9 @@ class Cube:
     def next_set(self, kept, moment, x, y, problem, slack):
         """Return what is kept, with new multipliers, and where the active axes may stay (n,).
 
-        Parameters
-        ----------
-        kept : tuple of arrays
-        moment : (n,3) array
-            Gradient of tr(W G) for small turns W.
-        x, y : (n,3) arrays
-            Normals in the frame of the form, and in that of the mesh.
-        problem : LocalProblem
-        slack : float
+        `kept`: tuple of arrays. `moment`: (n,3), gradient of tr(W G) for small turns W. `x`, `y`:
+        (n,3), normals in the frame of the form, and in that of the mesh. `problem`: LocalProblem.
+        `slack`: float.
         """
         (s, active), x, lam, Q = (a.T for a in kept), x.T, problem.lam, columns(problem.Q)
         has_cost = lam > 0.0

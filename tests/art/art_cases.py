@@ -197,9 +197,7 @@ def cubified(objects, **options):
 def outcome_of(name, cubeness=0.4, is_paper=False):
     """Cubify a case in an empty file, once however often it is asked for.
 
-    Parameters
-    ----------
-    is_paper : the energy of the paper, but with the rotation of the default settings
+    `is_paper`: the energy of the paper, but with the rotation of the default settings.
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     case = CASES[name]

@@ -56,9 +56,7 @@ def body(voxel=VOXEL):
 def painted(voxel=VOXEL, border=0.0):
     """Return the body with a vertex group "Head": 1 above the neck, 0 below.
 
-    Parameters
-    ----------
-    border : height over which the weight falls
+    `border`: height over which the weight falls.
     """
     (obj,) = body(voxel)
     z = part_of(obj)[0][:, 2]

@@ -13,11 +13,8 @@ import numpy as np
 def revolved(profile, segments):
     """Return the surface that a profile sweeps about the Z axis.
 
-    Parameters
-    ----------
-    profile : (k,2) radius and height; from the bottom up along the outside. An end on the axis
-        becomes a pole, any other end a boundary.
-    segments : int
+    `profile`: (k,2) radius and height; from the bottom up along the outside. An end on the axis
+    becomes a pole, any other end a boundary. `segments`: int.
     """
     profile = np.asarray(profile, float)
     angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
@@ -79,10 +76,7 @@ def box(size, centre=(0, 0, 0), top=(1, 1)):
 def blocks(x, y, z, is_filled):
     """Return the surface of the filled cells of a grid.
 
-    Parameters
-    ----------
-    x, y, z : (a+1,), (b+1,), (c+1,) positions of the grid's planes
-    is_filled : (a,b,c) bool
+    `x`, `y`, `z`: (a+1,), (b+1,), (c+1,) positions of the grid's planes. `is_filled`: (a,b,c) bool.
     """
     shape = np.array([len(x), len(y), len(z)])
     padded = np.pad(is_filled, 1)

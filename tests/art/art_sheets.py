@@ -28,9 +28,7 @@ def pipe(segments=40):
 def cape_at_wall(gap=0.004):
     """Return a wall, a closed slab, and an open cape along it; two objects.
 
-    Parameters
-    ----------
-    gap : between them, as a share of the size
+    `gap`: between them, as a share of the size.
     """
     x, z = np.linspace(-1, 1, 41), np.linspace(0, 2, 41)
     wall = blocks(x, np.array([0, 0.05, 0.1]), z, np.ones((40, 2, 40), bool))

@@ -20,10 +20,7 @@ def hand(is_inverted=False, degrees=12):
 
     Each finger has a vertex group of its own, "Finger 0" to "Finger 3", and the palm one, "Palm".
 
-    Parameters
-    ----------
-    is_inverted : the normals point inside
-    degrees : turn of the hand in its plane
+    `is_inverted`: the normals point inside. `degrees`: turn of the hand in its plane.
     """
     across = np.linspace(0, 1, 7)
     x = np.concatenate([k * (WIDTH + SLIT) + WIDTH * across for k in range(FINGERS)])

@@ -41,10 +41,7 @@ def part_of(V, F, is_welded=True):
 
     Triangles with a common edge are of one part; a common vertex alone does not join parts.
 
-    Parameters
-    ----------
-    is_welded : bool
-        A seam, where edges are doubled, does not end a part.
+    `is_welded`: a seam, where edges are doubled, does not end a part.
     """
     corners = welded(V, F) if is_welded else F
     edges = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2), axis=2)
@@ -214,10 +211,7 @@ def _crossing_pairs(V, U, F):
 def limbs_turn(V, U, parts):
     """Return the largest angle in degrees by which a limb has turned.
 
-    Parameters
-    ----------
-    parts : sequence of (n,) bool arrays
-        The vertices of each limb, which is longer than thick.
+    `parts`: sequence of (n,) bool, the vertices of each limb, which is longer than thick.
     """
     ways = [[np.linalg.eigh(np.cov(X[part].T))[1][:, 2] for part in parts] for X in (V, U)]
     cosines = [abs(one @ other) for one, other in zip(*ways, strict=True)]

@@ -40,6 +40,7 @@ def test_a_lone_sheet_has_no_other_side():
     assert np.array_equal(*results)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("is_inverted", [False, True])
 def test_a_finger_that_is_pulled_away_leaves_the_others_alone(is_inverted):
     pulled = Matrix.Translation((-0.3, -0.1, 0.4))

@@ -20,7 +20,7 @@ from snapshot import differences
 from world import snapshot_world
 
 IS_THOROUGH = bool(os.environ.get("CUBIC_CRAFT_FAULTS"))
-SHARE = 800
+SHARE = 1500
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 WORDS = {RuntimeError: "disk on fire", MemoryError: "memory", KeyboardInterrupt: "interrupted"}
 OPTIONS = {"max_iterations": 2, "device": "NUMPY", "refine": "OFF", "keep_apart": False}

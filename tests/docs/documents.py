@@ -86,10 +86,7 @@ def links(page):
 def examples(package):
     """Return the Python examples as (page, title of the section), by what they need.
 
-    Parameters
-    ----------
-    package : {"bpy", "cubic_craft", "solver"}
-        Blender, the installed wheel, or the folder of the repository.
+    `package`: blender, the installed wheel, or the folder of the repository.
     """
     found = []
     for page in PAGES:

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from cubic_craft import PAPER, CubicCraftError, ProxyOptions, stylize
 from cubic_craft.command_line import arguments, style
+from cubic_craft.mesh.polygons import triangulate
 from cubic_craft.styles import forms
 from scripts.benchmark.shapes import blob
 
@@ -129,6 +130,32 @@ def test_quads_polygons_and_loose_vertices_stay(tmp_path):
     text = (tmp_path / "cubic.obj").read_text()
     assert text.partition("f ")[2] == HOUSE.partition("f ")[2]
     assert "\nv 7 7 7\n" in text and "v 2 2 1.5" not in text
+
+
+def test_quads_of_an_obj_have_one_side_each(tmp_path):
+    """As in Blender: `triangulate`d, some would be folded along their diagonals."""
+    sides = np.sort(F[:, [[1, 2], [2, 0], [0, 1]]], axis=2)
+    edges, number = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    middle, center = len(V) + number.reshape(F.shape), len(V) + len(edges) + np.arange(len(F))
+    points = np.concatenate([V, V[edges].mean(axis=1), V[F].mean(axis=1)])
+    points *= 1.0 + 0.05 * np.sin(7.0 * points @ [1.0, 2.0, 3.0])[:, None]  # no quad is flat
+    quads = np.concatenate(
+        [np.stack([F[:, i], middle[:, i - 1], center, middle[:, i - 2]], 1) for i in range(3)]
+    )
+    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
+    rows += ["f " + " ".join(map(str, quad)) for quad in (quads + 1).tolist()]
+    (tmp_path / "ball.obj").write_text("\n".join(rows) + "\n")
+    cubic_craft("ball.obj", "cubic.ply", *QUICK, folder=tmp_path)
+    made, wanted = load(tmp_path / "cubic.ply").vertices, quick(points, quads).positions
+    folded = quick(points, triangulate(points, quads)).positions
+    assert np.abs(made - wanted).max() < 1e-6 < 1e-3 < np.abs(made - folded).max()
+
+
+def test_a_polygon_with_a_hole_in_it_passes_a_vertex_twice(tmp_path):
+    ring = "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\nv 2 1 0\n"
+    (tmp_path / "slit.obj").write_text(f"{ring}f 1 2 3 4 1 5 6 7 8 5\n")
+    (line,) = cubic_craft("slit.obj", "cubic.obj", *QUICK, folder=tmp_path)
+    assert "8 vertices, 1 faces" in line
 
 
 @pytest.mark.parametrize("ending", [".stl", ".off"])

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from batch_kit import CUBE, QUICK, batch
+from batch_kit import CUBE, MESHES, QUICK, batch
 from headless import PATIENCE, SCRIPT
 
 FARMS = SCRIPT.parents[1] / "examples" / "farms"
@@ -44,10 +44,10 @@ def run(*command, cwd, **variables):
 
 def test_a_task_of_an_array_job_does_what_the_batch_does(folder):
     variables = {"BLENDER": str(folder / "blender"), "SLURM_ARRAY_TASK_ID": "2"}
-    arguments = ("in", "jobs", *QUICK, "--save-mesh", ".obj")
+    arguments = ("in", "jobs", *MESHES)
     code, words = run("sh", FARMS / "array_job.sh", *arguments, cwd=folder, **variables)
     assert code == 0, words
-    batch("in", cwd=folder)
+    batch("in/it's $HOME.obj", cwd=folder)
     done, expected = (folder / name / "it's $HOME.obj" for name in ("jobs", "out"))
     assert done.read_bytes() == expected.read_bytes()
 

@@ -42,7 +42,7 @@ def rigged(tmp_path_factory):
 def cached(rigged, tmp_path_factory):
     """Return the positions (FRAMES,162,3) of the first ball, from a point cache."""
     folder = tmp_path_factory.mktemp("cached")
-    headless_ok(rigged, "--object", "Ball", "--bake", "out.pc2", cwd=folder)
+    headless_ok(rigged, "--object", "Ball", *ROUGH, "--bake", "out.pc2", cwd=folder)
     assert [path.name for path in folder.iterdir()] == ["out.pc2"]
     return read_pc2(folder / "out.pc2")
 
@@ -70,7 +70,7 @@ def test_frames_are_cubic(cached):
     ("suffix", "read"), [("usdc", read_usd), ("usda", read_usd), ("abc", read_alembic)]
 )
 def test_other_programs_read_the_frames(rigged, cached, tmp_path, suffix, read):
-    options = ("--object", "Ball", "--bake", f"out.{suffix}", "--report", "out.json")
+    options = ("--object", "Ball", *ROUGH, "--bake", f"out.{suffix}", "--report", "out.json")
     headless_ok(rigged, *options, cwd=tmp_path)
     found = read(tmp_path / f"out.{suffix}")
     assert found["frames"] == [1, FRAMES]
@@ -85,7 +85,7 @@ def test_other_programs_read_the_frames(rigged, cached, tmp_path, suffix, read):
 
 
 def test_all_objects_of_a_file_and_some_frames(rigged, tmp_path):
-    headless_ok(rigged, "--bake", "out.usdc", "--frames", "2", "4", cwd=tmp_path)
+    headless_ok(rigged, *ROUGH, "--bake", "out.usdc", "--frames", "2", "4", cwd=tmp_path)
     found = read_usd(tmp_path / "out.usdc")
     assert found["frames"] == [2, 4]
     assert sorted(found["points"]) == ["Ball_Cubic", "Other_Cubic"]

@@ -91,7 +91,9 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 
 def test_of_what_a_cache_plays_the_seen_shape_is_taken(tmp_path):
     source = make_blend(COVERED, tmp_path / "played.blend")
-    done = headless_shared(source, *FASTEST, "--save-mesh", "out.blend", cwd=tmp_path)
+    done = headless_shared(
+        source, *FASTEST, "--no-render", "--save-mesh", "out.blend", cwd=tmp_path
+    )
     assert done.returncode == 0 and '"Suzanne": what is seen is taken' in done.stdout + done.stderr
 
 

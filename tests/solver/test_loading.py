@@ -40,6 +40,7 @@ def test_afterwards_a_run_compiles_nothing_and_imports_nothing_that_takes_long()
     assert not lines[-1].split()
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("error", ["ImportError", "OSError", "RuntimeError"])
 def test_an_engine_that_does_not_work_is_left_to_the_run(error):
     lines = run(

@@ -196,17 +196,18 @@ def test_a_run_that_has_come_to_its_end_is_not_cancelled(device):
 
 def test_by_default_all_is_as_in_the_extension():
     V, F = shapes.blob(2)
-    plain = stylize(V, F, device="numpy")
+    few = {"device": "numpy", "max_iterations": 20}
+    plain = stylize(V, F, **few)
     defaults = method_options.defaults(*IN_LIBRARY)
     given = {name: values[0] for name, values in defaults.items()}
     proxy = {name: given[name] for name in ("solidity", "detail")}
     proxy |= {name: given[name] in ("on", "auto") for name in ("keep_pose", "keep_apart", "refine")}
     style = {name: given[name] for name in ("crispness", "detail_strength")}
     told = {"proxy": ProxyOptions(**proxy), "keep_rotation": given["rotation"] == "keep"}
-    assert plain == stylize(V, F, 0.4, device="numpy", **style, **told)
-    paper = stylize(V, F, device="numpy", proxy=PAPER)
+    assert plain == stylize(V, F, 0.4, **few, **style, **told)
+    paper = stylize(V, F, **few, proxy=PAPER)
     told = {"proxy": PAPER, "crispness": 0.0, "keep_rotation": False}
-    assert paper == stylize(V, F, 0.4, device="numpy", **told) != plain
+    assert paper == stylize(V, F, 0.4, **few, **told) != plain
     rest = rest_mesh(V, F)
     assert rest.options == ProxyOptions() == join_pieces([piece_of(V, F)]).setup.rest.options
     assert piece_of(V, F).placement.style.crispness == given["crispness"]

@@ -37,17 +37,10 @@ def run_batch(
 ) -> int:
     """Do what the command line says, and return the exit code.
 
-    Parameters
-    ----------
-    options : from `arguments.parse`, with an ``output_folder``
-    arguments : what they were read from
-    command : gives what starts the script, from the number of threads (None for all)
-    program : what the script calls itself
-
-    Raises
-    ------
-    InputError
-        Nothing can be done at all; what is wrong with a file is said of it.
+    `options`: from `arguments.parse`, with an ``output_folder``. `arguments`: what they were read
+    from. `command`: gives what starts the script, from the number of threads (None for all).
+    `program`: what the script calls itself. Raises InputError: nothing can be done at all; what is
+    wrong with a file is said of it.
     """
     bar = ProgressBar(memory=math.inf)
     sources, kinds = find_sources(options.inputs, options.recursive, options.output_folder)

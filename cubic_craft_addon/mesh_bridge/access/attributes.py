@@ -73,12 +73,9 @@ def add_attribute(
 ) -> None:
     """Add an attribute.
 
-    Parameters
-    ----------
-    mesh : the mesh, not in Edit Mode, without an attribute of that name
-    name : name of the attribute
-    values : (n,3) numpy float32 array of vectors, or (n,4) of quaternions
-    domain : what they belong to
+    `mesh`: the mesh, not in Edit Mode, without an attribute of that name. `name`: name of the
+    attribute. `values`: (n,3) numpy float32 array of vectors, or (n,4) of quaternions. `domain`:
+    what they belong to.
     """
     with active_kept(mesh):
         data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"

@@ -44,12 +44,9 @@ def transfer_keys(
 ) -> None:
     """Give a copy of an object the shape keys of its mesh, with their settings and drivers.
 
-    Parameters
-    ----------
-    source : the mesh that has the shape keys
-    new : the copy, whose mesh has none
-    positions, triangles : (n,3) and (m,3) arrays, the old surface
-    offsets : of its vertices, by the names of the keys; see `key_offsets`
+    `source`: the mesh that has the shape keys. `new`: the copy, whose mesh has none. `positions`,
+    `triangles`: (n,3) and (m,3) arrays, the old surface. `offsets`: of its vertices, by the names
+    of the keys; see `key_offsets`.
     """
     if not offsets:
         return

@@ -16,7 +16,7 @@ OPTIONS = {"refine": "OFF", "max_iterations": 200}
 PURE = {**OPTIONS, "cubeness": 0.0}
 
 
-def add_ball(name="Ball", subdivisions=5, **where):
+def add_ball(name="Ball", subdivisions=4, **where):
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions, **where)
     bpy.context.object.name = name
     return bpy.context.object

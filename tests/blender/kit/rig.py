@@ -9,7 +9,7 @@ import numpy as np
 import bpy  # isort: skip
 from scene import select  # isort: skip
 
-FRAMES = 12
+FRAMES = 8
 
 
 def ball_with_bones():

@@ -55,7 +55,8 @@ def test_the_original_is_not_touched_and_the_follower_shows_the_result(live, fol
     check_same_as_new_object(obj, follower_of(obj))
 
 
-@pytest.mark.parametrize("mode", ["OBJECT", "WEIGHT_PAINT", "EDIT", "SCULPT"])
+@pytest.mark.thorough(2)
+@pytest.mark.parametrize("mode", ["SCULPT", "OBJECT", "WEIGHT_PAINT", "EDIT"])
 def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, mode):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))
@@ -195,7 +196,8 @@ def test_where_it_is_written_can_be_changed_meanwhile(live, begin, first):
     assert (bits(obj) == before) == (other == "NEW_OBJECT")
 
 
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
+@pytest.mark.thorough(2)
+@pytest.mark.parametrize("mode", ["OBJECT", "SCULPT", "EDIT"])
 def test_a_file_saved_meanwhile_has_the_result_and_the_original(live, follow, mode, tmp_path):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))

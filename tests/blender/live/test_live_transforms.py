@@ -43,7 +43,7 @@ def moved(V, matrix):
     return V @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(3)
 @WAYS
 @pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
 @pytest.mark.parametrize("was_cubic", [False, True])
@@ -75,7 +75,7 @@ def test_a_shape_key_that_is_added_is_taken_in(begin, live):
     assert (position_of(obj.data) == before).all()
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @WAYS
 @pytest.mark.parametrize("is_live", [True, False])
 @pytest.mark.parametrize("was_cubic", [False, True])

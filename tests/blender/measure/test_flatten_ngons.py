@@ -51,6 +51,7 @@ def test_facets_become_ngons_with_their_uvs():
     assert bpy.ops.cubic_craft.restore.poll()
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("border", ["seam", "sharp", "material", "uv"])
 def test_ngons_end_at_the_borders_of_the_artist(border):
     obj = add_ball()

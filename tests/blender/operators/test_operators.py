@@ -60,7 +60,8 @@ def test_all_else_stays_bit_identical(result, keys):
     assert differences(before, snapshot_object(obj), SETTINGS) == []
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.7])
+@pytest.mark.thorough(1)
+@pytest.mark.parametrize("turn", [0.7, 0.0])
 def test_cubify_after_apply_starts_from_the_original(turn):
     """As if the transform had been applied first; but for squares that are cut the other way."""
     one, twin = add_monkey("One"), add_monkey("Twin")

@@ -200,6 +200,7 @@ def test_whatever_is_wrong_with_a_rig_the_shape_tells_instead(figure, part):
     assert places(obj) is None
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("fault", ["flat", "empty", "short", "edited", "none", "zero"])
 def test_a_broken_rig_is_no_reason_to_refuse(figure, fault):
     obj, rig = figure

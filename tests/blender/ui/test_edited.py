@@ -54,7 +54,7 @@ def test_it_follows_what_happens_to_the_mesh(edited):
     assert not edited.is_edited(obj.data)
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("start", ["HERE", "ORIGINAL", "EDITS"])
 @pytest.mark.parametrize("change", ["edited", "transformed"])
 def test_live_starts_from_what_cubify_starts_from(live, begin, start, change):

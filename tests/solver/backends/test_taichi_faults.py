@@ -34,7 +34,7 @@ BROKEN = {
 IMPORTED = {"empty", "never starts"}
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("how", BROKEN)
 def test_a_broken_engine_means_numpy_for_good(tmp_path, how):
     if BROKEN[how] is not None:

@@ -12,7 +12,7 @@ from solver import ProxyOptions, stylize
 from solver.contacts.riding import riding
 from solver.proxy.sheets import cards
 
-COUNT, ROWS = 150, 6
+COUNT, ROWS = 100, 5
 SIDES = 5
 
 

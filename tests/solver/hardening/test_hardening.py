@@ -204,7 +204,7 @@ def test_a_share_is_between_the_soft_and_the_hard_shape():
 
 @pytest.mark.parametrize("together", [False, True])
 def test_another_crispness_has_the_end_of_a_new_run(together):
-    setup = Setup(rest_mesh(*shapes.blob(3), ProxyOptions(together=together)))
+    setup = Setup(rest_mesh(*shapes.blob(3), ProxyOptions(refine=False, together=together)))
     first = Run(Stylization(setup, Style(0.5, crispness=0.2), options=KEPT))
     assert first.with_crispness(0.9) is None, "it has not begun"
     first.complete()
@@ -238,11 +238,11 @@ def ring(thickness, count=200, around=8):
 
 def knobs():
     """Return a ball with low bumps, and which vertices are on top of one."""
-    V, F = shapes.sphere(5)
+    V, F = shapes.sphere(4)
     ways = np.array([[1.0, 0.1, 0.2], [0.1, 1.0, -0.2], [-0.2, 0.1, 1.0]])
     ways = np.concatenate([ways, -ways]) / np.linalg.norm(ways[0])
     near = np.linalg.norm(V[:, None] - ways[None], axis=2).min(axis=1)
-    return V * (1.0 + 0.012 * np.exp(-((near / 0.05) ** 2)))[:, None], F, near
+    return V * (1.0 + 0.024 * np.exp(-((near / 0.1) ** 2)))[:, None], F, near
 
 
 @cache
@@ -253,28 +253,28 @@ def with_details(strength, crispness):
 
 
 def cubified(V, F, strength, crispness):
-    proxy, kept = replace(PAPER, detail=0.05), {"keep_rotation": True, "crispness": crispness}
+    proxy, kept = replace(PAPER, detail=0.1), {"keep_rotation": True, "crispness": crispness}
     return stylize(V, F, 0.4, proxy=proxy, detail_strength=strength, **kept).positions
 
 
 @pytest.mark.parametrize("crispness", [0.0, 1.0])
 def test_details_are_as_high_as_they_are_asked_to_be(crispness):
     _, _, near = knobs()
-    top, around = near < 0.02, (near > 0.13) & (near < 0.17)
+    top, around = near < 0.04, (near > 0.26) & (near < 0.34)
     shown = []
     for strength in (0.0, 1.0, 2.0):
         U = with_details(strength, crispness)
         tops, rings = (np.linalg.norm(U[part], axis=1).mean() for part in (top, around))
         shown.append(tops - rings)
     assert shown[2] - shown[1] == pytest.approx(shown[1] - shown[0], rel=0.35)
-    assert 0.004 < shown[1] - shown[0] < 0.02
+    assert 0.006 < shown[1] - shown[0] < 0.04
 
 
 def test_the_strength_of_details_can_be_painted():
     V, F, _ = knobs()
     U = cubified(V, F, np.where(V[:, 0] > 0, 1.0, 0.0), 1.0)
     for strength, part in ((1.0, V[:, 0] > 0.4), (0.0, V[:, 0] < -0.4)):
-        np.testing.assert_allclose(U[part], with_details(strength, 1.0)[part], atol=2e-3)
+        np.testing.assert_allclose(U[part], with_details(strength, 1.0)[part], atol=4e-3)
 
 
 def test_what_is_thinner_than_details_stays_soft():

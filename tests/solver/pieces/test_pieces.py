@@ -314,7 +314,7 @@ def table(heights=(1.0, 1.0, 1.0, 1.0)):
     """Return a slab on four rounded legs, which go down to minus some heights."""
     rows, F, n = [], [], 0
     for x, y, height in zip((-1, 1, -1, 1), (-1, -1, 1, 1), heights, strict=True):
-        V, G = blob(3)
+        V, G = blob(2)
         V = (V - V.mean(axis=0)) / np.ptp(V, axis=0)
         rows.append(V * [0.3, 0.3, height] + [0.6 * x, 0.6 * y, -0.5 * height])
         F.append(G + n)
@@ -331,7 +331,7 @@ def test_all_legs_of_what_stands_come_back_to_the_floor():
         solved(piece, proxy=ProxyOptions(), keep_floor=on, only_standing=True)[0]
         for on in (False, True)
     )
-    size, n = np.ptp(V[:, 2]), len(blob(3)[0])
+    size, n = np.ptp(V[:, 2]), len(blob(2)[0])
     legs = [slice(k * n, (k + 1) * n) for k in range(4)]
     rises = [[U[leg, 2].min() - V[leg, 2].min() for leg in legs] for U in (free, kept)]
     assert np.abs(rises[0]).max() > 0.006 * size

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Grounds, walls and stray parts: a figure becomes what it becomes alone."""
 
+from functools import cache
+
 import numpy as np
 import proxy_shapes
 import pytest
@@ -18,6 +20,12 @@ def figure():
     V, F = shapes.sphere(4)
     V = V * [1.0, 0.8, 1.5]
     return V - [0.0, 0.0, V[:, 2].min()], F
+
+
+@cache
+def moves_alone():
+    V, F = figure()
+    return stylize(V, F, 0.4, **RUN).positions - V
 
 
 def ground(size, turn=None):
@@ -43,19 +51,26 @@ def test_a_plane_beside_a_point_keeps_its_size():
     assert np.isfinite(U).all() and np.ptp(U, axis=0).max() > 2.0
 
 
-@pytest.mark.parametrize("size", [10.0, 50.0, 1000.0])
+@pytest.mark.parametrize("size", [10.0, 1000.0])
 def test_a_ground_neither_moves_nor_moves_the_figure(size):
     V, F = figure()
-    alone = stylize(V, F, 0.4, **RUN).positions - V
+    alone = moves_alone()
     W, G = proxy_shapes.joined((V, F), ground(size))
     both = stylize(W, G, 0.4, **RUN).positions - W
     assert np.abs(both[len(V) :]).max() < 1e-9
     assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
 
 
+def test_no_form_turns_a_sheet_beside_a_figure():
+    (V, F), (P, T) = figure(), ground(1.0, shapes.rotation(20, 30, 0))
+    W, G = proxy_shapes.joined((V, F), (P + [3.0, 0.0, 1.5], T))
+    U = stylize(W, G, 0.4, **{**RUN, "keep_rotation": False}).positions
+    assert np.abs(U - W)[len(V) :].max() < 1e-9
+
+
 def test_a_stray_triangle_far_away_changes_nothing():
     V, F = figure()
-    alone = stylize(V, F, 0.4, **RUN).positions - V
+    alone = moves_alone()
     W, G = proxy_shapes.joined((V, F), ([[100.0, 0, 0], [100.1, 0, 0], [100, 0, 0.1]], [[0, 1, 2]]))
     both = stylize(W, G, 0.4, **RUN).positions - W
     assert np.abs(both[: len(V)] - alone).max() < 0.06 * np.abs(alone).max()
@@ -92,7 +107,7 @@ def test_letters_are_told_from_limbs(sides, is_letter):
 def test_leaves_do_not_turn_a_trunk():
     """Cards at one side of its top: their number, area and stiffness are those of many leaves."""
     rng = np.random.default_rng(5)
-    V, F = shapes.sphere(4)
+    V, F = shapes.sphere(3)
     trunk = V * [0.35, 0.3, 1.5]
     corners = np.array([[0.0, -0.5, 0], [1, -0.5, 0], [1, 0.5, 0], [0, 0.5, 0]])
     places = trunk[(V[:, 2] > 0.3) & (V[:, 0] > 0.0)]
@@ -100,11 +115,12 @@ def test_leaves_do_not_turn_a_trunk():
         (0.4 * corners @ np.linalg.qr(rng.normal(size=(3, 3)))[0] + place, [[0, 1, 2], [0, 2, 3]])
         for place in places[rng.choice(len(places), 60)]
     ]
-    alone = stylize(trunk, F, 0.4, **RUN).positions
+    free = {**RUN, "keep_rotation": False}
+    alone = stylize(trunk, F, 0.4, **free).positions
     W, G = proxy_shapes.joined((trunk, F), *((P, np.array(T)) for P, T in leaves))
-    U = stylize(W, G, 0.4, **RUN).positions[: len(trunk)]
-    assert degrees(alone, U) < 0.6
-    assert abs(U[:, 2].min() - alone[:, 2].min()) < 0.01 * np.ptp(alone[:, 2])
+    U = stylize(W, G, 0.4, **free).positions[: len(trunk)]
+    assert degrees(alone, U) < 0.06
+    assert abs(U[:, 2].min() - alone[:, 2].min()) < 0.003 * np.ptp(alone[:, 2])
 
 
 def test_a_flag_that_begins_to_wave_stays_a_sheet():

@@ -182,6 +182,7 @@ def squareness(V):
     return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("height", [0.05, 0.1, 0.3])
 @pytest.mark.parametrize(("crispness", "least"), [(0.0, 1.18), (0.9, 1.24)])
 def test_discs_become_square(height, crispness, least):
