@@ -45,7 +45,7 @@ from .result.charts import charts
 from .result.cover import Look, cover_problem, covers, distance, is_still
 from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
-from .result.ngons import Polygons, write_ngons
+from .result.ngons import Polygons, rebuild, write_ngons
 from .result.plain_copy import plain_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
