@@ -121,6 +121,29 @@ def test_the_map_has_the_normals_of_the_cubic_mesh(uv):
     assert np.median(with_map) < np.median(without) / LOST
 
 
+def bends(mesh):
+    """Return the lengths of the edges of a mesh, and its bends there in degrees."""
+    normals = np.array([face.normal for face in mesh.polygons])
+    faces = {}
+    for face in mesh.polygons:
+        for key in face.edge_keys:
+            faces.setdefault(key, []).append(normals[face.index])
+    V = corner_values(mesh.vertices, "co", 3)
+    pairs = [(key, two) for key, two in faces.items() if len(two) == 2]
+    lengths = [np.linalg.norm(V[a] - V[b]) for (a, b), _ in pairs]
+    cosines = [one @ other for _, (one, other) in pairs]
+    return np.array(lengths), np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+
+
+@pytest.mark.parametrize("triangles", [300, 1000])
+def test_edges_of_levels_of_detail_lie_between_sides(triangles):
+    """They are in a side, without a bend, or between sides, with a clear one."""
+    add_detailed()
+    bake(triangles=triangles, resolution=64)
+    lengths, angles = bends(bpy.context.object.data)
+    assert lengths[(angles > 5) & (angles < 25)].sum() < 0.29 * lengths.sum()
+
+
 def test_the_material_shows_the_map(part):
     obj = add_detailed()
     skin = bpy.data.materials.new("Skin")
