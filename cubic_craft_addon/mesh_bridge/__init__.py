@@ -52,4 +52,4 @@ from .result.restore import discard_original, has_traces, restore, restore_first
 from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import carry_result, mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
-from .result.transferred_keys import key_offsets, transfer_keys
+from .result.transferred_keys import key_offsets, places_on, shares_of, transfer_keys

@@ -24,6 +24,7 @@ from .bake import bake_normals, check_cycles
 from .few_polygons import few_polygons
 from .map_material import MapMaterials
 from .properties import IMAGE
+from .split import OldSurface
 from .studio import Studio, studio
 
 _ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
@@ -109,7 +110,12 @@ def _make(
         high_mesh = _mesh_of_result(stage, obj, present)
         passing.callback(bpy.data.meshes.remove, high_mesh)
         high = passing.enter_context(_stand_in(stage, obj, high_mesh))
-        low_mesh = _low_mesh(stage, obj, flat, placement, options.triangles)
+        seen = mesh_bridge.read_positions(high_mesh)
+        triangles = mesh_bridge.triangles(high_mesh, seen)
+        offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
+        keys = _keys_as_seen(stage, obj, present, offsets, seen)
+        surface = OldSurface(seen, triangles, keys)
+        low_mesh = _low_mesh(stage, obj, flat, placement, options.triangles, surface)
         undo.callback(bpy.data.meshes.remove, low_mesh)
         low = passing.enter_context(_stand_in(stage, obj, low_mesh))
         rendered = next((layer.name for layer in low_mesh.uv_layers if layer.active_render), "")
@@ -127,10 +133,6 @@ def _make(
         baked = passing.enter_context(_stand_in(stage, obj, baked_mesh))
         apart = bake_normals(stage, high, baked, image)
         plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
-        seen = mesh_bridge.read_positions(high_mesh)
-        triangles = mesh_bridge.triangles(high_mesh, seen)
-        offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
-        keys = _keys_as_seen(stage, obj, present, offsets, seen)
         problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
         missing = offsets.keys() - keys
         problems += [f'shape key "{name}" gives its modifiers other vertices' for name in missing]
@@ -180,8 +182,12 @@ def _low_mesh(
     positions: np.ndarray,
     placement: Placement | None,
     triangles: int,
+    surface: OldSurface,
 ) -> bpy.types.Mesh:
-    """Return a new mesh: the flattened result with its modifiers, not posed, in few triangles."""
+    """Return a new mesh: the flattened result with its modifiers, not posed, in few triangles.
+
+    `surface`: the result with its modifiers, and its shape keys.
+    """
     copy = stage.take(mesh_bridge.plain_copy(obj, positions))
     try:
         _remove_modifiers(copy, are_armatures=True)
@@ -193,7 +199,7 @@ def _low_mesh(
         if placement is not None:
             few_polygons(present, placement, triangles)
         with _stand_in(stage, obj, present) as reduced:
-            mesh = low_poly.decimated(stage, reduced, triangles)
+            mesh = low_poly.decimated(stage, reduced, triangles, surface)
     finally:
         bpy.data.meshes.remove(present)
     mesh.name = f"{obj.name} Low"
