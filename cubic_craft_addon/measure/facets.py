@@ -3,7 +3,7 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import bpy
@@ -63,7 +63,7 @@ def flat_facets(
     if run is None:
         raise CubicCraftError(f'"{obj.name}" has no result to flatten: cubify it first')
     present = mesh_bridge.result_positions(obj)
-    settings = _settings_of_run(obj, run)
+    settings = settings_of_run(obj, run)
     placement = placement_alone(obj, settings)
     V = placement.place(present)
     triangles = mesh_bridge.triangles(mesh_bridge.mesh_of(obj), present)
@@ -82,18 +82,45 @@ def flat_facets(
     deviation = flat.deviation_of(placement.place(positions))
     polygons = None
     if with_polygons:
-        charts = mesh_bridge.charts(mesh_bridge.mesh_of(obj), present)
-        made = solver.low_poly(V, triangles, directions, distance, walls, counts, charts)
-        is_moved = (made.positions != V).any(axis=1)
-        back = placement.read_back(made.positions).astype(np.float32)
-        back = np.where(is_moved[:, None], back, present)
-        polygons = Polygons(back, made.polygons, made.part_of, made.parts, triangles, made.places)
+        surface = Surface(mesh_bridge.mesh_of(obj), present, placement, directions, walls, counts)
+        polygons = surface.polygons(tolerance)
     return Facets(
         positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, deviation, polygons
     )
 
 
-def _settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
+@dataclass(frozen=True)
+class Surface:
+    """A mesh in the shape of a result, with the sides that it should have."""
+
+    mesh: bpy.types.Mesh
+    positions: np.ndarray
+    """(n,3) float32, object space"""
+    placement: Placement
+    directions: np.ndarray
+    """(k,3), of the sides"""
+    walls: Sequence[tuple[np.ndarray, np.ndarray]] = ()
+    """as of `flatten_facets`"""
+    counts: np.ndarray | None = None
+    """(m,k) bool, as of `flatten_facets`"""
+
+    def polygons(self, tolerance: float) -> Polygons:
+        """Return the whole shape as few polygons; `tolerance` is as of `flat_facets`."""
+        V = self.placement.place(self.positions)
+        triangles = mesh_bridge.triangles(self.mesh, self.positions)
+        charts, cuts = mesh_bridge.charts(self.mesh, self.positions)
+        distance = tolerance * float(np.ptp(V, axis=0).max())
+        made = solver.low_poly(
+            V, triangles, self.directions, distance, self.walls, self.counts, charts, cuts
+        )
+        is_moved = (made.positions != V).any(axis=1)
+        back = self.placement.read_back(made.positions).astype(np.float32)
+        back = np.where(is_moved[:, None], back, self.positions)
+        return Polygons(back, made.polygons, made.part_of, made.parts, triangles, made.places)
+
+
+def settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
+    """Return the settings of an object, with the sides that its result has been made with."""
     noted = {name: run.settings.get(name) for name in _OF_THE_RUN}
     values = {
         name: tuple(value) if isinstance(value, list) else value

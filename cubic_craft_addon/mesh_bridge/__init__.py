@@ -20,7 +20,6 @@ from .access.group_names import set_groups_aside
 from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.sharp_edges import (
     are_wanted,
-    has_following_edges,
     only_shades,
     rounds,
 )
@@ -46,7 +45,7 @@ from .result.charts import charts
 from .result.cover import Look, cover_problem, covers, distance, is_still
 from .result.kept import keep_preview, noted_outcome
 from .result.new_object import link_beside, select_instead, write_new_object
-from .result.ngons import Polygons, write_ngons
+from .result.ngons import Polygons, rebuild, write_ngons
 from .result.plain_copy import plain_copy
 from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
@@ -54,4 +53,4 @@ from .result.results import positions_with_strokes, write_mesh, write_shape_key
 from .result.rollback import carry_result, mesh_untouched
 from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
 from .result.shading import shade_edges, shade_shape
-from .result.transferred_keys import key_offsets, transfer_keys
+from .result.transferred_keys import key_offsets, places_on, shares_of, transfer_keys

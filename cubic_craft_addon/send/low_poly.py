@@ -9,6 +9,7 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from ..mesh_bridge import read_values
+from .split import OldSurface, split_for_keys
 from .studio import Studio
 from .uv_overlap import fits_unit_square, overlap
 
@@ -18,14 +19,38 @@ _HARD_INSIDE = math.radians(50)  # those inside of islands
 _UNWRAPPED = math.radians(60)  # largest angle between faces and what they are projected to
 _MARGIN = 8  # texels between two islands
 _LARGEST_MARGIN = 0.02  # of the width of the map
+_FOR_KEYS = 3
+"""one of so many triangles is kept for shape keys"""
+_FULL = 0.9
+"""of the triangles: if fewer are used, decimation may have what shape keys have left"""
 _ENDS = np.array([0, 1, 2, 0])  # corners of a triangle around its edges
 
 
-def decimated(studio: Studio, obj: bpy.types.Object, triangles: int) -> bpy.types.Mesh:
+def decimated(
+    studio: Studio,
+    obj: bpy.types.Object,
+    triangles: int,
+    surface: OldSurface,
+) -> bpy.types.Mesh:
     """Return a new mesh of triangles, about as many as given or fewer.
 
-    `obj`: an object in the studio, which gets modifiers.
+    If the old surface has shape keys, some are kept for where these bend it.
+
+    `obj`: an object in the studio.
     """
+    if not surface.offsets:
+        return _decimated(studio, obj, triangles)
+    kept = triangles // _FOR_KEYS
+    mesh = _decimated(studio, obj, triangles - kept)
+    used = split_for_keys(mesh, surface, triangles - len(mesh.polygons))
+    if len(mesh.polygons) < _FULL * triangles and used < kept:
+        bpy.data.meshes.remove(mesh)
+        mesh = _decimated(studio, obj, triangles - used)
+        split_for_keys(mesh, surface, triangles - len(mesh.polygons))
+    return mesh
+
+
+def _decimated(studio: Studio, obj: bpy.types.Object, triangles: int) -> bpy.types.Mesh:
     present = studio.evaluated_mesh(obj)
     count = len(present.loops) - 2 * len(present.polygons)
     bpy.data.meshes.remove(present)
@@ -34,7 +59,9 @@ def decimated(studio: Studio, obj: bpy.types.Object, triangles: int) -> bpy.type
         decimate.ratio = triangles / count
         decimate.use_collapse_triangulate = True
     obj.modifiers.new("Triangles", "TRIANGULATE")
-    return studio.evaluated_mesh(obj)
+    made = studio.evaluated_mesh(obj)
+    obj.modifiers.clear()
+    return made
 
 
 def forget_normals(studio: Studio, obj: bpy.types.Object) -> None:

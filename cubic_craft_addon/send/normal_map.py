@@ -14,13 +14,17 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.pieces.placement import Placement
 from .. import hidden_source, mesh_bridge
 from ..environment.file_names import file_stem
-from ..measure.facets import flat_facets
+from ..measure.facets import flat_facets, settings_of_run
+from ..read.object_frame import placement_alone
 from . import low_poly
 from .bake import bake_normals, check_cycles
+from .few_polygons import few_polygons
 from .map_material import MapMaterials
 from .properties import IMAGE
+from .split import OldSurface
 from .studio import Studio, studio
 
 _ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
@@ -56,10 +60,8 @@ def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
     `obj`: an object with a result, in Object Mode. Raises CubicCraftError: there is no result or no
     Cycles, or something else is missing. After any exception, nothing is left.
     """
-    if mesh_bridge.last_run(obj) is None:
-        raise CubicCraftError(f'"{obj.name}" has no result to bake: cubify it first')
     with contextlib.ExitStack() as undo:
-        made = _make(undo, obj, options)
+        made = _make(undo, obj, _placement(obj), options)
         made.problems.extend(_keep(made.image))
         _show_instead(undo, obj, made.object)
         undo.pop_all()
@@ -67,19 +69,37 @@ def make_normal_map(obj: bpy.types.Object, options: MapOptions) -> NormalMap:
 
 
 @contextlib.contextmanager
-def passing_normal_map(obj: bpy.types.Object, options: MapOptions) -> Iterator[NormalMap]:
+def passing_normal_map(
+    obj: bpy.types.Object, placement: Placement, options: MapOptions
+) -> Iterator[NormalMap]:
     """Give what `make_normal_map` makes during the block, with its image packed; nothing is hidden.
 
-    Raises CubicCraftError: as `make_normal_map`.
+    `placement`: in which its shape was solved. Raises CubicCraftError: as `make_normal_map`.
     """
     with contextlib.ExitStack() as undo:
-        made = _make(undo, obj, options)
+        made = _make(undo, obj, placement, options)
         made.image.pack()
         mesh_bridge.link_beside(obj, made.object)
         yield made
 
 
-def _make(undo: contextlib.ExitStack, obj: bpy.types.Object, options: MapOptions) -> NormalMap:
+def _placement(obj: bpy.types.Object) -> Placement | None:
+    """Return where the sides of a result face, None if what they faced is not there anymore."""
+    run = mesh_bridge.last_run(obj)
+    if run is None:
+        raise CubicCraftError(f'"{obj.name}" has no result to bake: cubify it first')
+    try:
+        return placement_alone(obj, settings_of_run(obj, run))
+    except CubicCraftError:
+        return None
+
+
+def _make(
+    undo: contextlib.ExitStack,
+    obj: bpy.types.Object,
+    placement: Placement | None,
+    options: MapOptions,
+) -> NormalMap:
     """Make all that stays, but for its place in the scene; `undo` removes it again."""
     check_cycles()
     mesh_bridge.check_usable(obj)
@@ -90,7 +110,12 @@ def _make(undo: contextlib.ExitStack, obj: bpy.types.Object, options: MapOptions
         high_mesh = _mesh_of_result(stage, obj, present)
         passing.callback(bpy.data.meshes.remove, high_mesh)
         high = passing.enter_context(_stand_in(stage, obj, high_mesh))
-        low_mesh = _low_mesh(stage, obj, flat, options.triangles)
+        seen = mesh_bridge.read_positions(high_mesh)
+        triangles = mesh_bridge.triangles(high_mesh, seen)
+        offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
+        keys = _keys_as_seen(stage, obj, present, offsets, seen)
+        surface = OldSurface(seen, triangles, keys)
+        low_mesh = _low_mesh(stage, obj, flat, placement, options.triangles, surface)
         undo.callback(bpy.data.meshes.remove, low_mesh)
         low = passing.enter_context(_stand_in(stage, obj, low_mesh))
         rendered = next((layer.name for layer in low_mesh.uv_layers if layer.active_render), "")
@@ -108,10 +133,6 @@ def _make(undo: contextlib.ExitStack, obj: bpy.types.Object, options: MapOptions
         baked = passing.enter_context(_stand_in(stage, obj, baked_mesh))
         apart = bake_normals(stage, high, baked, image)
         plain = materials.connect(uv_map, is_rendered=rendered in ("", uv_map))
-        seen = mesh_bridge.read_positions(high_mesh)
-        triangles = mesh_bridge.triangles(high_mesh, seen)
-        offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
-        keys = _keys_as_seen(stage, obj, present, offsets, seen)
         problems = [f'material "{name}" has no shader that takes a normal map' for name in plain]
         missing = offsets.keys() - keys
         problems += [f'shape key "{name}" gives its modifiers other vertices' for name in missing]
@@ -156,16 +177,31 @@ def _keys_as_seen(
 
 
 def _low_mesh(
-    stage: Studio, obj: bpy.types.Object, positions: np.ndarray, triangles: int
+    stage: Studio,
+    obj: bpy.types.Object,
+    positions: np.ndarray,
+    placement: Placement | None,
+    triangles: int,
+    surface: OldSurface,
 ) -> bpy.types.Mesh:
-    """Return a new mesh: the flattened result with its modifiers, not posed, and decimated."""
+    """Return a new mesh: the flattened result with its modifiers, not posed, in few triangles.
+
+    `surface`: the result with its modifiers, and its shape keys.
+    """
     copy = stage.take(mesh_bridge.plain_copy(obj, positions))
     try:
         _remove_modifiers(copy, are_armatures=True)
         low_poly.forget_normals(stage, copy)
-        mesh = low_poly.decimated(stage, copy, triangles)
+        present = stage.evaluated_mesh(copy)
     finally:
         mesh_bridge.remove_copy(copy)
+    try:
+        if placement is not None:
+            few_polygons(present, placement, triangles)
+        with _stand_in(stage, obj, present) as reduced:
+            mesh = low_poly.decimated(stage, reduced, triangles, surface)
+    finally:
+        bpy.data.meshes.remove(present)
     mesh.name = f"{obj.name} Low"
     return mesh
 

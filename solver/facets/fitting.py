@@ -13,13 +13,18 @@ _LEAST_GAIN = 1e-4  # of such a change
 _LEAST_AREA = 1e-30
 
 
-def fit(X, N, areas):
-    """Return the normal (3,) and the offset of the plane of triangles (m,3,3) on average.
+def centroids(X):
+    """Return the centroids (m,3) of triangles (m,3,3), sooner than NumPy's mean of three."""
+    return (X[:, 0] + X[:, 1] + X[:, 2]) / 3.0
 
-    `N`: (m,3), their normals. `areas`: (m,), their weights.
+
+def fit(C, N, areas):
+    """Return the normal (3,) and the offset of the plane of triangles on average.
+
+    `C`, `N`: (m,3), their centroids and normals. `areas`: (m,), their weights.
     """
     normal = unit((areas @ N)[None])[0]
-    return normal, areas @ (X.mean(axis=1) @ normal) / max(areas.sum(), _LEAST_AREA)
+    return normal, areas @ (C @ normal) / max(areas.sum(), _LEAST_AREA)
 
 
 def misfit(X, N, normals, offsets, tolerance):
@@ -27,8 +32,10 @@ def misfit(X, N, normals, offsets, tolerance):
 
     `normals`, `offsets`: (m,3) and (m,), or of one plane for all.
     """
-    heights = (X * np.atleast_2d(normals)[:, None]).sum(axis=2) - np.atleast_1d(offsets)[:, None]
-    return FAR * ((heights / tolerance) ** 2).mean(axis=1) + 1.0 - (N * normals).sum(axis=1)
+    x, y, z = np.atleast_2d(normals).T
+    heights = X[..., 0] * x[:, None] + X[..., 1] * y[:, None] + X[..., 2] * z[:, None]
+    a, b, c = (((heights - np.atleast_1d(offsets)[:, None]) / tolerance) ** 2).T
+    return FAR * ((a + b + c) / 3.0) + 1.0 - (N[:, 0] * x + N[:, 1] * y + N[:, 2] * z)
 
 
 def halves(X, N, areas, tolerance):
@@ -37,22 +44,24 @@ def halves(X, N, areas, tolerance):
     Two planes take those that they fit better each, and are fitted to them. They begin on both
     sides of a bend, or above and below a step, whichever ends better.
 
-    `X`, `N`, `areas`: as of `fit`. `tolerance`: as of `misfit`.
+    `X`, `N`, `tolerance`: as of `misfit`. `areas`: as of `fit`.
     """
     weights = areas / areas.sum()
     around = N - weights @ N
     bend = np.linalg.eigh((around * weights[:, None]).T @ around)[1][:, -1]
-    C = X.mean(axis=1) - weights @ X.mean(axis=1)
+    C = centroids(X)
+    away = C - weights @ C
     found = [
-        _two_planes(X, N, areas, tolerance, C @ way > 0.0) for way in (bend, fit(X, N, areas)[0])
+        _two_planes(X, C, N, areas, tolerance, away @ way > 0.0)
+        for way in (bend, fit(C, N, areas)[0])
     ]
     return min(found, key=lambda pair: weights @ pair[0])[1]
 
 
-def _two_planes(X, N, areas, tolerance, is_second):
+def _two_planes(X, C, N, areas, tolerance, is_second):
     """Return what triangles cost (m,) by two planes, and which (m,) are in the second."""
     for _ in range(_ROUNDS):
-        planes = [fit(X, N, areas * mine) for mine in (~is_second, is_second)]
+        planes = [fit(C, N, areas * mine) for mine in (~is_second, is_second)]
         costs = [misfit(X, N, *plane, tolerance) for plane in planes]
         is_closer = costs[1] < costs[0]
         if np.array_equal(is_closer, is_second) or is_closer.all() or not is_closer.any():
@@ -74,8 +83,10 @@ def exchanged(graph, X, regions, tolerance, smooth):
     share /= np.bincount(one, share, m)[one]
     normals, offsets = regions.normals, regions.offsets
     costs = misfit(X, N, normals[region], offsets[region], tolerance)
+    is_open = np.ones(m, bool)  # whose gain may be another one than in the sweep before
     for _ in range(_SWEEPS):
-        rows = np.flatnonzero(region[one] != region[other])
+        rows = np.flatnonzero(is_open[one])
+        rows = rows[region[one[rows]] != region[other[rows]]]
         keys = one[rows] * len(offsets) + region[other[rows]]
         keys, where = np.unique(keys, return_inverse=True)
         f, r = np.divmod(keys, len(offsets))
@@ -91,4 +102,7 @@ def exchanged(graph, X, regions, tolerance, smooth):
         if not is_best.any():
             break
         region[f[is_best]], costs[f[is_best]] = r[is_best], new[is_best]
+        is_open = most > _LEAST_GAIN
+        is_open[f[is_best]] = True
+        is_open[other[is_open[one]]] = True
     return region

@@ -14,6 +14,7 @@ from ..mesh.unit_box import unit_box
 from ..proxy.weld import weld
 from ..values import Value
 from .corners import FLATNESS, Corners
+from .parts import parts_of
 from .polygons import filled
 from .regions import regions_of
 from .straight import straightened
@@ -60,6 +61,7 @@ def low_poly(
     walls: Iterable[tuple[BoolArray, FloatArray]] = (),
     counts: BoolArray | None = None,
     charts: IntArray | None = None,
+    cuts: IntArray | None = None,
 ) -> LowPoly:
     """Replace the sides of a shape by polygons.
 
@@ -71,6 +73,9 @@ def low_poly(
         Unit vectors.
     charts : (m,) int array, optional
         Polygons end between triangles of different ones, such as those of two materials.
+    cuts : (c,2) int array, optional
+        Pairs of neighbors between which polygons end within a chart too, as at a seam that does not
+        go around it.
 
     Returns
     -------
@@ -104,7 +109,9 @@ def low_poly(
     tolerance /= box.size
     regions = regions_of(W, G, graph, directions, STRAY * tolerance, counts)
     walls = [(is_inside[first], normal / np.linalg.norm(normal)) for is_inside, normal in walls]
-    parts = _parts(graph, regions.of_triangle, charts)
+    charts = np.zeros(len(G), np.int64) if charts is None else charts
+    cuts = np.empty((0, 2), np.int64) if cuts is None else cuts
+    parts, charts = parts_of(graph, regions.of_triangle, charts, cuts)
     corners = Corners(W, G, graph, regions, parts, tolerance, walls)
     P = corners.positions
     found = {}
@@ -116,7 +123,7 @@ def low_poly(
     loops, part_of = ([pair[k] for pair in found.values()] for k in (0, 1))
     about = np.zeros((parts.max() + 1, 2), np.int64)  # the region and the chart of each part
     about[parts, 0] = regions.of_triangle
-    about[parts, 1] = 0 if charts is None else charts
+    about[parts, 1] = charts
     loops, kept = straightened(P, loops, about[part_of, 1].tolist(), FLATNESS)
     part_of = [part_of[k] for k in kept]
     loops = corners.anchored(loops)
@@ -126,11 +133,3 @@ def low_poly(
     polygons = [first[loop].tolist() for loop in loops]
     region_of = about[part_of, 0].tolist()
     return LowPoly(result, polygons, part_of, region_of, parts, first[group])
-
-
-def _parts(graph, region, charts):
-    """Return the connected parts (m,) of one region and one chart."""
-    is_same = region[graph.one] == region[graph.other]
-    if charts is not None:
-        is_same &= charts[graph.one] == charts[graph.other]
-    return graph.regions(is_same)[1]

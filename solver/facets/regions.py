@@ -15,7 +15,7 @@ import numpy as np
 from ..aliases import BoolArray, FloatArray, IntArray
 from ..details import unit
 from ..hardening.sides import CURVED, NEVER, border_shares, settled_labels, straightened
-from .fitting import exchanged, halves
+from .fitting import centroids, exchanged, halves
 
 FEWEST = 6
 """triangles of a region; fewer go to a neighbor if they are no larger than `CLEAR`"""
@@ -93,8 +93,10 @@ def regions_of(V, F, graph, directions, tolerance, counts=None):
     side = _connected(graph, label)
     ways = directions[label[np.unique(side, return_index=True)[1]]]
 
+    C = centroids(X)
+
     def planes(region):
-        return _planes(X, graph, region, side, ways)
+        return _planes(C, graph, region, side, ways)
 
     region = _merged(graph, X, side, planes, tolerance)
     for _ in range(_ROUNDS):
@@ -174,7 +176,7 @@ def _fits(graph, X, regions, small, into, tolerance):
     return found
 
 
-def _planes(X, graph, region, side, ways):
+def _planes(C, graph, region, side, ways):
     """Return Regions numbered by size, with the planes that fit them best.
 
     A region that is as good as a whole side faces exactly the way (3,) of that, or nearly.
@@ -196,6 +198,6 @@ def _planes(X, graph, region, side, ways):
     is_faced = np.zeros(count, bool)
     is_faced[keys // len(ways)] = True
     is_faced &= (normals == faced).all(axis=1)
-    heights = np.einsum("mj,mj->m", X.mean(axis=1), normals[region])
+    heights = np.einsum("mj,mj->m", C, normals[region])
     offsets = np.bincount(region, graph.areas * heights, count) / np.where(area > 0.0, area, 1.0)
     return Regions(region, normals, offsets, np.asarray(area, dtype=np.float64), is_faced)

@@ -81,9 +81,7 @@ def cards(V, F, part, component):
     height = (V[F[:, 0]] * normal).sum(axis=1)
     volume = np.abs(np.bincount(own, area * height, len(whole))) / 3.0
     thickness = 4.0 * volume / np.maximum(total, 1e-300)  # of a tube
-    size = extents(V, part)
-    is_strand = is_small & ~is_open & (size > SLENDER * thickness)
-    is_strand &= size * size > total  # a coin is thin, but as wide as it is long
+    is_strand = is_small & ~is_open & (extents(V, part) > SLENDER * thickness)
     place = np.zeros(len(whole), dtype=np.intp)
     place[own] = linked
     is_strand &= (np.bincount(place, is_strand) >= STRANDS)[place]

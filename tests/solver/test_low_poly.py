@@ -162,6 +162,23 @@ def test_charts_and_holes_part_sides():
     assert len(used) == 8
 
 
+def test_no_polygon_bridges_a_cut_that_ends_inside():
+    V, F = sheet(9)
+    V = V * [1.0, 1.0, 0.0] / V[:, :2].max()
+    V[:, 0] -= 0.5
+    centers = V[F].mean(axis=1)
+    is_slit = centers[:, 1] > 0.5  # from the middle to the border, and straight
+    near = np.linalg.norm(centers[:, None] - centers, axis=2) < 0.2
+    sides = np.sign(centers[:, 0])
+    cuts = np.argwhere(near & is_slit & is_slit[:, None] & (sides[:, None] < sides))
+    whole, cut = (low_poly(V, F, SIDES, 0.1, cuts=some) for some in (cuts[:0], cuts))
+    assert len(whole.polygons) == 1 < len(cut.polygons)
+    assert not (cut.parts[cuts[:, 0]] == cut.parts[cuts[:, 1]]).any()
+    for loop in cut.polygons:
+        x, y, _ = cut.positions[loop].T
+        assert y.max() <= 0.6 or x.min() > -0.01 or x.max() < 0.01
+
+
 def test_vertices_at_one_place_are_one():
     V, F = rounded_box(8)
     apart = low_poly(V[F.ravel()], np.arange(F.size).reshape(-1, 3), SIDES, 0.1)

@@ -31,10 +31,12 @@ def low_poly(
     problems: list[str] = []
     with contextlib.ExitStack() as passing:
         for sculpture in sculptures:
-            share = max(LEAST, triangles * sculpture.member.triangles // total)
+            member = sculpture.member
+            share = max(LEAST, triangles * member.triangles // total)
+            options = MapOptions(triangles=share)
             try:
                 made = passing.enter_context(
-                    passing_normal_map(sculpture.object, MapOptions(triangles=share))
+                    passing_normal_map(sculpture.object, member.alone, options)
                 )
             except CubicCraftError as error:
                 raise InputError(f"{path}: {error}") from error

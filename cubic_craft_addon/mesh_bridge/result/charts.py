@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of a mesh that are set apart by UVs, materials, seams or sharp edges."""
 
+import itertools
+
 import bpy
 import numpy as np
 
@@ -10,11 +12,12 @@ from ..access.arrays import read_values
 from ..access.sharp_edges import has_following_edges
 
 
-def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
-    """Return the chart (m,) of each triangle of a mesh.
+def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the chart (m,) of each triangle of a mesh, and pairs (c,2) set apart within charts.
 
     Faces are of one chart if they are connected over edges without seam or sharpness, at which
-    they have one material and the same UVs. Vertices at the same place count as one.
+    they have one material and the same UVs. Vertices at the same place count as one. Faces at a
+    seam that ends inside of a chart are of one chart, but set apart.
 
     `positions`: (n,3).
     """
@@ -45,9 +48,19 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> np.ndarray:
         uv = read_values(layer.uv, "vector", width=2)
         for a, b in ends:
             is_joined &= np.abs(uv[a] - uv[b]).max(axis=1, initial=0.0) < _SAME
-    pairs = np.stack([face[one], face[other]], axis=1)[is_joined]
-    chart = components(np.empty((0, 3), np.int64), faces, pairs)[1]
-    return np.repeat(chart, size - 2)  # a face of k corners has k - 2 triangles
+    pairs = np.stack([face[one], face[other]], axis=1)
+    chart = components(np.empty((0, 3), np.int64), faces, pairs[is_joined])[1]
+    apart = pairs[~is_joined & (chart[pairs[:, 0]] == chart[pairs[:, 1]])]
+    count = size - 2  # a face of k corners has k - 2 triangles
+    first = (np.cumsum(count) - count).tolist()
+    within = [range(start, start + k) for start, k in zip(first, count.tolist(), strict=True)]
+    cuts = [
+        pair
+        for one, other in apart.tolist()
+        if one != other
+        for pair in itertools.product(within[one], within[other])
+    ]
+    return np.repeat(chart, count), np.array(cuts, np.int64).reshape(-1, 2)
 
 
 _SAME = 1e-5  # between UVs

@@ -10,6 +10,7 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..access.arrays import write_position
 from ..access.checks import mesh_of
 from ..access.copies import remove_copy
 from ..access.triangulation import faces_of_triangles
@@ -63,7 +64,7 @@ def write_ngons(
     new = plain_copy(obj, polygons.positions)
     try:
         new_mesh = mesh_of(new)
-        _rebuild(new_mesh, polygons, edges)
+        rebuild(new_mesh, polygons, edges)
         surface = result_positions(obj), polygons.triangles
         transfer_keys(mesh, new, *surface, key_offsets(mesh))
         new_mesh.name, new.name = f"{mesh.name} Facets", f"{obj.name} Facets"
@@ -79,8 +80,12 @@ def write_ngons(
     return new
 
 
-def _rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str) -> None:
-    """Put the polygons in place of all faces; corners keep the data of those they come from."""
+def rebuild(mesh: bpy.types.Mesh, polygons: Polygons, edges: str = "NONE") -> None:
+    """Put the polygons in place of all faces; corners keep the data of those they come from.
+
+    `mesh`: that they are of, without shape keys. `edges`: as of `write_ngons`.
+    """
+    write_position(mesh, polygons.positions)
     if "custom_normal" in mesh.attributes:  # of the smooth shape
         mesh.attributes.remove(mesh.attributes["custom_normal"])
     face_of = faces_of_triangles(mesh).tolist()

@@ -53,9 +53,7 @@ def transfer_keys(
     assert source.shape_keys is not None
     mesh = mesh_of(new)
     base = read_position(mesh)
-    corners, shares = _places(
-        base, areas_and_normals(base, triangles_of(mesh, base))[1], positions, triangles
-    )
+    corners, shares = places_on(mesh, positions, triangles)
     new.shape_key_add(name=source.shape_keys.reference_key.name, from_mix=False)
     made = {name: new.shape_key_add(name=name, from_mix=False) for name in offsets}
     moved = {name: np.einsum("nk,nkj->nj", shares, of[corners]) for name, of in offsets.items()}
@@ -72,10 +70,16 @@ def transfer_keys(
     _copy_animation(source.shape_keys, mesh.shape_keys)
 
 
-def _places(
-    points: np.ndarray, normals: np.ndarray, positions: np.ndarray, triangles: np.ndarray
+def places_on(
+    mesh: bpy.types.Mesh, positions: np.ndarray, triangles: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners (k,3) of the triangles that points are at, and their shares (k,3)."""
+    """Return where the vertices of a mesh are on an old surface: nearest to it, and facing alike.
+
+    `positions`, `triangles`: (n,3) and (m,3) arrays. Returns the corners (k,3) of the triangles
+    that the vertices are at, and their shares (k,3).
+    """
+    points = read_position(mesh)
+    normals = areas_and_normals(points, triangles_of(mesh, points))[1]
     tree = BVHTree.FromPolygons(positions.tolist(), triangles.tolist())
     size = float(np.ptp(positions, axis=0).max())
     _, old_normals = areas_and_normals(positions, triangles)
@@ -86,7 +90,7 @@ def _places(
         for reach in (_SAME, _NEAR):  # other layers only if the nearest faces away
             near: Any = tree.find_nearest_range(point, distance + reach * size)
             at = triangles[[number for _, _, number, _ in near]]
-            of = _shares(np.array([place for place, *_ in near]), positions[at])
+            of = shares_of(np.array([place for place, *_ in near]), positions[at])
             agreement = np.einsum("ck,ckj->cj", of, old_normals[at]) @ normal
             beyond = np.array([apart for *_, apart in near]) - distance
             beyond = np.floor(beyond / (1.001 * _SAME * size))
@@ -97,7 +101,7 @@ def _places(
     return corners, shares
 
 
-def _shares(places: np.ndarray, corners: np.ndarray) -> np.ndarray:
+def shares_of(places: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Return the barycentric coordinates (k,3) of places (k,3) in triangles (k,3,3)."""
     opposite = [
         np.cross(corners[:, (k + 1) % 3] - places, corners[:, (k + 2) % 3] - places)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flat_balls import PLANAR, add_ball, flatten, planar_share
 from rich_mesh import position_of
-from scene import cubify, select
+from scene import add_monkey, cubify, select
 
 
 def uvs_of(mesh):
@@ -81,6 +81,19 @@ def test_ngons_end_at_the_borders_of_the_artist(border):
     for face in large:
         x = V[list(face.vertices), 0]
         assert x.min() > -0.01 or x.max() < 0.01
+
+
+def test_uvs_do_not_bridge_a_seam_that_ends_on_a_side(part):
+    add_monkey()  # two ends of the UV map of its head meet at its back
+    bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.object.modifier_apply(modifier="Subdivision")
+    cubify()
+    flatten(dissolve=True)
+    mesh = bpy.context.object.data
+    mesh.calc_loop_triangles()
+    uv = np.array([corner.uv for corner in mesh.uv_layers.active.data])
+    corners = np.array([triangle.loops for triangle in mesh.loop_triangles])
+    assert part("send.uv_overlap").overlap(uv[corners]) < 0.01
 
 
 def test_ngons_keep_shape_keys_with_their_settings_and_drivers():

@@ -121,6 +121,29 @@ def test_the_map_has_the_normals_of_the_cubic_mesh(uv):
     assert np.median(with_map) < np.median(without) / LOST
 
 
+def bends(mesh):
+    """Return the lengths of the edges of a mesh, and its bends there in degrees."""
+    normals = np.array([face.normal for face in mesh.polygons])
+    faces = {}
+    for face in mesh.polygons:
+        for key in face.edge_keys:
+            faces.setdefault(key, []).append(normals[face.index])
+    V = corner_values(mesh.vertices, "co", 3)
+    pairs = [(key, two) for key, two in faces.items() if len(two) == 2]
+    lengths = [np.linalg.norm(V[a] - V[b]) for (a, b), _ in pairs]
+    cosines = [one @ other for _, (one, other) in pairs]
+    return np.array(lengths), np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+
+
+@pytest.mark.parametrize("triangles", [300, 1000])
+def test_edges_of_levels_of_detail_lie_between_sides(triangles):
+    """They are in a side, without a bend, or between sides, with a clear one."""
+    add_detailed()
+    bake(triangles=triangles, resolution=64)
+    lengths, angles = bends(bpy.context.object.data)
+    assert lengths[(angles > 5) & (angles < 25)].sum() < 0.29 * lengths.sum()
+
+
 def test_the_material_shows_the_map(part):
     obj = add_detailed()
     skin = bpy.data.materials.new("Skin")
@@ -216,8 +239,8 @@ def key_points(key):
     return corner_values(key.data, "co", 3)
 
 
-@pytest.mark.parametrize("triangles", [300, 1000, 3000])
-def test_faces_keep_their_expressions_at_each_level_of_detail(triangles):
+@pytest.mark.parametrize(("triangles", "off"), [(300, 0.025), (1000, 0.017), (3000, 0.0075)])
+def test_faces_keep_their_expressions_at_each_level_of_detail(triangles, off):
     add_detailed()
     obj = bpy.context.object
     bpy.ops.cubic_craft.restore()
@@ -238,11 +261,48 @@ def test_faces_keep_their_expressions_at_each_level_of_detail(triangles):
     rest = key_points(keys[0])
     tree = BVHTree.FromPolygons(base.tolist(), F.tolist())
     around = F[[tree.find_nearest(point)[2] for point in rest.tolist()]]
-    margin = 0.01 * np.ptp(base, axis=0).max()
+    size = np.ptp(base, axis=0).max()
+    margin = 0.01 * size
+    still, farther = gaps(base, keys[0], low), []
     for old, new in zip(blocks[1:], keys[1:], strict=True):
         offsets, moved = (key_points(old) - base)[around], key_points(new) - rest
         is_near = (moved > offsets.min(axis=1) - margin) & (moved < offsets.max(axis=1) + margin)
         assert is_near.mean() > 0.99
+        farther.append(gaps(key_points(old), new, low) - still)
+    assert np.percentile(farther, 99.9) < off * size
+
+
+def gaps(points, key, low):
+    """Return how far points are from the surface of an object that a key moves."""
+    tree = BVHTree.FromPolygons(key_points(key).tolist(), triangles_of(low.data)[0].tolist())
+    return np.array([tree.find_nearest(point)[3] for point in points.tolist()])
+
+
+def test_triangles_are_split_where_a_key_moves_them(part):
+    split = part("send.split")
+    x, y = (each.ravel() for each in np.meshgrid(*[np.linspace(0.0, 1.0, 41)] * 2))
+    V = np.stack([x, y, 0.0 * x], axis=1)
+    a = np.flatnonzero((x < 1.0) & (y < 1.0))
+    F = np.concatenate([np.stack([a, a + 1, a + 42], 1), np.stack([a, a + 42, a + 41], 1)])
+    bump = np.exp(-((V - [0.3, 0.3, 0.0]) ** 2).sum(axis=1) / 0.01)[:, None] * [0.0, 0.0, 0.2]
+    mesh = bpy.data.meshes.new("Square")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [], [(0, 1, 2), (0, 2, 3)])
+    uv = mesh.uv_layers.new(name="UVMap")
+    uv.uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1], np.float32))
+    still = split.OldSurface(V, F, {"Still": 0.0 * bump, "All": 0.0 * bump + 1.0})
+    assert split.split_for_keys(mesh, still, 100) == 0
+    surface = split.OldSurface(V, F, {"Bump": bump})
+    added = split.split_for_keys(mesh, surface, 100)
+    assert 90 < added <= 100 and len(mesh.polygons) == 2 + added
+    P = corner_values(mesh.vertices, "co", 3)
+    centers = np.array([P[list(face.vertices)].mean(axis=0) for face in mesh.polygons])
+    is_far = np.linalg.norm(centers - [0.3, 0.3, 0.0], axis=1) > 0.4
+    assert is_far.sum() < 0.2 * len(centers)
+    assert sum(face.area for face in mesh.polygons) == pytest.approx(1.0)
+    places = corner_values(mesh.uv_layers[0].uv, "vector", 2)
+    np.testing.assert_allclose(places, P[[loop.vertex_index for loop in mesh.loops], :2], atol=1e-6)
+    worst = split._errors(mesh, surface, np.arange(len(V))).max()
+    assert worst < 0.02, "of a bump of 0.2"
 
 
 def test_lips_that_touch_still_part():

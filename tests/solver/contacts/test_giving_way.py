@@ -53,27 +53,6 @@ def strands(count=COUNT):
     return V.reshape(-1, 3), F.reshape(-1, 3)
 
 
-def coins(count=COUNT):
-    """Return round plates, a fortieth as thick as wide, that lie side by side."""
-    a = np.linspace(0.0, 2.0 * np.pi, SIDES, endpoint=False)
-    ring = 0.04 * np.stack([np.cos(a), np.sin(a)], axis=1)
-    z = np.repeat([-0.001, 0.001], SIDES)
-    V = np.column_stack([np.tile(ring, (2, 1)), z]) + 0.1 * np.arange(count)[:, None, None]
-    i, k = np.arange(SIDES), np.arange(1, SIDES - 1)
-    j = (i + 1) % SIDES
-    rim = [np.stack([i, j, j + SIDES], 1), np.stack([i, j + SIDES, i + SIDES], 1)]
-    lids = [np.stack([0 * k, k + 1, k], 1), SIDES + np.stack([0 * k, k, k + 1], 1)]
-    F = np.concatenate(rim + lids) + V.shape[1] * np.arange(count)[:, None, None]
-    return V.reshape(-1, 3), F.reshape(-1, 3)
-
-
-def test_coins_are_no_strands_of_hair():
-    head = uv_sphere(32, 16)
-    V, F = joined(head, coins())
-    part = np.repeat(np.arange(COUNT + 1), [len(head[0]), *[2 * SIDES] * COUNT])
-    assert not cards(V, F, part, np.zeros(len(V), int)).any()
-
-
 @pytest.mark.thorough(1)  # that strands are cards is tested below
 @pytest.mark.parametrize("make, crispness", [(hair, 0.9), (strands, 0.9), (hair, 0.0)])
 def test_a_head_becomes_as_cubic_as_without_keep_apart(make, crispness):
