@@ -3,6 +3,7 @@
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
+from cubic_craft.cubic_craft_addon.settings.values import Settings
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes
 
@@ -27,6 +28,6 @@ def compose_character(meshes: FigureMeshes) -> list[Group]:
     groups = [meshes.group(model, model.original, "original", "grey")]
     for name, settings in LOOKS.items():
         group = meshes.group(model, meshes.cubified(model, 0.4, **settings), name, "green")
-        shade_shape(group.copies[0], {"crispness": 0.9, **settings})
+        shade_shape(group.copies[0], {"crispness": Settings.crispness, **settings})
         groups.append(group)
     return groups

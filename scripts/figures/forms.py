@@ -5,6 +5,8 @@ import numpy as np
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.command_line.reading.form_object import FormMesh, make_form
+from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
+from cubic_craft.cubic_craft_addon.settings.values import Settings
 
 from .figure_meshes import FigureMeshes
 
@@ -58,6 +60,7 @@ def _compose(forms: dict[str, dict], meshes: FigureMeshes) -> list[Group]:
         own = {"form_object": house} if settings["form"] in ("OBJECT", "DIRECTIONS") else {}
         shape = meshes.cubified(model, CUBENESS, **settings, **own)
         groups.append(meshes.group(model, shape, label, "green"))
+        shade_shape(groups[-1].copies[0], {"crispness": Settings.crispness})
     return groups
 
 
