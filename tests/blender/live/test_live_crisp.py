@@ -43,7 +43,7 @@ def test_a_crisp_shape_stays_crisp_while_cubeness_is_dragged(live, begin, one_ph
     session = tick_to_rest(begin(obj, cubeness=0.4, crispness=crispness))
     at_rest = share_flat(obj)
     shape = bits(obj)
-    least, farthest = drag(live, session, obj, np.linspace(0.4, 0.5, 5)[1:], ticks=20)
+    least, farthest = drag(live, session, obj, np.linspace(0.4, 0.5, 5)[1:], ticks=40)
     assert bits(obj) != shape, "nothing was seen"
     assert least > 0.9 * at_rest
     assert farthest < STILL
@@ -66,7 +66,7 @@ def test_a_crisp_shape_stays_crisp_while_other_settings_are_dragged(live, begin,
     form = "BOX" if name == "form_weights" else "CUBE"
     session = tick_to_rest(begin(obj, cubeness=0.4, crispness=1.0, form=form))
     shape = bits(obj)
-    least, farthest = drag(live, session, obj, DRAGGED[name], ticks=20, name=name)
+    least, farthest = drag(live, session, obj, DRAGGED[name], ticks=30, name=name)
     assert bits(obj) != shape, "nothing was seen"
     tick_to_rest(session)
     end = share_flat(obj, live.live_properties().orientation)
