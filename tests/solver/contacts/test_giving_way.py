@@ -3,12 +3,22 @@
 
 from types import SimpleNamespace
 
+import contact_shapes
 import numpy as np
 import pytest
 from facing import angle_to_axes
-from proxy_shapes import joined, revolved, uv_sphere
+from proxy_shapes import eye_in_head, joined, revolved, uv_sphere
 
-from solver import ProxyOptions, stylize
+from solver import (
+    ProxyOptions,
+    Run,
+    Setup,
+    SolverOptions,
+    Style,
+    Stylization,
+    rest_mesh,
+    stylize,
+)
 from solver.contacts.riding import riding
 from solver.proxy.sheets import cards
 
@@ -80,6 +90,35 @@ def test_parts_may_cross_where_a_round_would_cost_more_style_than_it_saves():
     assert angle_to_axes(kept.positions, F) < angle_to_axes(free.positions, F) + 0.5
     assert 0 < kept.pressed <= kept.crossings
     assert free.pressed is None
+
+
+def crisp_run(V, F):
+    """Return a Run to flat sides, at its end, and how much of what was crisp there is left."""
+    setup = Setup(rest_mesh(V, F, ProxyOptions(keep_apart=True, refine=False)))
+    style, options = Style(0.4, crispness=1.0), SolverOptions(keep_rotation=True)
+    made = Run(Stylization(setup, style, options=options))
+    made.complete()
+    return made, made.hard.crisp_area / made._hard_end[0].crisp_area
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: contact_shapes.dressed(gap=0.006)[:2],
+        lambda: contact_shapes.figure(degrees=40)[:2],
+        eye_in_head,
+    ],
+)
+def test_what_crosses_once_sides_are_flat_is_pushed_apart_and_stays_crisp(make):
+    made, share = crisp_run(*make())
+    assert share > 0.99 and made.result().crossings == 0
+
+
+def test_parts_may_cross_where_they_would_else_stay_soft():
+    belt = ring(1.06, 0.05, 0.0, count=16, around=8)
+    made, share = crisp_run(*joined(uv_sphere(16, 8), belt))
+    result = made.result()
+    assert share > 0.99 and result.crossings == result.pressed > 0
 
 
 def ring(radius, thickness, height, count=40, around=12):
