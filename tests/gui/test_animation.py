@@ -35,7 +35,7 @@ def add_bending_monkey():
 
 def open_section():
     """Click on the header of the section, which is below that of the result."""
-    above = yield from gui.find_button("cubic_craft.result")
+    above = yield from gui.find_button("cubic_craft.sharp_edges")
     yield from gui.click((round(above.left + TRIANGLE - 120), round(above.bottom - HEADER)))
     yield from gui.wait_redraw("UI")
 
