@@ -5,20 +5,12 @@ Blender stores coordinates as float32, and ``foreach_get`` / ``foreach_set`` tak
 (one memory copy) only with a flat float32 buffer.
 """
 
-from typing import Any
-
 import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
 from .sharp_edges import follow_shape
-
-
-def read_values(collection: Any, name: str, kind: Any = np.float32, width: int = 1) -> np.ndarray:
-    """Read a property of all members of a collection, (k,) or with a width (k,width)."""
-    flat = np.empty(len(collection) * width, kind)
-    collection.foreach_get(name, flat)
-    return flat if width == 1 else flat.reshape(-1, width)
+from .values import read_values
 
 
 def read_position(mesh: bpy.types.Mesh) -> np.ndarray:

@@ -12,16 +12,16 @@ from typing import Any
 import bpy
 import numpy as np
 
+from .values import read_values
+
 ANGLE = math.radians(30.0)
 """as Blender's *Shade Smooth by Angle*"""
 _FOLLOWING = "cubic_craft_sharp_edges"  # a custom property of the mesh
 _MARKS = "sharp_edge"
 _NORMALS = "custom_normal"
 _ASIDE = "cubic_craft_normals"  # in that place, sharp edges would not be seen
-_NEAR, _MOST = (
-    math.cos(math.radians(20.0)),
-    0.99,
-)  # exporters weigh faces in other ways, and files round
+_NEAR = math.cos(math.radians(20.0))  # exporters weigh faces in other ways, and files round
+_MOST = 0.99  # of the corners that have to be near
 _OF_NODES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
@@ -117,18 +117,20 @@ def _are_those_of_blender(mesh):
     normals = mesh.attributes.get(_NORMALS)
     if normals is not None and normals.data_type == "FLOAT_VECTOR":
         return False  # in object space, where the original is kept in another way
-    vertex, edge = (_values(mesh.loops, f"{kind}_index", np.int32) for kind in ("vertex", "edge"))
-    ends = _values(mesh.edges, "vertices", np.int32, 2)
+    vertex, edge = (
+        read_values(mesh.loops, f"{kind}_index", np.int32) for kind in ("vertex", "edge")
+    )
+    ends = read_values(mesh.edges, "vertices", np.int32, 2)
     is_inside = np.ones(len(mesh.vertices), bool)
     is_inside[ends[np.bincount(edge, minlength=len(ends)) != 2]] = False
     if normals is None:  # before Blender 5, those of vertices are without them
-        plain = _values(mesh.vertex_normals, "vector", np.float32, 3)[vertex]
+        plain = read_values(mesh.vertex_normals, "vector", width=3)[vertex]
     else:
         copy = mesh.copy()
         copy.attributes.remove(copy.attributes[_NORMALS])
-        plain = _values(copy.corner_normals, "vector", np.float32, 3)
+        plain = read_values(copy.corner_normals, "vector", width=3)
         bpy.data.meshes.remove(copy)
-    shown = _values(mesh.corner_normals, "vector", np.float32, 3)
+    shown = read_values(mesh.corner_normals, "vector", width=3)
     is_near = np.einsum("ij,ij->i", shown, plain)[is_inside[vertex]] > _NEAR
     return bool(is_near.size and is_near.mean() > _MOST)
 
@@ -138,17 +140,9 @@ def _rename(mesh, name, to):
         found.name = to
 
 
-def _values(items: Any, name: str, kind: Any, width: int = 1) -> Any:
-    values = np.empty(len(items) * width, kind)
-    items.foreach_get(name, values)
-    return values if width == 1 else values.reshape(-1, width)
-
-
 def _has(mesh: bpy.types.Mesh, name: str) -> bool:
     """Return whether a flag is set anywhere."""
     flags = mesh.attributes.get(name)
     if not isinstance(flags, bpy.types.BoolAttribute):
         return False
-    values = np.empty(len(flags.data), bool)
-    flags.data.foreach_get("value", values)
-    return bool(values.any())
+    return bool(read_values(flags.data, "value", bool).any())
