@@ -134,7 +134,14 @@ def rest_mesh(
         skin,
     )
     matrices = skin.with_links(V, rest.links)
-    return replace(rest, matrices=matrices, triangles=given, whole=surface.whole)
+    return replace(
+        rest,
+        matrices=matrices,
+        triangles=given,
+        unrefined=surface.unrefined,
+        pieces=surface.pieces,
+        faces=surface.faces,
+    )
 
 
 def links_within(*surface: Any) -> tuple[Links, Links, Links]:

@@ -88,8 +88,12 @@ class RestMesh(Value):
     """including the links"""
     triangles: NDArray[np.int32] | None = None
     """(k,3) int32 triangles of the input, as given"""
-    whole: IntArray | None = None
-    """(m,) int the triangle before refinement, or the face, that each is a piece of, or None"""
+    unrefined: IntArray | None = None
+    """(l,3) int triangles before refinement; None if nothing was refined"""
+    pieces: IntArray | None = None
+    """(m,) int that of these which each triangle is a piece of, or None"""
+    faces: IntArray | None = None
+    """(l,) int the face of the input that each of these is a piece of; None if they are whole"""
     is_cage: bool = False
     """whether these are the faces of a coarser mesh, which is to follow"""
     unposed: RestMesh | None = None
@@ -307,6 +311,22 @@ class RestMesh(Value):
         used, place = self.place
         number[used] = place
         return number[self.triangles]
+
+    def along_edges(self, values: FloatArray) -> FloatArray:
+        """Return values (n,d) with those of midpoints between those of the ends of their edges."""
+        if self.unrefined is None:
+            return values
+        own = np.zeros((len(self.input_positions), values.shape[1]))
+        used, place = self.place
+        own[used] = values[place]
+        return self.input_map.points(own)
+
+    @property
+    def whole(self) -> IntArray | None:
+        """(m,) int the triangle before refinement, or the face, that each is a piece of."""
+        if self.pieces is None or self.faces is None:
+            return self.faces if self.pieces is None else self.pieces
+        return self.faces[self.pieces]
 
     @cached_property
     def crosses_at_rest(self) -> CrossingTriangles:

@@ -25,7 +25,7 @@ from .energy import Energy
 from .errors import CubicCraftError
 from .from_below import FromBelow
 from .hardening.hard_stylization import HardStylization
-from .hardening.hardening import ROUNDS, is_hardened
+from .hardening.hardening import GIVEN_BACK, ROUNDS, is_hardened
 from .inputs import instance, real_number, switch, whole_number
 from .result import Reason, Result
 from .stop_rule import StopRule
@@ -286,7 +286,7 @@ class Run:
         hard.global_step()
         self._phase = Run._hard_local_step
         done = hard.iterations - self.soft.iterations
-        if done == ROUNDS // 2:
+        if done in GIVEN_BACK:
             hard.give_back_volume()
         if done < ROUNDS:
             return

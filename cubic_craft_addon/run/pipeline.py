@@ -9,6 +9,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import bpy
@@ -215,27 +216,31 @@ def write(
     result: str,
     remember: Callable[[bpy.types.Object], None] = lambda target: None,
     run: dict[str, Any] | None = None,
+    finish: Callable[[bpy.types.Object], None] = lambda target: None,
 ) -> bpy.types.Object:
     """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
 
     `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}. `remember`: called with the object that gets the
     cubic shape, before the step that cannot be undone: if it or anything later raises, all meshes
     and objects are as they were before. The caller must restore the settings of an existing object
-    that it has changed. `run`: dict, optional, the note for the mesh, a `LastRun`. Returns the
-    object that now has the cubic shape.
+    that it has changed. `run`: dict, optional, the note for the mesh, a `LastRun`. `finish`: as
+    `remember`, but called once the shape is written. Returns the object that now has it.
     """
     if result == "NEW_OBJECT":
+
+        def prepare(target):
+            remember(target)
+            finish(target)
+
         return mesh_bridge.write_new_object(
-            obj, solution.positions, solution.rotations, remember, run, solution.start
+            obj, solution.positions, solution.rotations, prepare, run, solution.start
         )
     remember(obj)
+    made = solution.positions, solution.rotations, run, solution.start, partial(finish, obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(
-            obj, solution.positions, solution.rotations, run, solution.start
-        )
+        mesh_bridge.write_shape_key(obj, *made)
     else:
-        mesh = mesh_bridge.mesh_of(obj)
-        mesh_bridge.write_mesh(mesh, solution.positions, solution.rotations, run, solution.start)
+        mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), *made)
     return obj
 
 

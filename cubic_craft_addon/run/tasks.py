@@ -267,16 +267,23 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         if source is not None and target != source and not task.is_followed:
             hidden_source.hide(source, target)
 
+    def shade(target):
+        shown = {**run.settings, "sharp_edges": task.settings.sharp_edges}
+        mesh_bridge.shade_shape(target, shown)
+
+    def complete(target):
+        remember(target)
+        shade(target)
+
     solution, note = task.solution, asdict(run)
     with hidden_source.source_kept(source):
         if task.is_seen or task.is_followed_as_seen:
             new = task.obj if task.is_seen else mesh_bridge.make_seen(task.obj)
             task.written = mesh_bridge.write_seen(
-                new, source, solution.positions, solution.rotations, remember, note
+                new, source, solution.positions, solution.rotations, complete, note
             )
         else:
             with settings_kept([task.mesh]):
                 task.written = pipeline.write(
-                    task.obj, solution, task.settings.result, remember, note
+                    task.obj, solution, task.settings.result, remember, note, shade
                 )
-    mesh_bridge.shade_edges(task.written, task.settings.sharp_edges)

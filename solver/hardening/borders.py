@@ -16,15 +16,18 @@ from ..contacts.crossings import Watched, boxes
 STEPS = 30
 FORWARD, BACKWARD = 0.5, -0.53
 """shares of the way to the point between the neighbors"""
-REACH = 0.5
+REACH = 0.9
 """of the edges beside it: how far a vertex may move"""
 LEAST = 0.2
-"""of what is seen of a triangle along its side, which stays"""
+"""of what is seen of a face along its side, which stays"""
+OVERLAP = 0.02
+"""of the same: a triangle of it may be inside out by so much, as where three of its corners come to
+lie on a line"""
 _ROUNDS = 4  # of moving less
 _SHORTEST = 1e-12
 
 
-def straightening(U, F, graph, side, directions, fixed, *, may_cross=False):
+def straightening(U, F, graph, side, directions, fixed, *, faces=None, may_cross=False):
     """Return how far vertices (n,3) have to move so that the borders of sides are straight.
 
     Parameters
@@ -39,6 +42,8 @@ def straightening(U, F, graph, side, directions, fixed, *, may_cross=False):
         That the sides face.
     fixed : (k,) int array
         Vertices that stay.
+    faces : (m,) int array, optional
+        The polygon that each triangle is a piece of.
     may_cross : bool
         Whether not to look for what comes to cross, which takes long.
     """
@@ -51,12 +56,14 @@ def straightening(U, F, graph, side, directions, fixed, *, may_cross=False):
     is_moved[at] = True
     beside = is_moved[F].any(axis=1)
     sided = np.flatnonzero(beside & (side >= 0))
-    least = LEAST * _seen(U, F[sided], directions[sided])
+    polygon = np.unique((np.arange(len(F)) if faces is None else faces)[sided], return_inverse=True)
+    whole = _seen(U, F[sided], directions[sided], polygon[1])[1]
     watched = None if may_cross else _watched(U, U + moves, F, beside)
     before = np.empty((0, 2), np.intp) if watched is None else watched.crossings(U)
     for number in range(_ROUNDS):
         X = U + moves
-        thin = sided[_seen(X, F[sided], directions[sided]) < least]
+        own, of_polygon = _seen(X, F[sided], directions[sided], polygon[1])
+        thin = sided[(of_polygon < LEAST * whole) | (own < -OVERLAP * whole)]
         bad = thin
         if watched is not None:
             crossing = watched.crossings(X)
@@ -99,10 +106,11 @@ def _along(U, at, neighbors):
     return np.minimum(1.0, REACH * lengths.mean(axis=1) / far)[:, None] * moves
 
 
-def _seen(U, F, directions):
-    """Return the areas (m,) of triangles, doubled, as seen along directions (m,3)."""
+def _seen(U, F, directions, polygon):
+    """Return the areas (m,) of triangles and of their polygons, doubled, seen along directions."""
     a, b, c = U[F].swapaxes(0, 1)
-    return np.einsum("mj,mj->m", np.cross(b - a, c - a), directions)
+    own = np.einsum("mj,mj->m", np.cross(b - a, c - a), directions)
+    return own, np.bincount(polygon, own)[polygon]
 
 
 def _watched(U, X, F, is_moved):

@@ -55,7 +55,7 @@ class HardStylization(Stylization):
         if self.rest.is_cage:
             return
         U, fixed = self._motion.positions, self.setup.pinned
-        moves = self.hardening.straightening(U, self.rest.F, fixed, may_cross=may_cross)
+        moves = self.hardening.straightening(U, fixed, may_cross=may_cross)
         straight = U + moves
         self.impose(straight)
         self.hardening = replace(self.hardening, moves=straight - U)

@@ -8,6 +8,7 @@ from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
+from ..mesh.face_graph import FaceGraph
 from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
@@ -18,8 +19,13 @@ from .sides import CLEAR, NO_SIDE, STEADY, sides_of
 
 ROUNDS = 12
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
-HOLD = 0.085
-"""largest extent of what may leave the soft shape as it becomes flat, relative to its component"""
+GIVEN_BACK = range(ROUNDS // 4, ROUNDS - 2, 2)
+"""those after which the volume of the soft shape is given back: some of it returns each time"""
+OF_THICKNESS = 0.35
+"""largest extent of what may leave the soft shape as it becomes flat, relative to the thickness of
+its part: a ball becomes flat all over, and a slender figure keeps its bends,..."""
+HOLD = 0.085, 0.3
+"""...and the least and the most of it, relative to its component"""
 THIN = 0.2, 0.4
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
@@ -90,10 +96,23 @@ class Hardening:
         left = 1.0 - share
         return replace(self, soft=soft, crispness=left * self.crispness, firm=left * self.firm)
 
-    def straightening(self, U, F, fixed, *, may_cross=False):
-        """Return the `straightening` of the end U (n,3), for triangles (m,3)."""
-        graph, directions = self.target.base.graph, self.target.directions
-        return straightening(U, F, graph, self.side, directions, fixed, may_cross=may_cross)
+    def straightening(self, U, fixed, *, may_cross=False):
+        """Return the `straightening` of the end U (n,3).
+
+        That of the triangles before refinement, which are seen: a step of a border along one of
+        their edges is a long one in the refined mesh. The midpoints follow.
+        """
+        rest = self.target.base.rest
+        F, graph, piece = rest.F, self.target.base.graph, np.arange(len(self.side))
+        if rest.unrefined is not None:
+            F, graph = rest.unrefined, FaceGraph(rest.V, rest.unrefined)
+            piece[rest.pieces] = piece.copy()  # one of each
+            piece = piece[: len(F)]
+        of_sides = self.side[piece], self.target.directions[piece]
+        moves = straightening(
+            *(U, F, graph, *of_sides, fixed), faces=rest.faces, may_cross=may_cross
+        )
+        return rest.along_edges(moves)
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
@@ -116,8 +135,18 @@ def is_hardened(stylization):
 def hold_of(rest):
     """Return how firmly vertices (n,) are held near the soft shape, in the units of L."""
     component = rest.topology.component
-    reach = HOLD * np.maximum(extents(rest.V, component), _POINT)[component]
+    size = np.maximum(extents(rest.V, component), _POINT)[component]
+    reach = np.clip(OF_THICKNESS * _mean_thickness(rest), HOLD[0] * size, HOLD[1] * size)
     return np.maximum(rest.areas, _POINT * _POINT) / (reach * reach)
+
+
+def _mean_thickness(rest):
+    """Return the mean thickness of the part of each vertex (n,), 0 for open sheets."""
+    part, is_known = rest.topology.part, np.isfinite(rest.thickness)
+    areas = rest.areas * is_known
+    total = np.bincount(part, areas)
+    means = np.bincount(part, areas * np.where(is_known, rest.thickness, 0.0))
+    return (means / np.where(total > 0.0, total, 1.0))[part]
 
 
 def hardening_of(stylization, before=None):

@@ -26,9 +26,12 @@ class Surface:
     """(n,3) float64 rest positions in the unit box"""
     F: IntArray
     """(m,3) int32 triangles"""
-    whole: IntArray | None
-    """(m,) int numbers of the triangles before refinement, or of the faces that were given;
-    None if each is still whole"""
+    unrefined: IntArray | None
+    """(l,3) int triangles before refinement; None if nothing was refined"""
+    pieces: IntArray | None
+    """(m,) int that of these which each triangle is a piece of, or None"""
+    faces: IntArray | None
+    """(l,) int the face, of those given, that each of these is a piece of"""
 
 
 def surface_of(V, F, options, faces=None) -> Surface:
@@ -55,12 +58,12 @@ def surface_of(V, F, options, faces=None) -> Surface:
         extent = working_extent(at, F, part)
         at, box = at / extent, replace(box, size=extent * box.size)
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
-    whole = None
+    unrefined = pieces = None
     if options.refine:
-        at, F, parents, rounds, whole = refine(at, F, longest_edges(at, F, part)[part], count)
-    whole = whole if len(parents) else None
-    if faces is not None:
-        whole = faces if whole is None else faces[whole]
+        unrefined, bound = F, longest_edges(at, F, part)[part]
+        at, F, parents, rounds, pieces = refine(at, F, bound, count)
+    if not len(parents):
+        unrefined = pieces = None
     of_input = np.full(len(V), -1)
     of_input[used] = group
     input_map = InputMap(of_input, used[first], parents, rounds)
@@ -69,7 +72,8 @@ def surface_of(V, F, options, faces=None) -> Surface:
         number = np.empty(len(order), dtype=np.int32)
         number[order] = np.arange(len(order), dtype=np.int32)
         input_map, at, F = input_map.ordered(order), at[order], number[F]
-    return Surface(input_map, box, at, F, whole)
+        unrefined = None if unrefined is None else number[unrefined]
+    return Surface(input_map, box, at, F, unrefined, pieces, faces)
 
 
 def _welded(V, F, part):

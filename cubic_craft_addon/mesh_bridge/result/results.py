@@ -43,6 +43,7 @@ def write_mesh(
     rotations: np.ndarray,
     run: dict[str, Any] | None = None,
     start: Start = "HERE",
+    finish: Callable[[], None] = lambda: None,
 ) -> None:
     """Write a result to the mesh: the base moves and the shape keys follow.
 
@@ -53,6 +54,7 @@ def write_mesh(
     rotations : (n,3,3) numpy array, the local rotation of each vertex
     run : the note of the run (see `note`)
     start : what the result was made from if the mesh was edited by hand since the last one
+    finish : called once the shape is written; if it raises, the mesh is unchanged
 
     Raises
     ------
@@ -79,6 +81,7 @@ def write_mesh(
         store_original(mesh, original, written, quaternions, strokes)
         note_run(mesh, run)
         write_shapes(mesh, written)
+        finish()
         remove_cubic_key(mesh, cubic_key)
 
 
@@ -88,15 +91,16 @@ def write_shape_key(
     rotations: np.ndarray | None = None,
     run: dict[str, Any] | None = None,
     start: Start = "HERE",
+    finish: Callable[[], None] = lambda: None,
 ) -> None:
     """Write a result to the shape key "Cubic"; everything else has its original shape.
 
     `obj`: an object with a mesh, in Object Mode. `positions`: (n,3), object space; ignored for
     vertices in no face. `rotations`: (n,3,3), by which what was moved by hand turns; None if
     nothing turns. `run`: the note of the run (see `note`). `start`: what the result was made from
-    if the mesh was edited by hand since the last one. Raises CubicCraftError: wrong number of
-    vertices, values that are not finite, absolute shape keys, or a mesh that cannot be written. The
-    mesh is then unchanged.
+    if the mesh was edited by hand since the last one. `finish`: as of `write_mesh`. Raises
+    CubicCraftError: wrong number of vertices, values that are not finite, absolute shape keys, or a
+    mesh that cannot be written. The mesh is then unchanged.
     """
     mesh = mesh_of(obj)
     _check_for_key(obj, mesh)
@@ -105,7 +109,8 @@ def write_shape_key(
     strokes = read_strokes(mesh, start)
     positions = rounded_for_storage(mesh, positions, original.base, loose)
     positions = with_strokes(mesh, positions, strokes, matrices_for_storage(mesh, rotations, loose))
-    _write_key(obj, original, positions, strokes, run, first_kept(mesh, start, original))
+    keep_first = first_kept(mesh, start, original)
+    _write_key(obj, original, positions, strokes, run, keep_first, finish)
 
 
 def reshape_key(
@@ -151,6 +156,7 @@ def _write_key(
     strokes: np.ndarray | None,
     run: dict[str, Any] | None,
     keep_first: Callable[[], None] = lambda: None,
+    finish: Callable[[], None] = lambda: None,
 ) -> None:
     mesh = mesh_of(obj)
     cubic_key = find_cubic_key(mesh)
@@ -161,3 +167,4 @@ def _write_key(
         write_cubic_key(obj, positions, cubic_key, strokes)
         note_run(mesh, run)
         mark_moved(mesh)
+        finish()

@@ -18,7 +18,7 @@ PLACES = {
     "Mirrored": Matrix.LocRotScale((-1.5, 0.1, 0.2), Euler((0.1, 0.3, -0.2)), (-0.5, 0.8, 0.6)),
 }
 # Of each object in its own coordinates: a vertex of it is where float32 puts it.
-ROUNDING = 5e-6
+ROUNDING = 2e-5
 
 
 @pytest.fixture

@@ -115,7 +115,7 @@ def test_what_crosses_once_sides_are_flat_is_pushed_apart_and_stays_crisp(make):
 
 
 def test_parts_may_cross_where_they_would_else_stay_soft():
-    belt = ring(1.06, 0.05, 0.0, count=16, around=8)
+    belt = ring(1.1, 0.08, 0.0, count=32, around=8)
     made, share = crisp_run(*joined(uv_sphere(16, 8), belt))
     result = made.result()
     assert share > 0.99 and result.crossings == result.pressed > 0

@@ -10,7 +10,6 @@ import pytest
 import shapes
 from facing import AXES, share_facing
 from named_forms import POLYTOPES
-from shapes import sheet
 
 from solver import (
     PAPER,
@@ -29,10 +28,8 @@ from solver import (
     stylize,
     triangle_areas_and_normals,
 )
-from solver.hardening.borders import straightening
 from solver.hardening.hard_stylization import HardStylization
 from solver.hardening.sides import NO_SIDE
-from solver.mesh.face_graph import FaceGraph
 from solver.styles.forms import prism
 
 KEPT = SolverOptions(keep_rotation=True, device="numpy")
@@ -338,64 +335,3 @@ def test_a_flat_roof_between_two_sides_is_not_bent():
     for roof in ([1, 8, 9, 3], [5, 7, 9, 8]):
         X = U[roof] - U[roof].mean(axis=0)
         assert np.linalg.svd(X)[1][2] < 0.02
-
-
-SLANT = 0.4
-"""of the border of a roof, against the edges of its triangles"""
-
-
-def roof(n=24, noise=0.1):
-    """Return a roof whose ridge lies aslant on its grid, and the side of each triangle.
-
-    Vertices along the ridge are off it by up to so much of an edge.
-    """
-    V, F = sheet(n + 1)
-    V = V * [1.0, 1.0, 0.0]
-    across = V[F].mean(axis=1) @ [1.0, -SLANT, 0.0] - 0.5 + SLANT / 2
-    side = (across > 0.0).astype(np.int64)
-    is_ridge = np.zeros(len(V), dtype=bool)
-    is_ridge[np.intersect1d(F[side == 0], F[side == 1])] = True
-    height = np.abs(V @ [1.0, -SLANT, 0.0] - 0.5 + SLANT / 2)
-    V[:, 2] = -np.where(is_ridge, 0.0, height)
-    shift = np.random.default_rng(1).uniform(-noise, noise, (len(V), 3)) / n
-    V[is_ridge] += shift[is_ridge]
-    return V, F, side, is_ridge
-
-
-def directions_of(side):
-    lean = np.array([[-1.0, SLANT, 0.0], [1.0, -SLANT, 0.0]]) + [0.0, 0.0, 1.0]
-    return (lean / np.linalg.norm(lean, axis=1, keepdims=True))[side]
-
-
-def bends(V, is_ridge):
-    """Return how far each vertex of the ridge is from the middle of those beside it."""
-    ridge = V[is_ridge][np.argsort(V[is_ridge] @ [SLANT, 1.0, 0.0])]
-    return np.linalg.norm(ridge[1:-1] - 0.5 * (ridge[2:] + ridge[:-2]), axis=1)
-
-
-@pytest.mark.parametrize("fixed", [(), (300, 301)])
-def test_only_the_border_moves_and_becomes_straight(fixed):
-    V, F, side, is_ridge = roof()
-    moves = straightening(V, F, FaceGraph(V, F), side, directions_of(side), np.array(fixed, int))
-    assert not moves[~is_ridge].any() and not moves[list(fixed)].any()
-    assert moves[is_ridge].any()
-    before, after = bends(V, is_ridge), bends(V + moves, is_ridge)
-    assert after.mean() < 0.6 * before.mean()
-    areas = np.cross(*(V + moves)[F].swapaxes(0, 1)[1:] - (V + moves)[F[:, 0]])
-    assert (np.einsum("mj,mj->m", areas, directions_of(side)) > 0.0).all()
-
-
-def test_what_has_no_side_stays():
-    V, F, side, _ = roof()
-    side[side == 1] = -1
-    graph = FaceGraph(V, F)
-    assert not straightening(V, F, graph, side, directions_of(side), np.empty(0, int)).any()
-
-
-def test_a_run_straightens_what_it_has_made_flat():
-    V, F, _, _ = roof(8)
-    style = Style(0.6, crispness=1.0)
-    run = Run(Stylization(Setup(rest_mesh(V, F, PAPER)), style, options=SolverOptions()))
-    run.complete()
-    hardening = run.stylization.hardening
-    assert hardening.moves.shape == run.stylization.positions.shape
