@@ -58,7 +58,7 @@ def straightening(U, F, graph, side, directions, fixed, *, faces=None, may_cross
     sided = np.flatnonzero(beside & (side >= 0))
     polygon = np.unique((np.arange(len(F)) if faces is None else faces)[sided], return_inverse=True)
     whole = _seen(U, F[sided], directions[sided], polygon[1])[1]
-    watched = None if may_cross else _watched(U, U + moves, F, beside)
+    watched = None if may_cross else _watched(U, U + moves, F, beside, faces)
     before = np.empty((0, 2), np.intp) if watched is None else watched.crossings(U)
     for number in range(_ROUNDS):
         X = U + moves
@@ -113,10 +113,22 @@ def _seen(U, F, directions, polygon):
     return own, np.bincount(polygon, own)[polygon]
 
 
-def _watched(U, X, F, is_moved):
-    """Return what may come to cross where triangles (m,) bool go from U (n,3) to X (n,3)."""
+def _watched(U, X, F, is_moved, faces):
+    """Return what may come to cross where triangles (m,) bool go from U (n,3) to X (n,3).
+
+    Not polygons that share a corner, as triangles do not: how they are split is not seen.
+    """
     (low, high), (other_low, other_high) = boxes(U, F), boxes(X, F)
-    return Watched(F, np.minimum(low, other_low), np.maximum(high, other_high), is_moved)
+    low, high = np.minimum(low, other_low), np.maximum(high, other_high)
+    if faces is None:
+        return Watched(F, low, high, is_moved)
+    corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
+
+    def counts(pairs):
+        one, other = (corners[faces[each]] for each in pairs.T)
+        return one.multiply(other).getnnz(axis=1) == 0
+
+    return Watched(F, low, high, is_moved, counts)
 
 
 def _keys(pairs, m):
