@@ -274,13 +274,13 @@ class RestMesh(Value):
             has_none = self.box_frames.any(axis=(1, 2))
         has_none |= extrusions(self.V, self.F, self.topology.part)[self.topology.part]
         links = links.part(~has_none[links.vertices[:, 0]])
-        found = limbs_of_shape(self.V, self.skin, links, self.topology.part)
+        surface = self.topology.part, self.normals, self.areas
+        found = limbs_of_shape(self.V, self.skin, links, *surface)
         found = without_shells(found, self.V, self.topology.part, self.areas, self.thickness)
         cavities = self.across_cavities
         if cavities is not None:
             cavities = cavities.part(~has_none[cavities.vertices[:, 0]])
-            walls = self.V, self.skin, links, cavities, self.topology.part, self.areas
-            found = with_hollows(found, *walls)
+            found = with_hollows(found, self.V, self.skin, links, cavities, *surface)
         neighbors = self.to_neighbors
         if not len(neighbors):
             return found

@@ -42,7 +42,10 @@ def rims_and_flats(graph, V, F, side, facing):
 
 
 def _between_flats(graph, region, rim, facing):
-    """Return how far regions (k,) are rims between opposite flats, and how far they are these."""
+    """Return how far regions (k,) are rims between parallel flats, and how far they are these.
+
+    Both may face the same way, as the treads of a step.
+    """
     count = len(rim)
     area = np.bincount(region, graph.areas, count)
     of_region = np.zeros((count, 3))
@@ -51,10 +54,10 @@ def _between_flats(graph, region, rim, facing):
     a, b = np.concatenate([one, other]), np.concatenate([other, one])
     is_pair = (a != b) & (LARGER * area[a] < area[b]) & (rim[a] > 0.0)
     a, b = a[is_pair], b[is_pair]
-    most, least = np.zeros((2, count, 3))
-    np.maximum.at(most, a, of_region[b])
-    np.minimum.at(least, a, of_region[b])
-    rim = np.where(((most > 0.9) & (least < -0.9)).any(axis=1), rim, 0.0)
+    a, b = np.unique(np.stack([a, b]), axis=1)  # one of each pair
+    parallel = np.zeros((count, 3), np.intp)
+    np.add.at(parallel, a, np.abs(of_region[b]) > 0.9)
+    rim = np.where((parallel > 1).any(axis=1), rim, 0.0)
     flat = np.zeros(count)
     np.maximum.at(flat, b, rim[a])
     return rim, flat

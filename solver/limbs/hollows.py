@@ -17,12 +17,12 @@ SLENDER = 0.5
 """...and that is a limb, in a part whose wall is one: the wire of a spring is no cloth"""
 
 
-def with_hollows(limbs, V, skin, walls, cavities, part, areas):
+def with_hollows(limbs, V, skin, walls, cavities, part, normals, areas):
     """Return Limbs in which hollow parts have those of their cavities.
 
     `limbs`: Limbs, as found between the sides of walls. `V`: (n,3), rest positions in the unit box.
     `skin`: SpokesAndRims. `walls`, `cavities`: Links, to the other side, and across cavities, see
-    `proxy/cavities.py`. `part`: (n,) int. `areas`: (n,).
+    `proxy/cavities.py`. `part`: (n,) int. `normals`: (n,3). `areas`: (n,).
     """
     total = np.bincount(part, areas)
     i, j = cavities.vertices[:, 0], cavities.vertices[:, 1]
@@ -36,4 +36,5 @@ def with_hollows(limbs, V, skin, walls, cavities, part, areas):
     if not is_hollow.any():
         return limbs
     inside = cavities.part(is_hollow[part[i]])
-    return limbs.replaced(is_hollow[part], limbs_of_shape(V, skin, inside, part, walls))
+    found = limbs_of_shape(V, skin, inside, part, normals, areas, walls)
+    return limbs.replaced(is_hollow[part], found)

@@ -37,6 +37,9 @@ END = 0.5
 """thicknesses by which a limb goes on beyond the last of its midpoints"""
 NONE, FULL = 1.6, 2.2
 """lengths, in widths: below is no limb, above is one in full"""
+OPEN = 0.75
+"""share of the surface that faces one way across a limb which the other way lacks, beyond which it
+is none: the flange of a base, which is attached all along"""
 STRAIGHT = np.cos(np.radians(20.0))
 """between the directions of one straight piece"""
 TAPER = 0.25
@@ -82,15 +85,20 @@ class Skeleton(NamedTuple):
     """(m,m) lengths between neighbors"""
     reach: FloatArray
     """(m,d,3) the vertices of each that are farthest in each of `_WAYS`"""
+    facing: FloatArray
+    """(m,3) sums of their normals, with their areas"""
+    spread: FloatArray
+    """(m,3,3) sums of the squares n n' of these"""
 
     def part(self, nodes):
         """Return the Skeleton of some of the nodes (k,)."""
         graph = self.graph[nodes][:, nodes]
         place, thickness = self.place[nodes], self.thickness[nodes]
-        return Skeleton(place, thickness, self.node, graph, self.reach[nodes])
+        own = (x[nodes] for x in (self.reach, self.facing, self.spread))
+        return Skeleton(place, thickness, self.node, graph, *own)
 
 
-def limbs_of_shape(V, skin, links, part, walls=None):
+def limbs_of_shape(V, skin, links, part, normals, areas, walls=None):
     """Return the Limbs of a shape.
 
     Parameters
@@ -103,12 +111,14 @@ def limbs_of_shape(V, skin, links, part, walls=None):
         To opposite sides, see `proxy/thickness.py`.
     part : (n,) int array
         Connected part of each vertex.
+    normals, areas : (n,3) and (n,) arrays
+        Of the vertices.
     walls : Links, optional
         Across which it is not far either, if the links are those of one side of walls.
     """
     if len(links) < FEWEST:
         return no_limbs(len(V))
-    skeleton = skeleton_of(V, skin, links, part, walls)
+    skeleton = skeleton_of(V, skin, links, part, normals, areas, walls)
     entries, directions = [], np.empty((0, 3))
     for nodes in _bodies(skeleton.graph):
         found, of_node = _found_among(skeleton.part(nodes))
@@ -155,7 +165,7 @@ def _found_among(skeleton):
     return directions, shares
 
 
-def skeleton_of(V, skin, links, part, walls=None):
+def skeleton_of(V, skin, links, part, normals, areas, walls=None):
     """Return the Skeleton of links to opposite sides."""
     i, j = links.vertices[:, 0], links.vertices[:, 1]
     middle, t = 0.5 * (V[i] + V[j]), np.linalg.norm(V[i] - V[j], axis=1)
@@ -183,7 +193,12 @@ def skeleton_of(V, skin, links, part, walls=None):
     node = of_end[np.where(source >= 0, source, len(V))]
     least = max(2.0 * spacing, OF_EDGES * np.median(lengths))
     graph = _graph(place, thickness, node[row], node[skin.indices], least)
-    return Skeleton(place, thickness, node, graph, _farthest(V, node, place))
+    rows = np.where(node >= 0, node, len(place))
+    of_node = sp.csr_matrix((areas, (rows, np.arange(len(V)))), (len(place) + 1, len(V)))
+    facing = (of_node @ normals)[:-1]
+    spread = of_node @ (normals[:, :, None] * normals[:, None, :]).reshape(-1, 9)
+    reach = _farthest(V, node, place)
+    return Skeleton(place, thickness, node, graph, reach, facing, spread[:-1].reshape(-1, 3, 3))
 
 
 def _lengths(V, links):
@@ -255,7 +270,20 @@ def _measured(skeleton):
     across = np.ptp(skeleton.reach @ axes[:, :, :2], axis=1).max(axis=1)
     is_wide = window @ (across > SHEET * width) > 0.5 * total[:, 0]
     own[is_wide] = 0.0
+    own[_is_open(skeleton, window, axis)] = 0.0
     return axis, (window * own[:, None]).max(axis=0), width, distance
+
+
+def _is_open(skeleton, window, axis):
+    """Return around which nodes (m,) the surface does not go all around a line along axis (m,3).
+
+    All its normals across the line would be in balance. Those of a flange are not.
+    """
+    facing, spread = window @ skeleton.facing, window @ skeleton.spread.reshape(-1, 9)
+    across = facing - (facing * axis).sum(axis=1)[:, None] * axis
+    squares = np.einsum("mi,mij,mj->m", across, spread.reshape(-1, 3, 3), across)
+    length = np.linalg.norm(across, axis=1)
+    return length**3 > OPEN * squares
 
 
 def _pieces(graph, direction, confidence, width):

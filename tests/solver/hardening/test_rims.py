@@ -55,6 +55,15 @@ def test_a_brim_that_is_thin_beside_the_whole_becomes_square_too():
     assert squareness(U[: len(V)]) > 1.25
 
 
+def test_a_stand_with_a_step_becomes_square():
+    """Its flange counted as a limb around it, and its upper rim as none: 1.07 and 1.1."""
+    stand = [(0.02, 0), (0.5, 0), (0.52, 0.08), (0.4, 0.15), (0.42, 0.25), (0.02, 0.25)]
+    V, F = revolved(stand, 32, 1.0)
+    U = stylize(V, F).positions
+    for ring in (V[:, 2] == 0.08, (V[:, 2] == 0.25) & (np.linalg.norm(V[:, :2], axis=1) > 0.4)):
+        assert squareness(U[ring]) > 1.25
+
+
 @pytest.mark.parametrize(("size", "is_brim"), [((1, 1, 0.05), True), ((0.1, 0.1, 1), False)])
 def test_a_rim_is_narrow_and_between_two_larger_sides(size, is_brim):
     rest = rest_mesh(*proxy_shapes.box(size))

@@ -247,6 +247,18 @@ def test_the_rings_of_a_tin_are_no_limbs(step, around):
     assert not rest_mesh(V, F).limbs.shares.nnz
 
 
+STAND = [(0.02, 0), (0.5, 0), (0.52, 0.08), (0.4, 0.15), (0.42, 0.25), (0.02, 0.25)]
+RING = [(1.0 + 0.2 * np.cos(a), 0.2 * np.sin(a)) for a in np.linspace(0.0, 2.0 * np.pi, 13)]
+
+
+@pytest.mark.parametrize(("outline", "is_limb"), [(STAND, False), (RING, True)])
+def test_what_is_attached_all_along_is_no_limb(outline, is_limb):
+    """The flange of a stand was one, around it, and stayed round; a ring for itself is one."""
+    V, F = proxy_shapes.revolved(outline, 32)
+    limbs = rest_mesh(V, F).limbs
+    assert (limbs.shares.nnz > 0.5 * len(V)) == is_limb
+
+
 @pytest.mark.parametrize(
     ("share", "wall", "is_shell"), [(0.2, 0.02, True), (0.2, 0.1, False), (0.6, 0.02, False)]
 )
