@@ -46,7 +46,7 @@ def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
     assert post < 2.5 and roof < 4.0
     if cubeness == 0.2:
         monkeypatch.setattr("solver.global_step.upright_parts.LARGE", 9.0)
-        assert max(leaning(lamp(), cubeness)) > 5.0, "it shows nothing"
+        assert max(leaning(lamp(), cubeness)) > 4.5, "it shows nothing"
 
 
 def figure_of_parts():
