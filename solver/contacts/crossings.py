@@ -16,7 +16,7 @@ from ..mesh.overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""
-MANY = 0.02
+MANY = 0.1
 """of the triangles: who asks for so many will ask for others, and to look for all takes less"""
 _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is left
 
