@@ -16,7 +16,7 @@ from ..mesh.overlaps import blocks_of_overlaps, near
 
 DEPTH = 1e-7
 """of the largest extent: a mesh in Blender, of numbers of 32 bit, is no more exact"""
-MANY = 0.02
+MANY = 0.1
 """of the triangles: who asks for so many will ask for others, and to look for all takes less"""
 _PARALLEL = 1e-9  # sine of the angle between planes, of which then no line is left
 
@@ -153,43 +153,50 @@ class _Planes:
 
     def crossing(self, i, j):
         """Return the numbers (c,) of those pairs of triangles i and j (k,) that cross."""
-        rows = self._straddling(i, j)
-        rows = rows[self._straddling(j[rows], i[rows])]
-        return rows[self._overlap(i[rows], j[rows]) > DEPTH]
-
-    def _heights(self, i, j):
-        """Return how high the corners of triangles i lie over the planes of j, three times (k,)."""
-        normal, offset = [x.take(j) for x in self.normal], self.offset.take(j)
-        return [dot(*normal, *(x.take(i) for x in corner)) - offset for corner in self.corners]
+        rows, one = self._straddling(i, j)
+        i, j = i.take(rows), j.take(rows)
+        kept, other = self._straddling(j, i)
+        one, i, j = one.take(kept, axis=1), i.take(kept), j.take(kept)
+        return rows[kept[self._overlap(i, j, one, other) > DEPTH]]
 
     def _straddling(self, i, j):
-        """Return the pairs whose first triangle has corners on both sides of the second."""
-        a, b, c = self._heights(i, j)
-        is_above = np.maximum(np.maximum(a, b), c) > DEPTH
-        return np.flatnonzero(is_above & (np.minimum(np.minimum(a, b), c) < -DEPTH))
+        """Return the pairs whose first triangle has corners on both sides of the second.
 
-    def _overlap(self, i, j):
-        """Return the length (k,) that both triangles have of the line of both planes."""
+        And how high (3,k) the corners of these lie over the plane of the second.
+        """
+        normal, offset = [x.take(j) for x in self.normal], self.offset.take(j)
+        heights = np.empty((3, len(i)))
+        for height, corner in zip(heights, self.corners, strict=True):
+            np.subtract(dot(*normal, *(x.take(i) for x in corner)), offset, out=height)
+        a, b, c = heights
+        is_above = np.maximum(np.maximum(a, b), c) > DEPTH
+        rows = np.flatnonzero(is_above & (np.minimum(np.minimum(a, b), c) < -DEPTH))
+        return rows, heights.take(rows, axis=1)
+
+    def _overlap(self, i, j, heights, other_heights):
+        """Return the length (k,) that both triangles have of the line of both planes.
+
+        `heights`, `other_heights`: (3,k), of the corners of each over the plane of the other.
+        """
         one, other = ([x.take(k) for x in self.normal] for k in (i, j))
         line = np.array(cross(*one, *other))
         sine = np.sqrt(dot(*line, *line))
         line /= np.maximum(sine, 1e-300)
-        begin, end = self._piece(i, j, line)
-        other_begin, other_end = self._piece(j, i, line)
+        begin, end = self._piece(i, heights, line)
+        other_begin, other_end = self._piece(j, other_heights, line)
         length = np.minimum(end, other_end) - np.maximum(begin, other_begin)
         return np.where(sine > _PARALLEL, length, 0.0)
 
-    def _piece(self, i, j, line):
-        """Return where on a line (3,k) triangles i enter and leave the planes of j."""
-        heights = self._heights(i, j)
+    def _piece(self, i, heights, line):
+        """Return where on a line (3,k) triangles i enter and leave the planes of the others."""
         along = [dot(*line, *(x.take(i) for x in corner)) for corner in self.corners]
         begin, end = np.full(len(i), np.inf), np.full(len(i), -np.inf)
         for a, b in ((0, 1), (1, 2), (2, 0)):
             is_cut = (heights[a] > 0.0) != (heights[b] > 0.0)
             share = heights[a] / np.where(is_cut, heights[a] - heights[b], 1.0)
             place = along[a] + share * (along[b] - along[a])
-            np.minimum(begin, place, out=begin, where=is_cut)
-            np.maximum(end, place, out=end, where=is_cut)
+            np.minimum(begin, np.where(is_cut, place, np.inf), out=begin)
+            np.maximum(end, np.where(is_cut, place, -np.inf), out=end)
         return begin, end
 
 
@@ -200,4 +207,5 @@ def _apart(F, box, i, j):
     meets = np.zeros(len(i), dtype=bool)
     for corner in one:
         meets |= (corner == other[0]) | (corner == other[1]) | (corner == other[2])
-    return box[i[~meets]], box[j[~meets]]
+    rows = np.flatnonzero(~meets)
+    return box.take(i.take(rows)), box.take(j.take(rows))

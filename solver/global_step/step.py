@@ -20,6 +20,8 @@ is set-up, the larger the mesh is; see `docs/benchmarks_explained.md`."""
 SMALL_PARTS, LARGEST_PART, IN_SMALL_PARTS = 200, 10_000, 4
 """vertices of a part in the mean, of the largest one, and of all as a multiple of that: what is
 only linked here and there is factorized in little time, and multigrid is far from its solution"""
+MANY_COUPLED = 0.2
+"""of the rows: to choose so many takes longer than to subtract nothing from the others"""
 _CYCLES = 4
 """of multigrid, in place of the solution"""
 _POINT = 1e-12  # extent in the unit box; of less, the directions of its vertices are rounding
@@ -179,15 +181,17 @@ def _solver(L, is_held):
     held = np.flatnonzero(is_held)
     coupling = L[:, held]
     coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbor
+    if len(coupled) > MANY_COUPLED * len(is_held):  # but where each leaf of a tree has one
+        coupled = slice(None)
     coupling = coupling[coupled]
     solve = factorize(decoupled(L, is_held))
 
     def solve_all(B, X):
-        rhs = B.copy()
-        rhs[coupled] -= coupling @ X[held]
-        rhs[held] = X[held]
+        rhs, at = B.copy(), X.take(held, axis=0)
+        rhs[coupled] -= coupling @ at
+        rhs[held] = at
         result = solve(rhs)
-        result[held] = X[held]
+        result[held] = at
         return result
 
     return solve_all

@@ -23,6 +23,7 @@ the energy falls in both steps (Sorkine and Alexa, "As-Rigid-As-Possible Surface
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -118,7 +119,7 @@ class FaceStep:
         self._parts = along, across, np.cross(t, across, axisa=1, axisb=1, axisc=1)
         for part in self._parts:
             part[self._free] = 0.0  # these are fitted one by one
-        self._turn = np.repeat([[1.0], [0.0]], m, axis=1)
+        self._turn, self._of_vertices = np.repeat([[1.0], [0.0]], m, axis=1), None
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
         self._steady = self._corners.sums(pulls @ along.swapaxes(1, 2))
         entries = np.empty((2, m, 3, 3))
@@ -153,6 +154,11 @@ class FaceStep:
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
         """(n,3,3) rotations of the vertices: between those of the triangles around them."""
+        if self._of_vertices is None:
+            self._of_vertices = self._found_at_vertices()
+        return self._of_vertices
+
+    def _found_at_vertices(self):
         R, F = self.of_faces, self._rest.F
         near = np.empty((len(self._rest.V), 3, 3))
         near[F] = R[:, None]
@@ -162,7 +168,7 @@ class FaceStep:
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
         means = R[self._rest.F[self._free]].sum(axis=1)
-        self._free_R = svd_rotations(means.swapaxes(1, 2))
+        self._free_R, self._of_vertices = svd_rotations(means.swapaxes(1, 2)), None
 
     def go_on_with(self, rest, target):
         """Return one with another Target, from the same rotations and held as far out."""
@@ -185,6 +191,7 @@ class FaceStep:
         gains = np.hypot(*xy)
         is_clear = gains > 0.0
         self._turn = np.where(is_clear, xy, [[1.0], [0.0]]) / np.where(is_clear, gains, 1.0)
+        self._of_vertices = None
         turned = self._steady + (self._angles.T @ self._turn.ravel()).reshape(-1, 3)
         if len(self._free):
             S = (self._free_pulls @ U).reshape(-1, 3, 3)
@@ -197,8 +204,9 @@ class FaceStep:
         R = cosine * across + sine * aside
         R[self._is_free] = self._free_R[self._of_free]
         turned += links.pulls(R)
-        self._rhs = self._right_hand_side(U, turned)
-        return self._energies(U, gains), np.zeros(self._rest.topology.component_count)
+        back = self._held_back(U)
+        self._rhs = self._right_hand_side(U, turned, back)
+        return self._energies(U, gains, back), np.zeros(self._rest.topology.component_count)
 
     def right_hand_side(self):
         """Return the right-hand side (n,3) of the global step for the present rotations."""
@@ -220,10 +228,14 @@ class FaceStep:
 
     def hold_outward(self, outward):
         """Hold the sides farther out by so much at the vertices (n,)."""
-        F, target = self._rest.F, self._target
-        out, _ = at_vertices(target.directions, target.base.graph.areas, F, len(outward))
-        self._held = self._held + outward[:, None] * out
+        self._held = self._held + outward[:, None] * self._out
         self.outward = self.outward + outward
+
+    @cached_property
+    def _out(self):
+        """(n,3) unit vectors at the vertices that the sides around them face, or zero."""
+        F, target = self._rest.F, self._target
+        return at_vertices(target.directions, target.base.graph.areas, F, len(self.outward))[0]
 
     def hold_beside(self, moves):
         """Hold the shape near a soft one whose vertices have moved so far (n,3)."""
@@ -247,8 +259,10 @@ class FaceStep:
         )
 
     def _begin_sliding(self):
-        """Take what is left free of each vertex, I - K (n,3,3)."""
-        target = self._target
+        """Take what is left free of each vertex, I - K (n,3,3), or None, if nothing slides."""
+        target, self._free_ways = self._target, None
+        if not target.slides.any():
+            return
         t, areas = target.directions, target.base.graph.areas[:, None, None]
         along = np.where(target.is_free[:, None, None], 0.0, np.eye(3) - t[:, :, None] * t[:, None])
         weight = self._corners.sums(np.repeat(areas, 3, axis=1))[:, :, None]
@@ -259,20 +273,20 @@ class FaceStep:
     def _held_back(self, U):
         """Return s K (u - v) (n,3) at positions U (n,3)."""
         moved = U - self._held
-        moved = moved - np.einsum("nij,nj->ni", self._free_ways, moved)
+        if self._free_ways is not None:
+            moved = moved - np.einsum("nij,nj->ni", self._free_ways, moved)
         return self._target.hold[:, None] * moved
 
-    def _right_hand_side(self, U, turned):
+    def _right_hand_side(self, U, turned, back):
         x, target = U.T.copy(), self._target
         along = [sum(K @ x[q] for q, K in enumerate(row)) for row in self._along]
         self._flat = np.stack(along, axis=1) + self._lift
-        held = target.hold[:, None] * U - self._held_back(U)
-        return turned / 3.0 + self._flat + held
+        return turned / 3.0 + self._flat + (target.hold[:, None] * U - back)
 
-    def _energies(self, U, gains):
+    def _energies(self, U, gains, back):
         sum_parts = self._rest.topology.sum_parts
         of_vertices = (U * (self._whole @ U - self._flat - self._lift)).sum(axis=1)
-        of_vertices += ((U - self._held) * self._held_back(U)).sum(axis=1)
+        of_vertices += ((U - self._held) * back).sum(axis=1)
         of_faces = self._sums_over_faces(gains) + sum_parts((U * self._steady).sum(axis=1))
         return self._rest_terms - of_faces + 1.5 * sum_parts(of_vertices)
 

@@ -33,6 +33,8 @@ class HardStylization(Stylization):
     hardening : Hardening
     """
 
+    _made_anew = (*Stylization._made_anew, "_rotations", "_rotations_of")
+
     def __init__(self, soft: Stylization, before: FloatArray | None = None):
         self.__dict__.update(soft.__dict__)
         self.hardening = hardening_of(soft, before)
@@ -129,6 +131,15 @@ class HardStylization(Stylization):
     def crisp_area(self) -> float:
         """The area at rest that is crisp."""
         return float(self.rest.areas @ self.hardening.crispness)
+
+    @property
+    def rotations(self) -> FloatArray:
+        """(n,3,3) rotations as of a Stylization; once they are found, until something changes."""
+        state = self._local.R, self.hardening, self._riding
+        known = self.__dict__.get("_rotations_of", (None,))
+        if any(now is not before for now, before in zip(state, known, strict=False)):
+            self._rotations, self._rotations_of = super().rotations, state
+        return self._rotations
 
     def _shape(self) -> FloatArray:
         U = self.hardening.positions(self._motion.positions)

@@ -21,6 +21,7 @@ _PER_BOX = 4.0  # cells for each box, to begin with
 _COARSE = 6  # the finest level at which is looked for what lies near some boxes
 _GAIN = 0.8  # of the comparisons; a split that saves less is none
 _BLOCK = 1 << 16  # boxes that are compared at once
+_SHORT = 16  # bits: numbers of so many are compared in half of the time
 _ALL_AXES = np.uint8(7)
 
 
@@ -78,10 +79,12 @@ class _Cells:
 
     def __init__(self, box, corner, level):
         self.level = level
-        x, y, z = corner.astype(np.int64)
-        key = (x << 2 * BITS) | (y << BITS) | z
-        order = np.argsort(key, kind="stable")
-        self.box, self.corner, key = box[order], corner[:, order], key[order]
+        key = corner[0].astype(np.int64)
+        for x in corner[1:]:
+            key <<= level
+            key |= x
+        key, order = _sorted(key, 3 * level)
+        self.box, self.corner = box.take(order), corner.take(order, axis=1)
         is_first = np.ones(len(key), dtype=bool)
         is_first[1:] = key[1:] != key[:-1]
         start = np.flatnonzero(is_first)
@@ -101,9 +104,23 @@ class _Cells:
         begin = np.append(0, np.cumsum(count))
         rows = np.arange(begin[-1]) + np.repeat(start[cells] - begin[:-1], count)
         other = _Cells.__new__(_Cells)
-        other.level, other.box, other.corner = self.level, self.box[rows], self.corner[:, rows]
+        other.level, other.box = self.level, self.box.take(rows)
+        other.corner = self.corner.take(rows, axis=1)
         other.bounds = begin[:-1], begin[1:]
         return other
+
+
+def _sorted(key, bits):
+    """Return keys (e,) of so many bits in ascending order, and the order of the equal ones kept."""
+    for_place = len(key).bit_length()
+    if bits + for_place > 63:
+        order = np.argsort(key, kind="stable")
+        return key.take(order), order
+    # sorted as numbers with their places behind them: a fraction of the time
+    both = key << for_place
+    both |= np.arange(len(key))
+    both.sort()
+    return both >> for_place, both & ((1 << for_place) - 1)
 
 
 def _on_grid(corner):
@@ -158,8 +175,8 @@ def entries(first, last):
 def _split(cells, low, high):
     """Return the halves along each axis of Cells, and those that are better left as they are."""
     shift = BITS - cells.level - 1
-    first = np.maximum(low[:, cells.box] >> shift, 2 * cells.corner)
-    last = np.minimum(high[:, cells.box] >> shift, 2 * cells.corner + 1)
+    first = np.maximum(low.take(cells.box, axis=1) >> shift, 2 * cells.corner)
+    last = np.minimum(high.take(cells.box, axis=1) >> shift, 2 * cells.corner + 1)
     entry, corner = entries(first, last)
     halves = _Cells(entry, corner, cells.level + 1)
     parent = np.repeat(np.arange(len(cells.counts)), cells.counts)
@@ -167,19 +184,23 @@ def _split(cells, low, high):
     of_parent = parent[halves.box[start]]
     work = np.bincount(of_parent, halves.counts.astype(float) ** 2, len(cells.counts))
     is_stuck = work > _GAIN * cells.counts.astype(float) ** 2
-    halves.box = cells.box[halves.box]
+    halves.box = cells.box.take(halves.box)
     return halves.chosen(~is_stuck[of_parent]), cells.chosen(is_stuck)
 
 
 def _compared(low, high, is_asking, cells, begin, ends):
     """Compare the boxes of consecutive cells, which begin at `begin` and end at `ends` (c,)."""
     entries = slice(begin, ends[-1])
-    box, shift = cells.box[entries], BITS - cells.level
-    low, high = low[:, box], high[:, box]
+    box, corner, shift = cells.box[entries], cells.corner[:, entries], BITS - cells.level
+    low, high = low.take(box, axis=1), high.take(box, axis=1)
     asks = None if is_asking is None else is_asking[box]
     # Of all cells in which two boxes lie, one has the larger of their lower ends on each axis.
-    is_low = (low >> shift) == cells.corner[:, entries]
+    is_low = (low >> shift) == corner
     lows = is_low[0].astype(np.uint8) | is_low[1].astype(np.uint8) * 2 | is_low[2] * np.uint8(4)
+    if shift < _SHORT:  # boxes that overlap do so in the cell, too, where numbers are short
+        origin = corner << shift
+        low = np.maximum(low - origin, 0).astype(np.int16)
+        high = np.minimum(high - origin, (1 << shift) - 1).astype(np.int16)
     ends = ends - begin
     counts = np.diff(ends, prepend=0)
     left = (np.repeat(ends, counts) - np.arange(len(box))).astype(np.int16)

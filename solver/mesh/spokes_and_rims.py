@@ -76,7 +76,7 @@ class SpokesAndRims(Value):
         def added(values, more):
             result = values.take(source, axis=0, mode="clip")
             result[place[is_new]] = 0.0
-            result[place] += np.add.reduceat(more[order], starts, axis=0)
+            result[place] += np.add.reduceat(more.take(order, axis=0), starts, axis=0)
             return result
 
         indices = (merged % n).astype(np.int32)

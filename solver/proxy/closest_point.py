@@ -19,23 +19,28 @@ def closest_points(P, A, B, C):
         (dot(*ab, *way), dot(*ac, *way)) for way in (columns(P - corner) for corner in (A, B, C))
     )
     va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
-    zero, one = np.zeros(len(P)), np.ones(len(P))
 
     def share(part, whole):
         return part / np.where(whole > 0.0, whole, 1.0)
 
-    on_ab, on_ac = share(d1, d1 - d3), share(d2, d2 - d6)
-    on_bc = share(d4 - d3, (d4 - d3) + (d5 - d6))
     total = va + vb + vc
-    cases = [
-        ((d1 <= 0) & (d2 <= 0), (one, zero, zero)),
-        ((d3 >= 0) & (d4 <= d3), (zero, one, zero)),
-        ((d6 >= 0) & (d5 <= d6), (zero, zero, one)),
-        ((vc <= 0) & (d1 >= 0) & (d3 <= 0), (1 - on_ab, on_ab, zero)),
-        ((vb <= 0) & (d2 >= 0) & (d6 <= 0), (1 - on_ac, zero, on_ac)),
-        ((va <= 0) & (d4 >= d3) & (d5 >= d6), (zero, 1 - on_bc, on_bc)),
-    ]
     v, w = share(vb, total), share(vc, total)
-    inside = (1 - v - w, v, w)
-    is_case = [case for case, _ in cases]
-    return from_columns([np.select(is_case, [b[k] for _, b in cases], inside[k]) for k in range(3)])
+    found = np.stack([1 - v - w, v, w])
+    # of edges and corners, from the last to the first, which counts where several are nearest
+    edges = [
+        ((va <= 0) & (d4 >= d3) & (d5 >= d6), d4 - d3, d5 - d6, 1, 2),
+        ((vb <= 0) & (d2 >= 0) & (d6 <= 0), d2, -d6, 0, 2),
+        ((vc <= 0) & (d1 >= 0) & (d3 <= 0), d1, -d3, 0, 1),
+    ]
+    for is_nearest, to_start, to_end, start, end in edges:
+        rows = np.flatnonzero(is_nearest)
+        part = to_start.take(rows)
+        part = share(part, part + to_end.take(rows))
+        found[:, rows] = 0.0
+        found[start, rows], found[end, rows] = 1 - part, part
+    corners = ((d6 >= 0) & (d5 <= d6), (d3 >= 0) & (d4 <= d3), (d1 <= 0) & (d2 <= 0))
+    for corner, is_nearest in zip((2, 1, 0), corners, strict=True):
+        rows = np.flatnonzero(is_nearest)
+        found[:, rows] = 0.0
+        found[corner, rows] = 1.0
+    return from_columns(found)
