@@ -27,7 +27,9 @@ _ROUNDS = 4  # of moving less
 _SHORTEST = 1e-12
 
 
-def straightening(U, F, graph, side, directions, fixed, *, faces=None, may_cross=False):
+def straightening(
+    U, F, graph, side, directions, fixed, *, farthest=np.inf, faces=None, may_cross=False
+):
     """Return how far vertices (n,3) have to move so that the borders of sides are straight.
 
     Parameters
@@ -42,6 +44,9 @@ def straightening(U, F, graph, side, directions, fixed, *, faces=None, may_cross
         That the sides face.
     fixed : (k,) int array
         Vertices that stay.
+    farthest : (n,) array, optional
+        Vertices that would have to move farther are corners of a border, such as the end of a
+        ridge, and stay.
     faces : (m,) int array, optional
         The polygon that each triangle is a piece of.
     may_cross : bool
@@ -52,6 +57,12 @@ def straightening(U, F, graph, side, directions, fixed, *, faces=None, may_cross
     if not len(at):
         return moves
     moves[at] = _along(U, at, neighbors)
+    is_corner = (np.linalg.norm(moves, axis=1) > farthest)[at]
+    if is_corner.any():
+        moves[at], at, neighbors = 0.0, at[~is_corner], neighbors[~is_corner]
+        if not len(at):
+            return moves
+        moves[at] = _along(U, at, neighbors)
     is_moved = np.zeros(len(U), dtype=bool)
     is_moved[at] = True
     beside = is_moved[F].any(axis=1)

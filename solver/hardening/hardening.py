@@ -26,6 +26,9 @@ OF_THICKNESS = 0.35
 its part: a ball becomes flat all over, and a slender figure keeps its bends,..."""
 HOLD = 0.085, 0.3
 """...and the least and the most of it, relative to its component"""
+TEETH = 0.03
+"""of the size of a part: what would move farther to make a border straight is no tooth, but a
+corner"""
 THIN = 0.2, 0.4
 """of the size of details: parts thinner than the first stay soft, those beyond the second do not"""
 RINGS = 2
@@ -109,8 +112,12 @@ class Hardening:
             piece[rest.pieces] = piece.copy()  # one of each
             piece = piece[: len(F)]
         of_sides = self.side[piece], self.target.directions[piece]
+        part = rest.topology.part
         moves = straightening(
-            *(U, F, graph, *of_sides, fixed), faces=rest.faces, may_cross=may_cross
+            *(U, F, graph, *of_sides, fixed),
+            farthest=TEETH * extents(rest.V, part)[part],
+            faces=rest.faces,
+            may_cross=may_cross,
         )
         return rest.along_edges(moves)
 

@@ -63,12 +63,12 @@ def test_what_has_no_side_stays():
     assert not straightening(V, F, graph, side, directions_of(side), np.empty(0, int)).any()
 
 
-def crisp(V, F):
+def crisp(V, F, crispness):
     """Return a Run to flat sides, at its end."""
     made = Run(
         Stylization(
             Setup(rest_mesh(V, F)),
-            Style(0.4, crispness=1.0),
+            Style(0.4, crispness=crispness),
             options=SolverOptions(keep_rotation=True),
         )
     )
@@ -115,7 +115,7 @@ def torus():
 )
 def test_what_artists_begin_with_has_no_nicks(mesh, share):
     """Borders climb from row to row, in steps that are long in the refined mesh."""
-    made = crisp(*mesh)
+    made = crisp(*mesh, 1.0)
     rest, hardening = made.hard.rest, made.hard.hardening
     side = np.empty(len(rest.unrefined), int)
     side[rest.pieces] = hardening.side
@@ -123,3 +123,13 @@ def test_what_artists_begin_with_has_no_nicks(mesh, share):
     U = rest.input_map.points(result.positions)
     assert sharpest_turn(U, rest.unrefined, side) < 5.0 and result.crossings == 0
     assert share_facing(U, rest.unrefined, degrees=6.0) > share
+
+
+def test_the_end_of_a_ridge_is_a_corner():
+    """As one of two vertices between gable and roof, it was smoothed away: 4 degrees were left."""
+    V = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1.5, 1.5) for z in (0.0, 1.5)])
+    V = np.concatenate([V, [[0.0, -1.5, 2.5], [0.0, 1.5, 2.5]]])
+    walls = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [0, 4, 5, 8, 1], [2, 3, 9, 7, 6]]
+    U = crisp(V, [*walls, [1, 8, 9, 3], [5, 7, 9, 8]], 0.9).result().positions
+    across = U[9] - U[7]
+    assert np.degrees(np.arctan2(across[2], -across[0])) > 15.0
