@@ -32,7 +32,14 @@ from .values import Value
 
 LIGHT = 0.01
 """weight of planar sheets in place and rotation of what they hang on, in stiffness and links"""
-_OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness")
+_OF_THE_SURFACE = (
+    "face_graph",
+    "face_normals",
+    "outward",
+    "shown",
+    "thickness",
+    "unrefined_graph",
+)
 """cached properties that links change nothing in"""
 
 
@@ -236,6 +243,11 @@ class RestMesh(Value):
     def face_graph(self) -> FaceGraph:
         """The FaceGraph of the surface."""
         return FaceGraph(self.V, self.F)
+
+    @cached_property
+    def unrefined_graph(self) -> FaceGraph:
+        """The FaceGraph of the triangles before refinement."""
+        return self.face_graph if self.unrefined is None else FaceGraph(self.V, self.unrefined)
 
     @cached_property
     def face_normals(self) -> FloatArray:

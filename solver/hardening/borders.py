@@ -67,13 +67,14 @@ def straightening(
     is_moved[at] = True
     beside = is_moved[F].any(axis=1)
     sided = np.flatnonzero(beside & (side >= 0))
-    polygon = np.unique((np.arange(len(F)) if faces is None else faces)[sided], return_inverse=True)
-    whole = _seen(U, F[sided], directions[sided], polygon[1])[1]
+    of_triangles = np.arange(len(F)) if faces is None else faces
+    _, polygon = np.unique(of_triangles[sided], return_inverse=True)
+    _, whole = _seen(U, F[sided], directions[sided], polygon)
     watched = None if may_cross else _watched(U, U + moves, F, beside, faces)
     before = np.empty((0, 2), np.intp) if watched is None else watched.crossings(U)
     for number in range(_ROUNDS):
         X = U + moves
-        own, of_polygon = _seen(X, F[sided], directions[sided], polygon[1])
+        own, of_polygon = _seen(X, F[sided], directions[sided], polygon)
         thin = sided[(of_polygon < LEAST * whole) | (own < -OVERLAP * whole)]
         bad = thin
         if watched is not None:

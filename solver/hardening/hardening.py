@@ -8,7 +8,6 @@ from scipy.spatial import KDTree
 
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
-from ..mesh.face_graph import FaceGraph
 from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
@@ -106,15 +105,14 @@ class Hardening:
         their edges is a long one in the refined mesh. The midpoints follow.
         """
         rest = self.target.base.rest
-        F, graph, piece = rest.F, self.target.base.graph, np.arange(len(self.side))
+        F, of_sides = rest.F, (self.side, self.target.directions)
         if rest.unrefined is not None:
-            F, graph = rest.unrefined, FaceGraph(rest.V, rest.unrefined)
-            piece[rest.pieces] = piece.copy()  # one of each
-            piece = piece[: len(F)]
-        of_sides = self.side[piece], self.target.directions[piece]
+            F, piece = rest.unrefined, np.empty(len(rest.unrefined), np.intp)
+            piece[rest.pieces] = np.arange(len(rest.F))  # one of each
+            of_sides = self.side[piece], self.target.directions[piece]
         part = rest.topology.part
         moves = straightening(
-            *(U, F, graph, *of_sides, fixed),
+            *(U, F, rest.unrefined_graph, *of_sides, fixed),
             farthest=TEETH * extents(rest.V, part)[part],
             faces=rest.faces,
             may_cross=may_cross,
