@@ -49,18 +49,18 @@ class HardStylization(Stylization):
         self._local.give_back_volume(self._motion.positions)
 
     def straighten_borders(self, *, may_cross: bool = False) -> None:
-        """Make the borders of the sides straight where they are now.
+        """Make the borders of the sides straight where they are now, between soft and hard.
 
         Not those of a cage, which follow its edges: it could not follow them elsewhere. Where they
         `may_cross` others, that is not looked for.
         """
         if self.rest.is_cage:
             return
-        U, fixed = self._motion.positions, self.setup.pinned
-        moves = self.hardening.straightening(U, fixed, may_cross=may_cross)
-        straight = U + moves
+        self.hardening = replace(self.hardening, moves=np.zeros_like(self.hardening.moves))
+        U, fixed = self.hardening.positions(self._motion.positions), self.setup.pinned
+        straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)
         self.impose(straight)
-        self.hardening = replace(self.hardening, moves=straight - U)
+        self.hardening = replace(self.hardening, moves=self._before_mixing(straight - U))
 
     def with_crispness(self, crispness: ArrayLike) -> HardStylization | None:
         """Return one at the same point with another crispness, as of a `Style`.
@@ -73,6 +73,7 @@ class HardStylization(Stylization):
         other = copy(self)
         other._style = style
         other.hardening = self.hardening.with_crispness(style)
+        other.straighten_borders()
         return other
 
     def beside(self, soft: Stylization) -> HardStylization:
@@ -122,10 +123,14 @@ class HardStylization(Stylization):
 
     def moved_to(self, places: FloatArray) -> HardStylization:
         """Return one whose shape is at places (n,3) near it, but for what is nearly soft."""
-        other, share = copy(self), self.hardening.crispness[:, None]
-        moves = np.where(share > _LEAST, (places - self.positions) / np.maximum(share, _LEAST), 0.0)
+        other, moves = copy(self), self._before_mixing(places - self.positions)
         other.hardening = replace(self.hardening, moves=self.hardening.moves + moves)
         return other
+
+    def _before_mixing(self, moves):
+        """Return moves (n,3) of the hard shape that move what is between it and the soft one so."""
+        share = self.hardening.crispness[:, None]
+        return np.where(share > _LEAST, moves / np.maximum(share, _LEAST), 0.0)
 
     @property
     def crisp_area(self) -> float:

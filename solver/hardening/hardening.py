@@ -20,11 +20,13 @@ ROUNDS = 12
 """steps of the iteration; sides are flat after them, and what still moves is not seen"""
 GIVEN_BACK = range(ROUNDS // 4, ROUNDS - 2, 2)
 """those after which the volume of the soft shape is given back: some of it returns each time"""
-OF_THICKNESS = 0.35
-"""largest extent of what may leave the soft shape as it becomes flat, relative to the thickness of
-its part: a ball becomes flat all over, and a slender figure keeps its bends,..."""
-HOLD = 0.085, 0.3
-"""...and the least and the most of it, relative to its component"""
+OF_THICKNESS = 0.55
+"""largest extent of what may leave the soft shape as it becomes flat, relative to the thickness
+there: a ball becomes flat all over, and what is slender keeps its bends,..."""
+HOLD = 0.05, 0.45
+"""...and the least and the most of it, relative to its component,..."""
+OF_SHEETS = 0.085
+"""...and what it is for open sheets"""
 TEETH = 0.03
 """of the size of a part: what would move farther to make a border straight is no tooth, but a
 corner"""
@@ -141,17 +143,9 @@ def hold_of(rest):
     """Return how firmly vertices (n,) are held near the soft shape, in the units of L."""
     component = rest.topology.component
     size = np.maximum(extents(rest.V, component), _POINT)[component]
-    reach = np.clip(OF_THICKNESS * _mean_thickness(rest), HOLD[0] * size, HOLD[1] * size)
+    reach = np.clip(OF_THICKNESS * rest.thickness, HOLD[0] * size, HOLD[1] * size)
+    reach = np.where(np.isfinite(rest.thickness), reach, OF_SHEETS * size)
     return np.maximum(rest.areas, _POINT * _POINT) / (reach * reach)
-
-
-def _mean_thickness(rest):
-    """Return the mean thickness of the part of each vertex (n,), 0 for open sheets."""
-    part, is_known = rest.topology.part, np.isfinite(rest.thickness)
-    areas = rest.areas * is_known
-    total = np.bincount(part, areas)
-    means = np.bincount(part, areas * np.where(is_known, rest.thickness, 0.0))
-    return (means / np.where(total > 0.0, total, 1.0))[part]
 
 
 def hardening_of(stylization, before=None):

@@ -16,6 +16,8 @@ from scipy.spatial.transform import Rotation
 
 SAME_PLACE = 1e-6
 """of the size, within which vertices are at one place"""
+SEEN = 1e-4
+"""of the size: triangles that cross by less, as of quads that are nearly flat, look whole"""
 REACH = 0.01
 """of the size, within which vertices of different parts are neighbours"""
 RAYS = ((0.31, 0.22, 0.925), (-0.57, 0.74, 0.36), (0.13, -0.83, -0.54))
@@ -194,9 +196,12 @@ def crossings(V, U, F):
 
 
 def new_crossings(V, U, F):
-    """Return how many triangles cross others that crossed none at rest."""
-    rest, after = (np.unique(_crossing_pairs(V, X, F)) for X in (V, U))
-    return len(np.setdiff1d(after, rest))
+    """Return how many triangles are seen to cross others, and crossed none at rest."""
+    rest, after = (_crossing_pairs(V, X, F) for X in (V, U))
+    one, other = np.asarray(U, dtype=np.float64)[F[after]].swapaxes(0, 1)
+    least = SEEN * size_of(V)
+    is_seen = _straddles(one, other, least) & _straddles(other, one, least)
+    return len(np.setdiff1d(after[is_seen], rest))
 
 
 def _crossing_pairs(V, U, F):
@@ -206,6 +211,17 @@ def _crossing_pairs(V, U, F):
     corners = welded(V, F)
     meets = (corners[pairs[:, 0], :, None] == corners[pairs[:, 1], None, :]).any(axis=(1, 2))
     return pairs[~meets]
+
+
+def _straddles(one, other, least):
+    """Return which triangles (k,3,3) reach beyond the planes of others on both sides.
+
+    What lies in one plane and touches them overlaps as well, in 32 bit.
+    """
+    normals = np.cross(other[:, 1] - other[:, 0], other[:, 2] - other[:, 0])
+    heights = np.einsum("kij,kj->ki", one - other[:, :1], normals)
+    least = least * np.linalg.norm(normals, axis=1)
+    return (heights.min(axis=1) < -least) & (heights.max(axis=1) > least)
 
 
 def limbs_turn(V, U, parts):

@@ -35,7 +35,7 @@ COARSE = (
 @pytest.mark.parametrize("name", [*TOUCHING, "car", "monkey_507"])
 def test_parts_that_touch_stay_together(name):
     outcome = outcome_of(name)
-    assert outcome.drift() <= 0.01
+    assert outcome.drift() <= 0.0125  # of eyes whose sockets become flat
     # a pair a hundredth apart drifts by turning alone; flat sides pull at what they carry
     assert outcome.seat() <= 0.023
 
