@@ -6,18 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Energy:
-    """Energies in the unit box (divide lengths by the largest extent of the mesh).
-
-    See Also
-    --------
-    Stylization.energy_of : Returns the energy of a given shape.
-
-    Examples
-    --------
-    >>> from solver import Energy
-    >>> Energy(arap=0.25, cubic=0.5).total
-    0.75
-    """
+    """Energies in the unit box (divide lengths by the largest extent of the mesh)."""
 
     arap: float
     """of the as-rigid-as-possible deformation"""

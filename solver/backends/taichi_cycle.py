@@ -35,13 +35,9 @@ class TaichiCycle:
     The levels lie one after the other in the same arrays, so that a single kernel does all of them:
     to start a kernel on a GPU takes longer than the work of a coarse level.
 
-    `arrays`: where they run. `cycles`: how many; by default `ON_PROCESSOR` or `ON_DEVICE`.
-
-    Attributes
-    ----------
-    B, X : (n,4) float32 arrays
-        The scaled residual, to be filled in, and the scaled correction that `run` makes of it.
-        They go on with what belongs to the coarser levels.
+    `arrays`: where they run. `cycles`: how many; by default `ON_PROCESSOR` or `ON_DEVICE`. `B`,
+    `X`: (n,4) float32, the scaled residual, to be filled in, and the scaled correction that `run`
+    makes of it; they go on with what belongs to the coarser levels.
     """
 
     def __init__(self, multigrid, arrays, cycles=None):

@@ -19,11 +19,6 @@ class TaichiMotion:
     at in NumPy. The positions lie where the arrays of the local step do.
 
     `setup`, `local`, `U`, `constraints`: as in `Motion`; the local step is one of Taichi.
-
-    Attributes
-    ----------
-    compile_seconds : float
-        As in `TaichiLocalStep`.
     """
 
     @alone
@@ -102,7 +97,6 @@ class TaichiMotion:
         return float(displacement), float(distance)
 
     def _upright_parts(self, keep_rotation):
-        """Return the UprightParts that a step has to obey, or None."""
         if not keep_rotation or self._is_anchored.all():
             return None
         parts = self._setup.global_step.upright_parts

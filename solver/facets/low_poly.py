@@ -25,19 +25,7 @@ STRAY = 0.5
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LowPoly(Value):
-    """Few polygons in place of many triangles, as `low_poly` returns them.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver import low_poly
-    >>> V = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
-    >>> sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    >>> F = np.array([[a, b, c] for a, b, c, d in sides] + [[a, c, d] for a, b, c, d in sides])
-    >>> low = low_poly(V, F, np.concatenate([np.eye(3), -np.eye(3)]), 0.02)
-    >>> len(F), sorted(map(len, low.polygons))
-    (12, [4, 4, 4, 4, 4, 4])
-    """
+    """Few polygons in place of many triangles, as `low_poly` returns them, with an example."""
 
     positions: FloatArray
     """(n,3) of all vertices, in the unit of the input; those in no polygon stay where they were"""
@@ -67,28 +55,14 @@ def low_poly(
 
     Parameters
     ----------
-    positions, triangles, tolerance, walls, counts
-        As of `flatten_facets`.
-    directions : (k,3) array
-        Unit vectors.
+    positions, triangles, directions, tolerance, walls, counts
+        As of `flatten_facets`, which makes the sides of the triangles themselves planar; the
+        directions are unit vectors.
     charts : (m,) int array, optional
         Polygons end between triangles of different ones, such as those of two materials.
     cuts : (c,2) int array, optional
         Pairs of neighbors between which polygons end within a chart too, as at a seam that does not
         go around it.
-
-    Returns
-    -------
-    LowPoly
-
-    Raises
-    ------
-    CubicCraftError
-        As `flatten_facets`.
-
-    See Also
-    --------
-    flatten_facets : Makes the sides of the triangles themselves planar.
 
     Examples
     --------

@@ -32,21 +32,7 @@ _BINS = np.geomspace(1e-12, 1e6, 4001)  # a relative 1 %
 
 
 class Frames(NamedTuple):
-    """Some vertices of an animation, in all frames.
-
-    See Also
-    --------
-    frame_of : Makes those of one frame.
-    least_width : How much they should be smoothed.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver import Frames
-    >>> turns = np.tile([0.0, 0, 0, 1], (5, 1, 1))
-    >>> Frames(np.zeros((5, 1, 3)), turns, np.eye(5, 3)[:, None]).results(1.0).shape
-    (5, 1, 3)
-    """
+    """Some vertices of an animation, in all frames; `frame_of` makes those of one frame."""
 
     inputs: RealArray
     """(f,k,3) positions of the input"""
@@ -75,22 +61,9 @@ class Frames(NamedTuple):
 
 
 def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Frames:
-    """Return the `Frames` of a single frame.
+    """Return the `Frames` of a single frame, of an input and its result (k,3).
 
-    Parameters
-    ----------
-    inputs, positions : (k,3) numpy arrays
-        The input and the result.
-    turns : (k,3,3) numpy array
-        See `FrameSequence.turns`.
-
-    Returns
-    -------
-    Frames
-
-    See Also
-    --------
-    FrameSequence : Solves the frames.
+    `turns`: (k,3,3), see `FrameSequence.turns`.
 
     Examples
     --------
@@ -106,12 +79,7 @@ def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Fr
 
 
 class _Lengths:
-    """The lengths of vectors, collected piece by piece.
-
-    Attributes
-    ----------
-    largest : float
-    """
+    """The lengths of vectors, collected piece by piece."""
 
     def __init__(self):
         self.largest = 0.0
@@ -139,12 +107,7 @@ class _Lengths:
 
 
 class Jumps(_Lengths):
-    """The sizes of all jumps, collected piece by piece.
-
-    Attributes
-    ----------
-    largest : float
-    """
+    """The sizes of all jumps, collected piece by piece."""
 
     def add(self, positions):
         """Add vertices (f,k,3) in all frames."""
@@ -195,23 +158,10 @@ def least_width(
 ) -> tuple[float, tuple[float, ...]]:
     """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
 
-    Parameters
-    ----------
-    pieces : callable
-        Returns an iterator over `Frames` with all vertices, each time it is called.
-    limit : float
+    `pieces`: callable, returns an iterator over `Frames` with all vertices, each time it is called.
 
-    Returns
-    -------
-    width : float
-        In frames.
-    ratios : (float, float)
-        Of the largest jumps and of the 99th percentile to those of the input, which count as at
-        least a small share of its speed and size; 0 where the input lies still.
-
-    See Also
-    --------
-    frame_of : Makes the Frames of one frame.
+    The ratios are those of the largest jumps and of the 99th percentile to those of the input,
+    which count as at least a small share of its speed and size; 0 where the input lies still.
 
     Examples
     --------

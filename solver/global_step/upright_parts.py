@@ -42,10 +42,7 @@ class UprightParts:
     alone. `solve`: maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the
     constraints are satisfied all the same, at a little more energy.
 
-    Attributes
-    ----------
-    is_kept : (component_count,) bool array
-        Components that have such constraints.
+    `is_kept`: (component_count,) bool, components that have such constraints.
     """
 
     def __init__(self, rest, is_free, solve):
@@ -144,7 +141,6 @@ def _centroid(weights, P):
 
 
 def _rows_of(pulls, count):
-    """Return the pulls (j,3) at some of the vertices, of each part, as a csr_matrix (3k,count)."""
     columns = np.concatenate([np.tile(vertices, 3) for vertices, _ in pulls])
     data = np.concatenate([pull.T.ravel() for _, pull in pulls])
     start = np.append(0, np.cumsum(np.repeat([len(pull) for _, pull in pulls], 3)))

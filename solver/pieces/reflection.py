@@ -14,19 +14,7 @@ from ..symmetry import Mirror
 
 @dataclass(frozen=True)
 class Reflection:
-    """A reflection x -> A x + b in object coordinates, as plain numbers.
-
-    See Also
-    --------
-    flip : Makes one.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver import flip
-    >>> flip(0).image(np.array([[1.0, 2, 3]])).tolist()
-    [[-1.0, 2.0, 3.0]]
-    """
+    """A reflection x -> A x + b in object coordinates, as plain numbers; `flip` makes one."""
 
     linear: tuple[float, ...]
     """A, row by row"""
@@ -83,16 +71,7 @@ class Reflection:
 
 
 def flip(axis: int) -> Reflection:
-    """Return the reflection along an axis of the object, about its origin.
-
-    Raises
-    ------
-    CubicCraftError
-        The axis is none of 0, 1 and 2.
-
-    See Also
-    --------
-    piece_of : An object with mirrors.
+    """Return the reflection along an axis of the object, 0, 1 or 2, about its origin.
 
     Examples
     --------
