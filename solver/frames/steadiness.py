@@ -153,10 +153,8 @@ class Motion(Jumps):
         return largest, percentile
 
 
-def least_width(
-    pieces: Callable[[], Iterable[Frames]], limit: float = MOST_JUMPS
-) -> tuple[float, tuple[float, ...]]:
-    """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
+def least_width(pieces: Callable[[], Iterable[Frames]]) -> tuple[float, tuple[float, ...]]:
+    """Return the least of `WIDTHS` that keeps `MOST_JUMPS`, or the largest, and the ratios then.
 
     `pieces`: callable, returns an iterator over `Frames` with all vertices, each time it is called.
 
@@ -181,6 +179,6 @@ def least_width(
         for piece in pieces():
             jumps.add(piece.results(width))
         ratios = jumps.over(inputs)
-        if max(ratios) <= limit:
+        if max(ratios) <= MOST_JUMPS:
             return width, ratios
     return WIDTHS[-1], ratios

@@ -68,7 +68,8 @@ class UprightParts:
             for c in having:
                 rows, vertices = self._rows[c], groups[c][k]
                 pulls[c].append((place[vertices], pull[vertices]))
-                ways[c].append(P[rows] - _centroid(rest.weighing[rows], P[rows]))
+                share = rest.weighing[rows] / rest.weighing[rows].sum()
+                ways[c].append(P[rows] - weighted_sum(share, P[rows]))  # the centroid stays
         self._ways = {c: np.hstack(ways[c]) for c in groups}
         self._pulls = {c: _rows_of(pulls[c], len(self._ways[c])) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
@@ -133,11 +134,6 @@ def _large_parts(rest, is_free):
             break
         groups[c] = [*(np.flatnonzero(part == p) for p in parts), np.flatnonzero(component == c)]
     return groups
-
-
-def _centroid(weights, P):
-    """Return the centroid (3,), which is to stay where it is."""
-    return weighted_sum(weights / weights.sum(), P)
 
 
 def _rows_of(pulls, count):

@@ -95,7 +95,8 @@ class Bones:
         limbs, A = self.limbs, self.alone.linear
         if self.pose is not None:
             maps = self._all.of_pose(np.reshape(self.pose, (-1, 4, 4)))[:, :3, :3]
-            limbs = limbs.turned(_rotations(A @ maps @ np.linalg.inv(A)))
+            maps = A @ maps @ np.linalg.inv(A)
+            limbs = limbs.turned(svd_rotations(maps.swapaxes(1, 2)))
         if placement.shape_key != self.alone.shape_key:
             from ..limbs import placed_limbs
 
@@ -108,10 +109,6 @@ class Bones:
         other = replace(self, pose=pose)
         other.__dict__.update({name: getattr(self, name) for name in ("_all", "limbs")})
         return other
-
-
-def _rotations(maps):
-    return svd_rotations(maps.swapaxes(1, 2))
 
 
 class _Images:

@@ -226,7 +226,8 @@ def join_pieces(
     pieces = cast("Sequence[P]", instances(pieces, "pieces", Piece))
     for one in earlier:
         instance(one, "earlier", Problem)
-    is_still, is_held = _is_still(pieces), _is_held(pieces)
+    is_still = np.concatenate([piece.everywhere(piece.is_still) for piece in pieces])
+    is_held = _is_held(pieces)
     try:
         rest = _rest(pieces, proxy, earlier)
         planes = _planes(pieces, rest, earlier) if keep_symmetric else None
@@ -295,10 +296,6 @@ def _faces(pieces):
 
 def _positions(pieces):
     return np.concatenate([piece.V for piece in pieces])
-
-
-def _is_still(pieces):
-    return np.concatenate([piece.everywhere(piece.is_still) for piece in pieces])
 
 
 def _is_held(pieces):
