@@ -6,7 +6,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Energy:
-    """Energies in the unit box (divide lengths by the largest extent of the mesh)."""
+    """Energies in the unit box (divide lengths by the largest extent of the mesh).
+
+    Examples
+    --------
+    >>> from solver import Energy
+    >>> Energy(arap=0.25, cubic=0.5).total
+    0.75
+    """
 
     arap: float
     """of the as-rigid-as-possible deformation"""

@@ -36,7 +36,14 @@ _LEAST_AREA = 1e-6
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Flattened(Value):
-    """A shape with planar facets, as `flatten_facets` returns it, with an example."""
+    """A shape with planar facets, as `flatten_facets` returns it.
+
+    Examples
+    --------
+    >>> from solver import ball, flatten_facets
+    >>> flatten_facets(*ball(), [[0, 0, 1]], angle=0.3, tolerance=0.02).deviation < 1e-12
+    True
+    """
 
     positions: FloatArray
     """(n,3) float64, in the unit of the input"""
@@ -135,8 +142,6 @@ def flatten_facets(
     >>> flat = flatten_facets(V, F, [[0, 0, 1]], angle=0.3, tolerance=0.2)
     >>> flat.count, flat.moved, bool(np.ptp(flat.positions[:, 2]) < 1e-12)
     (1, 5, True)
-    >>> flat.deviation_of(flat.positions) < 1e-12, flat.deviation_of(V) > 0.05
-    (True, True)
     """
     V, F = check_mesh(positions, triangles)
     N = _unit_directions(directions)

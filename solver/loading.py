@@ -14,6 +14,12 @@ def loading_steps(device: Device = "auto") -> Iterator[None]:
     do something else, such as drawing; the last takes twice that where kernels have not been
     compiled on this machine before. What is missing or does not work is left to the run that needs
     it, which reports it.
+
+    Examples
+    --------
+    >>> from solver import loading_steps
+    >>> for _ in loading_steps("numpy"):
+    ...     pass  # draw
     """
     for step in (_import_packages(), _start_engine(device), _solve_little(device)):
         try:

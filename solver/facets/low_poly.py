@@ -25,7 +25,16 @@ STRAY = 0.5
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LowPoly(Value):
-    """Few polygons in place of many triangles, as `low_poly` returns them, with an example."""
+    """Few polygons in place of many triangles, as `low_poly` returns them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import ball, low_poly
+    >>> low = low_poly(*ball(), np.concatenate([np.eye(3), -np.eye(3)]), 0.1)
+    >>> len(low.polygons) == len(low.part_of)
+    True
+    """
 
     positions: FloatArray
     """(n,3) of all vertices, in the unit of the input; those in no polygon stay where they were"""

@@ -32,7 +32,16 @@ _BINS = np.geomspace(1e-12, 1e6, 4001)  # a relative 1 %
 
 
 class Frames(NamedTuple):
-    """Some vertices of an animation, in all frames; `frame_of` makes those of one frame."""
+    """Some vertices of an animation, in all frames; `frame_of` makes those of one frame.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solver import Frames
+    >>> turns = np.tile([0.0, 0, 0, 1], (5, 1, 1))
+    >>> Frames(np.zeros((5, 1, 3)), turns, np.eye(5, 3)[:, None]).results(1.0).shape
+    (5, 1, 3)
+    """
 
     inputs: RealArray
     """(f,k,3) positions of the input"""

@@ -16,6 +16,11 @@ def joined_limbs(parts: Sequence[KnownLimbs | None], counts: Sequence[int]) -> K
 
     `parts`: sequence of KnownLimbs, or None where nothing is known. `counts`: numbers of vertices
     of the bodies.
+
+    Examples
+    --------
+    >>> from solver.limbs import joined_limbs
+    >>> joined_limbs([None, None], [8, 6])
     """
     if all(part is None for part in parts):
         return None

@@ -14,7 +14,14 @@ from ..symmetry import Mirror
 
 @dataclass(frozen=True)
 class Reflection:
-    """A reflection x -> A x + b in object coordinates, as plain numbers; `flip` makes one."""
+    """A reflection x -> A x + b in object coordinates, as plain numbers; `flip` makes one.
+
+    Examples
+    --------
+    >>> from solver import flip
+    >>> flip(0).linear
+    (-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    """
 
     linear: tuple[float, ...]
     """A, row by row"""
