@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import BoolArray, FloatArray
+from .aliases import FloatArray
 from .errors import CubicCraftError
 from .global_step.holds import HoldFields
 from .global_step.step import GlobalStep
@@ -119,14 +119,6 @@ class Setup(Stored):
         values = [("vertices", len(self.rest.input_positions)), ("pinned", pins)]
         values.append(("held_groups", 0 if holds is None else len(holds.weights)))
         return described(Setup, values)
-
-    @property
-    def is_anchored(self) -> BoolArray:
-        """(component_count,) bool array, components with a pinned vertex or a held group.
-
-        The other components float; they stay in place as a whole.
-        """
-        return self.global_step.is_anchored
 
     def posed(self, input_positions: ArrayLike) -> Setup:
         """Return the same setup in another pose (N,3) of the mesh.

@@ -23,7 +23,7 @@ class TaichiMotion:
 
     @alone
     def __init__(self, setup, local, U, constraints=()):
-        self._local, self._is_anchored = local, setup.is_anchored
+        self._local, self._is_anchored = local, setup.global_step.is_anchored
         self._constraints = constraints
         rest, real, arrays = setup.rest, local.real, local.arrays
         keep = arrays.keep

@@ -39,8 +39,8 @@ class GlobalStep:
     side. Then nothing floats.
 
     `is_factorized`: whether `positions` solves by the factorization, not by multigrid.
-    `is_anchored`: (component_count,) bool, components that do not float: with a pinned vertex, or
-    see `anchored`. `solve`: maps B (n,3) and X (n,3) to the solution of L X = B, or to what is
+    `is_anchored`: (component_count,) bool, components that do not float, but have a pinned vertex
+    or a held group. `solve`: maps B (n,3) and X (n,3) to the solution of L X = B, or to what is
     nearer to it than X; what is held stays as it is in X.
     """
 

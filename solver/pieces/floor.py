@@ -52,7 +52,7 @@ class Floor:
         self._height = float(np.ptp(self._before[is_part[self._component]]))
         self._ground = lowest[is_part].min()
         is_low = lowest <= self._ground + _STANDING * self._height
-        self._is_moved = is_low & is_part & ~setup.is_anchored
+        self._is_moved = is_low & is_part & ~setup.global_step.is_anchored
 
     def kept(self, positions: FloatArray, *, only_standing: bool = False) -> FloatArray:
         """Return positions (N,3) of a run, with each foot moved back to its height.

@@ -180,7 +180,5 @@ def test_a_body_of_which_bones_say_that_it_has_no_limbs_has_none():
     np.testing.assert_array_equal(of_trunk, np.broadcast_to(np.eye(3), of_trunk.shape))
     known[: len(V) // 2] = False
     partly = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
-    found = Stylization(
-        Setup(rest), 0.4, Pose(limbs=partly), SolverOptions(device="numpy")
-    ).style.Q
+    found = Stylization(Setup(rest), 0.4, Pose(limbs=partly), SolverOptions(device="numpy")).style.Q
     assert np.abs(found - np.eye(3)).max() > 0.1
